@@ -1,0 +1,5 @@
+//! Mathematics that knows nothing of gems: random streams, sampling warps, statistics.
+
+pub mod random;
+pub mod sample;
+pub mod stats;

@@ -1,0 +1,66 @@
+//! Whole-file replace: a reader sees the old file or the complete new one, never a part.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {path}: {cause}")]
+pub struct WriteError {
+    /// The file that was asked for.
+    pub path: PathBuf,
+    /// What the operating system said.
+    pub cause: std::io::Error,
+}
+
+/// Writes `bytes` to `path`: a temporary file beside it, flushed to disk, then renamed over it.
+///
+/// Missing parent folders are made. `-` writes to standard output. On any error an existing file
+/// at `path` is left as it was. Checked below and in `tests/cli.rs`.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let fail = |cause| WriteError { path: path.to_owned(), cause };
+    if path == Path::new("-") {
+        let mut out = std::io::stdout().lock();
+        return out.write_all(bytes).and_then(|()| out.flush()).map_err(fail);
+    }
+    let folder = match path.parent() {
+        Some(p) if p != Path::new("") => p,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".cutlab-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666)); // the umask still applies
+    }
+    let mut file = builder.tempfile_in(folder).map_err(fail)?;
+    file.write_all(bytes).map_err(fail)?;
+    file.as_file().sync_all().map_err(fail)?;
+    file.persist(path).map_err(|e| fail(e.error))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_whole_files_and_leaves_nothing_beside_them() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let path = dir.path().join("new/folder/file.txt");
+        write(&path, b"one").expect("writes");
+        write(&path, b"two").expect("replaces");
+        assert_eq!(std::fs::read(&path).expect("reads"), b"two");
+        let beside = std::fs::read_dir(path.parent().expect("a parent")).expect("lists").count();
+        assert_eq!(beside, 1);
+    }
+
+    #[test]
+    fn a_folder_in_the_way_is_an_error_that_names_it() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let error = write(dir.path(), b"x").expect_err("a folder cannot be replaced by a file");
+        assert!(error.to_string().contains(&dir.path().display().to_string()));
+    }
+}
