@@ -1,0 +1,10 @@
+//! Cuts: designs as tiers of facets, parametric families, the library, proportions.
+
+pub mod design;
+pub mod document;
+pub mod families;
+pub mod library;
+pub mod proportions;
+
+pub use design::{Design, Facet, Gear, Tier, Unit, Zone};
+pub use families::CutError;

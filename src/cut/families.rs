@@ -1,0 +1,278 @@
+//! The catalogue of parametric families, one a file.
+
+mod bipyramid;
+mod prism;
+pub mod round_brilliant;
+
+use super::design::Design;
+use std::collections::BTreeMap;
+
+/// One parameter of a family.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Its key, as in `round-brilliant:crown-angle=35` and `--crown-angle 35`.
+    pub key: &'static str,
+    /// Value when not given.
+    pub default: f64,
+    /// Least and greatest value allowed.
+    pub range: (f64, f64),
+    /// `%` of the girdle diameter, `°`, `mm` or empty.
+    pub unit: &'static str,
+    /// One line of help.
+    pub about: &'static str,
+}
+
+/// A parametric family of cuts.
+pub struct Family {
+    /// Its name, as in `family = "round-brilliant"`.
+    pub name: &'static str,
+    /// One line of help.
+    pub about: &'static str,
+    /// Its parameters.
+    pub parameters: &'static [Parameter],
+    /// The parameter by which the number of facets is set, and its step.
+    pub total: Option<(&'static str, usize)>,
+    /// Builds the design from a full set of values, each already within its range.
+    pub build: fn(&Values) -> Result<Design, CutError>,
+}
+
+/// Every family.
+pub static FAMILIES: &[&Family] = &[&round_brilliant::FAMILY, &prism::FAMILY, &bipyramid::FAMILY];
+
+/// A cut that cannot be made, and why.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CutError {
+    /// A family that is not in the catalogue.
+    #[error("no family is called '{name}': there is {}", .known.join(", "))]
+    UnknownFamily {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: Vec<&'static str>,
+    },
+    /// A parameter that the family does not have.
+    #[error("{family} has no parameter '{key}': it has {}", .known.join(", "))]
+    UnknownParameter {
+        /// The family.
+        family: &'static str,
+        /// What was asked for.
+        key: String,
+        /// What there is.
+        known: Vec<&'static str>,
+    },
+    /// A cut of fixed tiers was given a parameter.
+    #[error("{name} has fixed facets and takes no parameter '{key}'")]
+    NoParameters {
+        /// The cut.
+        name: String,
+        /// What was asked for.
+        key: String,
+    },
+    /// A value outside its range.
+    #[error("{key} = {value}{unit} is out of range: {from} to {to}{unit}")]
+    OutOfRange {
+        /// The parameter.
+        key: &'static str,
+        /// What was given.
+        value: f64,
+        /// The unit.
+        unit: &'static str,
+        /// Least value.
+        from: f64,
+        /// Greatest value.
+        to: f64,
+    },
+    /// A total of facets that the cut cannot have.
+    #[error("{name} cannot have {asked} facets: {nearest} is the nearest that can be made ({made_up})")]
+    Total {
+        /// The cut.
+        name: String,
+        /// What was asked for.
+        asked: usize,
+        /// The nearest total.
+        nearest: usize,
+        /// How that total is made up.
+        made_up: String,
+    },
+    /// The planes bound no stone.
+    #[error(transparent)]
+    Solid(#[from] crate::solid::SolidError),
+    /// Values that no stone can have together.
+    #[error("{problem}: {bound}")]
+    Impossible {
+        /// What would go wrong.
+        problem: &'static str,
+        /// The bound that was crossed, with the figures.
+        bound: String,
+    },
+}
+
+/// A full set of values for a family.
+#[derive(Debug)]
+pub struct Values {
+    family: &'static Family,
+    values: Vec<f64>,
+}
+
+impl Values {
+    /// The value of a parameter of the family; a key that it does not have is a mistake in the
+    /// family's own file and gives NaN, which no stone survives.
+    pub fn get(&self, key: &str) -> f64 {
+        self.family.parameters.iter().position(|p| p.key == key).map_or(f64::NAN, |i| self.values[i])
+    }
+}
+
+/// The family called `name`.
+pub fn family(name: &str) -> Result<&'static Family, CutError> {
+    FAMILIES.iter().copied().find(|f| f.name == name).ok_or_else(|| CutError::UnknownFamily {
+        name: name.into(),
+        known: FAMILIES.iter().map(|f| f.name).collect(),
+    })
+}
+
+/// Builds a design of a family from the given values and the defaults of the rest.
+///
+/// The key `facets` asks for an exact total, which families with a free count (the girdle flats of
+/// a brilliant) are fitted to.
+pub fn build(name: &str, given: &BTreeMap<String, f64>) -> Result<Design, CutError> {
+    let family = family(name)?;
+    let mut given = given.clone();
+    let Some(asked) = given.remove("facets") else {
+        return build_exactly(family, &given);
+    };
+    let asked = whole("facets", asked)?;
+    let design = build_exactly(family, &given)?;
+    let total = design.solid()?.faces.len();
+    if total == asked {
+        return Ok(design);
+    }
+    let fitted = match family.total {
+        Some((key, step)) if !given.contains_key(key) => fit_total(family, &given, key, step, total, asked)?,
+        _ => design,
+    };
+    let (counts, nearest) = made_up_of(&fitted)?;
+    if nearest == asked {
+        return Ok(fitted);
+    }
+    Err(CutError::Total { name: name.into(), asked, nearest, made_up: counts })
+}
+
+/// The design whose count `key` brings the total nearest to `asked`.
+fn fit_total(
+    family: &'static Family,
+    given: &BTreeMap<String, f64>,
+    key: &str,
+    step: usize,
+    total: usize,
+    asked: usize,
+) -> Result<Design, CutError> {
+    let Some(parameter) = family.parameters.iter().find(|p| p.key == key) else {
+        return build_exactly(family, given);
+    };
+    let others = total as f64 - parameter.default;
+    let steps = ((asked as f64 - others) / step as f64).round() * step as f64;
+    let mut given = given.clone();
+    given.insert(key.into(), steps.clamp(parameter.range.0, parameter.range.1));
+    build_exactly(family, &given)
+}
+
+/// How many facets each tier has in the finished stone, in words, and the total.
+pub fn made_up_of(design: &Design) -> Result<(String, usize), CutError> {
+    let solid = design.solid()?;
+    let mut fates = solid.fates.iter();
+    let mut parts = Vec::new();
+    for tier in &design.tiers {
+        let standing = tier
+            .facets
+            .iter()
+            .filter(|_| matches!(fates.next(), Some(crate::solid::polyhedron::Fate::Facet(_))))
+            .count();
+        if standing > 0 {
+            parts.push(format!("{standing} {}", tier.name));
+        }
+    }
+    Ok((parts.join(" + "), solid.faces.len()))
+}
+
+fn build_exactly(family: &'static Family, given: &BTreeMap<String, f64>) -> Result<Design, CutError> {
+    if let Some(key) = given.keys().find(|k| !family.parameters.iter().any(|p| p.key == *k)) {
+        return Err(CutError::UnknownParameter {
+            family: family.name,
+            key: key.clone(),
+            known: family.parameters.iter().map(|p| p.key).collect(),
+        });
+    }
+    let values = family
+        .parameters
+        .iter()
+        .map(|p| {
+            let value = given.get(p.key).copied().unwrap_or(p.default);
+            if (p.range.0..=p.range.1).contains(&value) {
+                Ok(value)
+            } else {
+                let (from, to) = p.range;
+                Err(CutError::OutOfRange { key: p.key, value, unit: p.unit, from, to })
+            }
+        })
+        .collect::<Result<_, _>>()?;
+    (family.build)(&Values { family, values })
+}
+
+impl std::fmt::Debug for Family {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// Checks that `value` is a whole number.
+fn whole(key: &'static str, value: f64) -> Result<usize, CutError> {
+    if value.fract() == 0.0 {
+        Ok(value as usize)
+    } else {
+        Err(CutError::Impossible { problem: "a count must be whole", bound: format!("{key} = {value}") })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn given(pairs: &[(&str, f64)]) -> BTreeMap<String, f64> {
+        pairs.iter().map(|(k, v)| (k.to_string(), *v)).collect()
+    }
+
+    fn facets(pairs: &[(&str, f64)]) -> Result<usize, CutError> {
+        Ok(build("round-brilliant", &given(pairs))?.solid()?.faces.len())
+    }
+
+    #[test]
+    fn totals_are_exact_or_name_the_nearest() {
+        assert_eq!(facets(&[]), Ok(153));
+        assert_eq!(facets(&[("facets", 153.0)]), Ok(153));
+        assert_eq!(facets(&[("facets", 73.0)]), Ok(73));
+        assert_eq!(facets(&[("facets", 154.0), ("culet", 1.0)]), Ok(154));
+        assert!(matches!(
+            facets(&[("facets", 153.0), ("culet", 1.0)]),
+            Err(CutError::Total { nearest: 154, .. })
+        ));
+        assert!(matches!(facets(&[("facets", 58.0)]), Err(CutError::Total { nearest: 73, .. })));
+        // without a crown its 33 planes merge into one table
+        assert_eq!(facets(&[("crown-angle", 0.0)]), Ok(1 + 24 + 96));
+    }
+
+    #[test]
+    fn impossible_stones_name_the_bound() {
+        for (pairs, word) in [
+            (vec![("star", 5.0)], "stars"),
+            (vec![("girdle", 1.0)], "girdle"),
+            (vec![("girdle-facets", 90.0)], "multiple of 16"),
+            (vec![("pavilion-angle", 90.0)], "pavilion-angle"),
+            (vec![("table", f64::NAN)], "table"),
+            (vec![("tabel", 50.0)], "tabel"),
+        ] {
+            let error = facets(&pairs).expect_err("impossible").to_string();
+            assert!(error.contains(word), "{error}");
+            assert!(!error.contains('\n'));
+        }
+    }
+}

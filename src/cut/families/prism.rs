@@ -1,0 +1,40 @@
+//! Right prisms over a regular polygon.
+
+use super::{CutError, Family, Parameter, Values, whole};
+use crate::cut::design::{Design, Gear, Tier, Unit};
+
+/// A right prism: two horizontal ends and `sides` vertical faces.
+pub static FAMILY: Family = Family {
+    name: "prism",
+    about: "right prism over a regular polygon, standing upright",
+    parameters: &[
+        Parameter { key: "sides", default: 6.0, range: (3.0, 360.0), unit: "", about: "number of sides" },
+        Parameter { key: "height", default: 6.5, range: (1e-3, 1e3), unit: " mm", about: "height" },
+        Parameter {
+            key: "size",
+            default: 6.5,
+            range: (1e-3, 1e3),
+            unit: " mm",
+            about: "diameter of the circle inside the polygon",
+        },
+    ],
+    total: None,
+    build,
+};
+
+fn build(v: &Values) -> Result<Design, CutError> {
+    let sides = whole("sides", v.get("sides"))?;
+    let (height, radius) = (v.get("height"), v.get("size") / 2.0);
+    let gear = Gear { teeth: sides as f64, offset: 0.0 };
+    let indices: Vec<f64> = (0..sides).map(|i| i as f64).collect();
+    let mut design = Design::named(format!("prism of {sides} sides"));
+    design.unit = Unit::Millimetre;
+    design.gear = gear;
+    design.symmetry = Some((sides as u32, true));
+    design.tiers = vec![
+        Tier::cut("side", gear, 90.0, radius, &indices),
+        Tier::cut("table", gear, 0.0, height / 2.0, &[0.0]),
+        Tier::cut("culet", gear, -0.0, height / 2.0, &[0.0]),
+    ];
+    Ok(design)
+}

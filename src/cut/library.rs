@@ -1,0 +1,28 @@
+//! The library of cuts: the TOML files of `cuts/`, embedded in the binary.
+
+use super::design::Design;
+use super::document::{Document, DocumentError};
+use std::collections::BTreeMap;
+
+include!(concat!(env!("OUT_DIR"), "/embedded_cuts.rs"));
+
+/// The names of all cuts, sorted.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    EMBEDDED_CUTS.iter().map(|(name, _)| *name)
+}
+
+/// The document of the cut called `name`, or none if there is no such cut.
+pub fn document(name: &str) -> Option<Result<Document, DocumentError>> {
+    EMBEDDED_CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| Document::parse(text))
+}
+
+/// The cut called `name` with parameters overridden, or none if there is no such cut.
+pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<Design, DocumentError>> {
+    Some(document(name)?.and_then(|d| d.design(overrides)))
+}
+
+/// The cut's name most like `name`.
+pub fn nearest(name: &str) -> &'static str {
+    let distance = |n: &&str| (1e6 * (1.0 - strsim::jaro_winkler(n, name))) as u64;
+    names().min_by_key(distance).unwrap_or_default()
+}

@@ -1,0 +1,53 @@
+//! Reflection and refraction at a smooth facet.
+
+/// Unpolarised Fresnel reflectance of a smooth facet, (R_s + R_p)/2.
+///
+/// - `cos_i`: |incident · normal|, in 0..=1
+/// - `eta`: n_transmitted / n_incident, dimensionless
+///
+/// Returns (reflectance in 0..=1, cosine of the refraction angle); the reflectance is exactly 1
+/// and the cosine 0 beyond the critical angle.
+/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked below and in `tests/optics.rs`.
+pub fn unpolarised(cos_i: f64, eta: f64) -> (f64, f64) {
+    let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
+    if sin2_t >= 1.0 {
+        return (1.0, 0.0);
+    }
+    let cos_t = (1.0 - sin2_t).sqrt();
+    let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    (0.5 * (s * s + p * p), cos_t)
+}
+
+/// [`unpolarised`] in `f32`, for camera rays and photons that meet a stone from outside.
+pub fn unpolarised_f32(cos_i: f32, eta: f32) -> (f32, f32) {
+    let (r, c) = unpolarised(f64::from(cos_i), f64::from(eta));
+    (r as f32, c as f32)
+}
+
+/// The critical angle in degrees of a stone of index `n` in air: beyond it light is reflected
+/// totally.
+pub fn critical_angle_deg(n: f64) -> f64 {
+    (1.0 / n).asin().to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normal_incidence_brewster_and_total_reflection() {
+        let n: f64 = 2.417;
+        let expected = ((n - 1.0) / (n + 1.0)).powi(2);
+        assert!((unpolarised(1.0, n).0 - expected).abs() < 1e-15);
+        assert!((unpolarised(1.0, 1.0 / n).0 - expected).abs() < 1e-15);
+        // at Brewster's angle R_p = 0 and R_s = cos²(2θ)
+        let brewster = n.atan();
+        let r = unpolarised(brewster.cos(), n).0;
+        assert!((r - 0.5 * (2.0 * brewster).cos().powi(2)).abs() < 1e-14);
+        let critical = critical_angle_deg(n).to_radians();
+        assert_eq!(unpolarised((critical + 1e-9).cos(), 1.0 / n).0, 1.0);
+        assert!(unpolarised((critical - 1e-3).cos(), 1.0 / n).0 < 1.0);
+        assert_eq!(unpolarised(0.0, n).0, 1.0);
+    }
+}

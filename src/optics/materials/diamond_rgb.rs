@@ -1,0 +1,16 @@
+//! The three-index diamond of the original project.
+
+use super::Material;
+use crate::optics::dispersion::Dispersion;
+use std::borrow::Cow;
+
+/// Diamond as the 2014 renderer had it: one index for red, one for green, one for blue. For its
+/// pictures; scores should use `diamond`.
+pub static DIAMOND_RGB: Material = Material {
+    name: Cow::Borrowed("diamond-rgb"),
+    about: "the original project's diamond of three indices: 2.40 red, 2.43 green, 2.46 blue",
+    source: "the original renderer of 2014; bands cut at 490 and 580 nm",
+    dispersion: Dispersion::Steps(&[(0.490, 2.46), (0.580, 2.43), (f64::INFINITY, 2.40)]),
+    valid_um: (0.38, 0.73),
+    specific_gravity: Some(3.52),
+};

@@ -1,0 +1,15 @@
+//! Moissanite: silicon carbide 6H.
+
+use super::Material;
+use crate::optics::dispersion::Dispersion;
+use std::borrow::Cow;
+
+/// Moissanite, ordinary ray. Below 0.4358 µm the law is extrapolated.
+pub static MOISSANITE: Material = Material {
+    name: Cow::Borrowed("moissanite"),
+    about: "moissanite (silicon carbide 6H), ordinary ray",
+    source: "Wang et al. 2013, as SiC/Wang-6H-o in refractiveindex.info (CC0)",
+    dispersion: Dispersion::Resonance { a: 6.57232, b: 0.1401, c: 0.03178, d: -0.02153 },
+    valid_um: (0.4358, 2.325),
+    specific_gravity: Some(3.21),
+};

@@ -1,0 +1,9 @@
+//! Convex solids: planes, their intersection, triangles, measures.
+
+pub mod measure;
+pub mod mesh;
+pub mod plane;
+pub mod polyhedron;
+
+pub use plane::Plane;
+pub use polyhedron::{Polyhedron, SolidError};

@@ -1,0 +1,129 @@
+//! Volume, surface, centre, outline and width of a solid.
+
+use super::polyhedron::Polyhedron;
+use glam::{DVec2, DVec3};
+
+impl Polyhedron {
+    /// Volume and centre of mass, in the design's unit (cubed).
+    pub fn volume_and_centre(&self) -> (f64, DVec3) {
+        let origin = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
+        let (mut volume, mut moment) = (0.0, DVec3::ZERO);
+        for f in 0..self.faces.len() {
+            let mut corners = self.polygon(f).map(|v| v - origin);
+            let Some(a) = corners.next() else { continue };
+            let rest: Vec<_> = corners.collect();
+            for pair in rest.windows(2) {
+                let v = a.dot(pair[0].cross(pair[1])) / 6.0;
+                volume += v;
+                moment += (a + pair[0] + pair[1]) * (v / 4.0);
+            }
+        }
+        (volume, origin + moment / volume)
+    }
+
+    /// Volume, in the design's unit cubed.
+    pub fn volume(&self) -> f64 {
+        self.volume_and_centre().0
+    }
+
+    /// The area of a face as a vector along its outward normal.
+    pub fn area_vector(&self, face: usize) -> DVec3 {
+        let corners: Vec<_> = self.polygon(face).collect();
+        let mut sum = DVec3::ZERO;
+        for i in 1..corners.len().saturating_sub(1) {
+            sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+        }
+        sum * 0.5
+    }
+
+    /// Area of a face, in the design's unit squared.
+    pub fn area(&self, face: usize) -> f64 {
+        self.area_vector(face).length()
+    }
+
+    /// Surface area, in the design's unit squared.
+    pub fn surface(&self) -> f64 {
+        (0..self.faces.len()).map(|f| self.area(f)).sum()
+    }
+
+    /// Smallest and largest coordinates.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        self.vertices
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+    }
+
+    /// The outline seen from above: the convex hull of the corners in x and y, counter-clockwise.
+    pub fn outline(&self) -> Vec<DVec2> {
+        convex_hull(self.vertices.iter().map(|v| v.truncate()).collect())
+    }
+
+    /// Girdle width: the least distance between two parallel lines that hold the outline. For a
+    /// round stone the diameter measured flat to flat, for an oval its short axis.
+    pub fn width(&self) -> f64 {
+        calipers(&self.outline()).0
+    }
+
+    /// Girdle length: the extent of the outline across its width.
+    pub fn length(&self) -> f64 {
+        calipers(&self.outline()).1
+    }
+
+    /// A sphere that holds the stone: centre of the box, and the farthest corner's distance.
+    pub fn bounding_sphere(&self) -> (DVec3, f64) {
+        let (lo, hi) = self.bounds();
+        let centre = (lo + hi) * 0.5;
+        (centre, self.vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max))
+    }
+}
+
+/// Area of a polygon given counter-clockwise.
+pub fn polygon_area(p: &[DVec2]) -> f64 {
+    (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()])).sum::<f64>() * 0.5
+}
+
+/// Andrew's monotone chain.
+fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let half = |points: &mut dyn Iterator<Item = DVec2>| {
+        let mut hull: Vec<DVec2> = Vec::new();
+        for p in points {
+            while hull.len() > 1
+                && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(p - hull[hull.len() - 1]) <= 0.0
+            {
+                hull.pop();
+            }
+            hull.push(p);
+        }
+        hull.pop();
+        hull
+    };
+    let mut hull = half(&mut points.iter().copied());
+    hull.extend(half(&mut points.iter().rev().copied()));
+    hull
+}
+
+/// Least width over all directions, and the extent across it. The least width has one side of the
+/// hull flush with a caliper.
+fn calipers(hull: &[DVec2]) -> (f64, f64) {
+    let mut best = (f64::INFINITY, 0.0);
+    for i in 0..hull.len() {
+        let along = hull[(i + 1) % hull.len()] - hull[i];
+        if along.length_squared() == 0.0 {
+            continue;
+        }
+        let along = along.normalize();
+        let across = along.perp();
+        let extent = |d: DVec2| {
+            let (lo, hi) = hull
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.dot(d)), hi.max(p.dot(d))));
+            hi - lo
+        };
+        let width = extent(across);
+        if width < best.0 * (1.0 - 1e-9) {
+            best = (width, extent(along));
+        }
+    }
+    if best.0.is_finite() { best } else { (0.0, 0.0) }
+}

@@ -1,0 +1,301 @@
+//! Half-space intersection: the solid that a list of planes leaves standing.
+//!
+//! A large box is cut by one plane after the other. Each corner is judged once per cut (inside, on,
+//! outside), and all facets around it use that judgement, so the result is a closed surface by
+//! construction however the roundings fall.
+
+use super::plane::Plane;
+use glam::{DMat3, DVec3};
+use std::collections::HashMap;
+
+/// A corner nearer to a plane than this, times the largest distance of the planes from their
+/// middle, lies on it. Far above the rounding of `f64`, far below what a faceter can cut; a
+/// smaller value splits corners at which many facets meet, a larger one swallows facets.
+const ON_PLANE: f64 = 1e-10;
+
+/// Half the side of the box that is cut, times the same distance: a stone that reaches further is
+/// called open.
+const BOX: f64 = 1e4;
+
+/// One facet of a polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// Which of the given planes it lies in.
+    pub plane: usize,
+    /// Its corners, counter-clockwise seen from outside.
+    pub corners: Vec<usize>,
+}
+
+/// What became of a given plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fate {
+    /// It bounds the stone; the face's number.
+    Facet(usize),
+    /// It coincides with an earlier plane, whose number this is.
+    Duplicate(usize),
+    /// It bounds nothing: the other planes lie further in.
+    Redundant,
+}
+
+/// A bounded convex solid.
+#[derive(Debug, Clone)]
+pub struct Polyhedron {
+    /// Corner positions, in the unit of the planes.
+    pub vertices: Vec<DVec3>,
+    /// Facets in the order of their planes.
+    pub faces: Vec<Face>,
+    /// What became of each given plane.
+    pub fates: Vec<Fate>,
+}
+
+/// Planes that bound no solid.
+#[derive(Debug, Clone, thiserror::Error, PartialEq)]
+pub enum SolidError {
+    /// The planes leave a direction open.
+    #[error("open: planes {} leave direction ({:.3}, {:.3}, {:.3}) unbounded", list(.planes), .direction.x, .direction.y, .direction.z)]
+    Open {
+        /// The planes (counted from 0) around the opening.
+        planes: Vec<usize>,
+        /// A direction in which the solid has no end.
+        direction: DVec3,
+    },
+    /// A plane cuts away all that the planes before it left.
+    #[error("nothing is left: plane {plane} cuts away what the planes before it leave")]
+    Nothing {
+        /// The plane's number, from 0.
+        plane: usize,
+    },
+    /// A plane with a coordinate that is not a number, or without direction.
+    #[error("plane {plane} is not a plane: normal {normal}, distance {distance}")]
+    NotAPlane {
+        /// The plane's number, from 0.
+        plane: usize,
+        /// Its normal as given.
+        normal: DVec3,
+        /// Its distance as given.
+        distance: f64,
+    },
+    /// A cut whose outline did not close: the planes are too nearly degenerate for `f64`.
+    #[error("plane {plane} meets the others too nearly degenerately to be resolved")]
+    Degenerate {
+        /// The plane's number, from 0.
+        plane: usize,
+    },
+}
+
+fn list(planes: &[usize]) -> String {
+    let shown: Vec<_> = planes.iter().take(8).map(usize::to_string).collect();
+    let more = if planes.len() > 8 { " …" } else { "" };
+    format!("{}{more}", shown.join(", "))
+}
+
+/// Marks a face of the starting box instead of a given plane.
+const OF_THE_BOX: usize = usize::MAX;
+
+impl Polyhedron {
+    /// The solid `{x : n·x ≤ d for every plane}`.
+    ///
+    /// - `planes`: in any order, any origin (it need not lie inside), any unit
+    ///
+    /// Coincident planes merge, planes that bound nothing are dropped; [`Polyhedron::fates`] tells.
+    /// Checked in `tests/geometry.rs` (V − E + F = 2, volumes, shuffled and turned planes).
+    pub fn from_planes(planes: &[Plane]) -> Result<Self, SolidError> {
+        for (plane, p) in planes.iter().enumerate() {
+            if !p.normal.is_finite() || !p.distance.is_finite() || (p.normal.length() - 1.0).abs() > 1e-6 {
+                return Err(SolidError::NotAPlane { plane, normal: p.normal, distance: p.distance });
+            }
+        }
+        let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
+        let mut cut = Carving::box_of(size * BOX, size * ON_PLANE);
+        let mut fates = Vec::with_capacity(planes.len());
+        for (i, plane) in planes.iter().enumerate() {
+            fates.push(cut.by(i, plane)?);
+        }
+        cut.refuse_open(size)?;
+        Ok(cut.finish(planes, fates))
+    }
+
+    /// Number of edges.
+    pub fn edge_count(&self) -> usize {
+        self.faces.iter().map(|f| f.corners.len()).sum::<usize>() / 2
+    }
+
+    /// V − E + F, 2 for a closed convex surface.
+    pub fn euler(&self) -> i64 {
+        self.vertices.len() as i64 - self.edge_count() as i64 + self.faces.len() as i64
+    }
+
+    /// The corners of a face as points, counter-clockwise seen from outside.
+    pub fn polygon(&self, face: usize) -> impl ExactSizeIterator<Item = DVec3> + Clone + '_ {
+        self.faces[face].corners.iter().map(|&v| self.vertices[v])
+    }
+}
+
+/// The solid while it is being cut.
+struct Carving {
+    vertices: Vec<DVec3>,
+    faces: Vec<Face>,
+    on_plane: f64,
+}
+
+impl Carving {
+    fn box_of(half: f64, on_plane: f64) -> Self {
+        let vertices = (0..8)
+            .map(|i| {
+                let side = |bit: usize| if i >> bit & 1 == 1 { half } else { -half };
+                DVec3::new(side(0), side(1), side(2))
+            })
+            .collect();
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+            .map(|c| Face { plane: OF_THE_BOX, corners: c.to_vec() })
+            .to_vec();
+        Self { vertices, faces, on_plane }
+    }
+
+    /// Cuts by one plane.
+    fn by(&mut self, number: usize, plane: &Plane) -> Result<Fate, SolidError> {
+        let side: Vec<i8> = self
+            .vertices
+            .iter()
+            .map(|&v| {
+                let h = plane.height(v);
+                if h.abs() <= self.on_plane { 0 } else { h.signum() as i8 }
+            })
+            .collect();
+        let used = || self.faces.iter().flat_map(|f| f.corners.iter().map(|&c| side[c]));
+        if !used().any(|s| s > 0) {
+            let twin = self.faces.iter().find(|f| f.corners.iter().all(|&c| side[c] == 0));
+            return Ok(twin.map_or(Fate::Redundant, |f| Fate::Duplicate(f.plane)));
+        }
+        if !used().any(|s| s < 0) {
+            return Err(SolidError::Nothing { plane: number });
+        }
+        let mut on_cut: HashMap<(usize, usize), usize> = HashMap::new();
+        let mut rim: HashMap<usize, usize> = HashMap::new();
+        let faces = std::mem::take(&mut self.faces);
+        for face in faces {
+            if !face.corners.iter().any(|&c| side[c] < 0) {
+                continue;
+            }
+            let mut kept = Vec::with_capacity(face.corners.len() + 1);
+            for (i, &a) in face.corners.iter().enumerate() {
+                let b = face.corners[(i + 1) % face.corners.len()];
+                if side[a] <= 0 {
+                    kept.push(a);
+                }
+                if side[a] * side[b] < 0 {
+                    let next = self.vertices.len();
+                    let v = *on_cut.entry((a.min(b), a.max(b))).or_insert(next);
+                    if v == next {
+                        self.vertices.push(between(plane, self.vertices[a], self.vertices[b]));
+                    }
+                    kept.push(v);
+                }
+            }
+            let on = |c: usize| c >= side.len() || side[c] == 0;
+            for (i, &a) in kept.iter().enumerate() {
+                let b = kept[(i + 1) % kept.len()];
+                if on(a) && on(b) && rim.get(&a) != Some(&b) {
+                    rim.insert(b, a);
+                } else if on(a) && on(b) {
+                    rim.remove(&a); // both neighbours of this edge stay: it is no rim
+                }
+            }
+            self.faces.push(Face { plane: face.plane, corners: kept });
+        }
+        let corners = ring(rim).ok_or(SolidError::Degenerate { plane: number })?;
+        self.faces.push(Face { plane: number, corners });
+        Ok(Fate::Facet(0)) // the face's number is known at the end
+    }
+
+    fn refuse_open(&self, size: f64) -> Result<(), SolidError> {
+        let far: Vec<usize> = self
+            .faces
+            .iter()
+            .filter(|f| f.plane == OF_THE_BOX)
+            .flat_map(|f| f.corners.iter().copied())
+            .collect();
+        if far.is_empty() {
+            return Ok(());
+        }
+        let direction = far.iter().map(|&v| self.vertices[v] / size).sum::<DVec3>();
+        let mut planes: Vec<usize> = self
+            .faces
+            .iter()
+            .filter(|f| f.plane != OF_THE_BOX && f.corners.iter().any(|c| far.contains(c)))
+            .map(|f| f.plane)
+            .collect();
+        planes.sort_unstable();
+        Err(SolidError::Open { planes, direction: direction.normalize_or(DVec3::Z) })
+    }
+
+    /// Drops what is no corner any more, puts every corner on its planes, numbers the faces.
+    fn finish(mut self, planes: &[Plane], mut fates: Vec<Fate>) -> Polyhedron {
+        let mut around = vec![Vec::new(); self.vertices.len()];
+        for f in &self.faces {
+            f.corners.iter().for_each(|&c| around[c].push(f.plane));
+        }
+        for f in &mut self.faces {
+            f.corners.retain(|&c| around[c].len() > 2);
+        }
+        self.faces.retain(|f| f.corners.len() > 2);
+        self.faces.sort_by_key(|f| f.plane);
+        let mut number = vec![usize::MAX; self.vertices.len()];
+        let mut vertices = Vec::new();
+        for f in &mut self.faces {
+            for c in &mut f.corners {
+                if number[*c] == usize::MAX {
+                    number[*c] = vertices.len();
+                    vertices.push(settle(self.vertices[*c], &around[*c], planes));
+                }
+                *c = number[*c];
+            }
+        }
+        let mut face_of = HashMap::new();
+        self.faces.iter().enumerate().for_each(|(i, f)| {
+            face_of.insert(f.plane, i);
+        });
+        for (i, fate) in fates.iter_mut().enumerate() {
+            if let Fate::Facet(_) = fate {
+                *fate = face_of.get(&i).map_or(Fate::Redundant, |&f| Fate::Facet(f));
+            }
+        }
+        Polyhedron { vertices, faces: self.faces, fates }
+    }
+}
+
+/// Where the edge from `a` to `b` passes the plane.
+fn between(plane: &Plane, a: DVec3, b: DVec3) -> DVec3 {
+    let (ha, hb) = (plane.height(a), plane.height(b));
+    a + (b - a) * (ha / (ha - hb))
+}
+
+/// Chains directed edges into one closed ring; none if they do not form one.
+fn ring(next: HashMap<usize, usize>) -> Option<Vec<usize>> {
+    let start = *next.keys().min()?;
+    let mut corners = vec![start];
+    let mut at = next[&start];
+    while at != start {
+        corners.push(at);
+        if corners.len() > next.len() {
+            return None;
+        }
+        at = *next.get(&at)?;
+    }
+    (corners.len() == next.len() && corners.len() > 2).then_some(corners)
+}
+
+/// Moves a corner by least squares onto the planes that meet in it, undoing the rounding of the
+/// cuts; a corner of nearly parallel planes, where that is not determined, stays.
+fn settle(p: DVec3, around: &[usize], planes: &[Plane]) -> DVec3 {
+    let (mut m, mut rhs) = (DMat3::ZERO, DVec3::ZERO);
+    for &i in around {
+        let n = planes[i].normal;
+        m += DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+        rhs -= n * planes[i].height(p);
+    }
+    if m.determinant() < 1e-12 {
+        return p;
+    }
+    p + m.inverse() * rhs
+}
