@@ -12,3 +12,4 @@ pub mod math;
 pub mod optics;
 pub mod solid;
 pub mod store;
+pub mod walk;

@@ -1,0 +1,131 @@
+//! The two loops that everything waits for: a packet's next facet, and a ray's first one.
+//!
+//! Plain Rust over arrays of sixteen; the compiler turns each inner loop into one or two vector
+//! instructions once `dispatch.rs` has named the instruction set. `FUSED` says whether a fused
+//! multiply-add is an instruction (a library call otherwise).
+
+use super::packet::{LANES, Lanes, Meeting, Packet};
+use super::stone::{Hit, Stone};
+use glam::Vec3;
+
+/// Least height above a plane that a point inside is given: a point that rounding put outside
+/// meets that plane at once, if it heads for it.
+const LEAST_HEIGHT: f32 = 1e-9;
+
+#[inline(always)]
+fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// Advances every lane to its next facet, splits its power there and reflects it.
+///
+/// The next facet is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop
+/// has no division and no mask: a facet that the ray leaves has a negative numerator and never
+/// wins.
+#[inline(always)]
+pub(super) fn meet<const FUSED: bool>(stone: &Stone, p: &mut Packet, out: &mut Meeting) {
+    let mut best_toward: Lanes = [0.0; LANES];
+    let mut best_height: Lanes = [1.0; LANES];
+    let mut facet = [u32::MAX; LANES];
+    let count = stone.normals.len();
+    let (nx, ny, nz, d) = (&stone.nx[..count], &stone.ny[..count], &stone.nz[..count], &stone.d[..count]);
+    for i in 0..count {
+        let (nx, ny, nz, d) = (nx[i], ny[i], nz[i], d[i]);
+        for l in 0..LANES {
+            let toward = mul_add::<FUSED>(nx, p.dx[l], mul_add::<FUSED>(ny, p.dy[l], nz * p.dz[l]));
+            let along = mul_add::<FUSED>(nx, p.x[l], mul_add::<FUSED>(ny, p.y[l], nz * p.z[l]));
+            let height = (d - along).max(LEAST_HEIGHT);
+            let wins = toward * best_height[l] > best_toward[l] * height;
+            best_toward[l] = if wins { toward } else { best_toward[l] };
+            best_height[l] = if wins { height } else { best_height[l] };
+            facet[l] = if wins { i as u32 } else { facet[l] };
+        }
+    }
+    // facet normals of the lanes
+    let (mut fx, mut fy, mut fz, mut fd) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    out.lost = 0.0;
+    for l in 0..LANES {
+        let i = facet[l] as usize;
+        if i < count {
+            (fx[l], fy[l], fz[l], fd[l]) = (nx[i], ny[i], nz[i], d[i]);
+        } else {
+            out.lost += p.power[l];
+            p.power[l] = 0.0;
+            facet[l] = 0;
+        }
+    }
+    out.facet = facet;
+    for l in 0..LANES {
+        let (nx, ny, nz) = (fx[l], fy[l], fz[l]);
+        let distance = if best_toward[l] > 0.0 { best_height[l] / best_toward[l] } else { 0.0 };
+        let (dx, dy, dz) = (p.dx[l], p.dy[l], p.dz[l]);
+        let (mut x, mut y, mut z) = (p.x[l] + distance * dx, p.y[l] + distance * dy, p.z[l] + distance * dz);
+        // back onto the facet plane, so that rounding does not add up over fifty meetings
+        let off = fd[l] - (nx * x + ny * y + nz * z);
+        x += off * nx;
+        y += off * ny;
+        z += off * nz;
+        let cos_i = (nx * dx + ny * dy + nz * dz).clamp(0.0, 1.0);
+        let n = p.index[l];
+        let sin2_t = n * n * (1.0 - cos_i * cos_i);
+        let passes = sin2_t < 1.0;
+        let cos_t = (1.0 - sin2_t).max(0.0).sqrt();
+        // Fresnel from inside: eta = 1/n, multiplied through by n
+        let s = (n * cos_i - cos_t) / (n * cos_i + cos_t);
+        let q = (cos_i - n * cos_t) / (cos_i + n * cos_t);
+        let reflectance = if passes { 0.5 * (s * s + q * q) } else { 1.0 };
+        let bend = cos_t - n * cos_i;
+        out.dx[l] = n * dx + bend * nx;
+        out.dy[l] = n * dy + bend * ny;
+        out.dz[l] = n * dz + bend * nz;
+        out.cos_inside[l] = cos_i;
+        out.cos_outside[l] = if passes { cos_t } else { 0.0 };
+        let kept = p.power[l] * reflectance;
+        out.power[l] = p.power[l] - kept;
+        p.power[l] = kept;
+        (p.x[l], p.y[l], p.z[l]) = (x, y, z);
+        let (rx, ry, rz) = (dx - 2.0 * cos_i * nx, dy - 2.0 * cos_i * ny, dz - 2.0 * cos_i * nz);
+        // one Newton step keeps the direction a unit vector
+        let k = 1.5 - 0.5 * (rx * rx + ry * ry + rz * rz);
+        (p.dx[l], p.dy[l], p.dz[l]) = (k * rx, k * ry, k * rz);
+        p.path[l] += distance;
+    }
+}
+
+/// First facet that a ray from outside meets: the latest entry into a half-space, if it comes
+/// before the earliest way out of one. Sixteen planes at a time.
+#[inline(always)]
+pub(super) fn first_hit(stone: &Stone, o: Vec3, dir: Vec3) -> Option<Hit> {
+    let mut enter: Lanes = [f32::NEG_INFINITY; LANES];
+    let mut leave: Lanes = [f32::INFINITY; LANES];
+    let mut facet = [0u32; LANES];
+    let chunks = stone.nx.len() / LANES;
+    for c in 0..chunks {
+        let at = c * LANES;
+        let (nx, ny, nz) = (&stone.nx[at..at + LANES], &stone.ny[at..at + LANES], &stone.nz[at..at + LANES]);
+        let d = &stone.d[at..at + LANES];
+        for l in 0..LANES {
+            let toward = nx[l] * dir.x + ny[l] * dir.y + nz[l] * dir.z;
+            let height = d[l] - (nx[l] * o.x + ny[l] * o.y + nz[l] * o.z);
+            let t = height / toward;
+            // a ray along a plane is inside its half-space for ever, or never
+            let inward = toward < 0.0 || (toward == 0.0 && height < 0.0);
+            let t =
+                if toward == 0.0 { if height < 0.0 { f32::INFINITY } else { f32::NEG_INFINITY } } else { t };
+            let later = inward && t > enter[l];
+            enter[l] = if later { t } else { enter[l] };
+            facet[l] = if later { (at + l) as u32 } else { facet[l] };
+            leave[l] = if toward > 0.0 && t < leave[l] { t } else { leave[l] };
+        }
+    }
+    let mut best = 0;
+    let mut first_out = leave[0];
+    for l in 1..LANES {
+        if enter[l] > enter[best] {
+            best = l;
+        }
+        first_out = first_out.min(leave[l]);
+    }
+    let distance = enter[best];
+    (distance > 0.0 && distance < first_out).then_some(Hit { facet: facet[best] as usize, distance })
+}

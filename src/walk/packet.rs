@@ -1,0 +1,153 @@
+//! Sixteen rays that walk together, and what they leave at a meeting with a facet.
+
+use glam::Vec3;
+
+/// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
+pub const LANES: usize = 16;
+
+/// One number per lane.
+pub type Lanes = [f32; LANES];
+
+/// Rays inside a stone, one a lane, in the stone's frame (see [`super::Stone`]).
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Packet {
+    /// Positions.
+    pub x: Lanes,
+    /// Positions.
+    pub y: Lanes,
+    /// Positions.
+    pub z: Lanes,
+    /// Unit directions.
+    pub dx: Lanes,
+    /// Unit directions.
+    pub dy: Lanes,
+    /// Unit directions.
+    pub dz: Lanes,
+    /// Power still inside; 0 for a lane at rest.
+    pub power: Lanes,
+    /// Index of refraction of the stone at the lane's wavelength.
+    pub index: Lanes,
+    /// Path length since entry, in units of the stone's frame.
+    pub path: Lanes,
+}
+
+impl Default for Packet {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            x: zero,
+            y: zero,
+            z: zero,
+            dx: zero,
+            dy: zero,
+            dz: [1.0; LANES],
+            power: zero,
+            index: [1.5; LANES],
+            path: zero,
+        }
+    }
+}
+
+impl Packet {
+    /// Sets a lane on its way.
+    ///
+    /// - `point`, `direction` (unit): in the stone's frame, just inside
+    /// - `power`: any unit; `index`: of the stone at the lane's wavelength
+    pub fn set(&mut self, lane: usize, point: Vec3, direction: Vec3, power: f32, index: f32) {
+        (self.x[lane], self.y[lane], self.z[lane]) = point.into();
+        (self.dx[lane], self.dy[lane], self.dz[lane]) = direction.into();
+        self.power[lane] = power;
+        self.index[lane] = index;
+        self.path[lane] = 0.0;
+    }
+
+    /// Position of a lane: the point of its last meeting.
+    pub fn point(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    /// Direction of a lane.
+    pub fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
+    }
+
+    /// Puts lanes below `power` to rest and returns the power they held.
+    pub(super) fn stop_below(&mut self, power: f32) -> f32 {
+        let mut lost = 0.0;
+        for p in &mut self.power {
+            let stops = *p < power;
+            lost += if stops { *p } else { 0.0 };
+            *p = if stops { 0.0 } else { *p };
+        }
+        lost
+    }
+
+    /// Whether every lane is at rest.
+    pub(super) fn is_spent(&self) -> bool {
+        self.power.iter().all(|p| *p <= 0.0)
+    }
+}
+
+/// What a packet leaves at one meeting with facets, one a lane.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Meeting {
+    /// The facet that each lane met.
+    pub facet: [u32; LANES],
+    /// Power that left the stone there; 0 at total reflection.
+    pub power: Lanes,
+    /// Unit direction outside.
+    pub dx: Lanes,
+    /// Unit direction outside.
+    pub dy: Lanes,
+    /// Unit direction outside.
+    pub dz: Lanes,
+    /// Cosine inside, between ray and facet normal.
+    pub cos_inside: Lanes,
+    /// Cosine outside; 0 at total reflection.
+    pub cos_outside: Lanes,
+    /// Power of lanes that met no facet at all (a direction that is not a number).
+    pub lost: f32,
+}
+
+impl Default for Meeting {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            facet: [0; LANES],
+            power: zero,
+            dx: zero,
+            dy: zero,
+            dz: zero,
+            cos_inside: zero,
+            cos_outside: zero,
+            lost: 0.0,
+        }
+    }
+}
+
+/// Light that leaves the stone.
+#[derive(Debug, Clone, Copy)]
+pub struct Exit {
+    /// Facet through which it leaves.
+    pub facet: u32,
+    /// Where, in the stone's frame.
+    pub point: Vec3,
+    /// Where to, unit.
+    pub direction: Vec3,
+    /// How much.
+    pub power: f32,
+}
+
+impl Meeting {
+    /// What a lane left outside; none at total reflection or at rest.
+    pub fn exit(&self, packet: &Packet, lane: usize) -> Option<Exit> {
+        (self.power[lane] > 0.0).then(|| Exit {
+            facet: self.facet[lane],
+            point: packet.point(lane),
+            direction: Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane]),
+            power: self.power[lane],
+        })
+    }
+}

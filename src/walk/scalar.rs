@@ -1,0 +1,77 @@
+//! The walk in `f64`, one ray at a time, written for reading: the oracle of the lanes.
+
+use crate::optics::fresnel;
+use crate::solid::Plane;
+use glam::DVec3;
+
+/// A ray inside a stone.
+#[derive(Debug, Clone, Copy)]
+pub struct Ray {
+    /// Position, in the frame of the planes.
+    pub point: DVec3,
+    /// Unit direction.
+    pub direction: DVec3,
+    /// Power still inside.
+    pub power: f64,
+    /// Refractive index of the stone at the ray's wavelength.
+    pub index: f64,
+}
+
+/// What a ray leaves at a meeting with a facet.
+#[derive(Debug, Clone, Copy)]
+pub struct Meeting {
+    /// The facet's number.
+    pub facet: usize,
+    /// Where.
+    pub point: DVec3,
+    /// Unit direction outside; the zero vector at total reflection.
+    pub direction: DVec3,
+    /// Power that left; 0 at total reflection.
+    pub power: f64,
+    /// Cosine of the ray with the facet normal, inside.
+    pub cos_inside: f64,
+    /// Cosine outside; 0 at total reflection.
+    pub cos_outside: f64,
+}
+
+/// The facet that a ray meets next, and the distance to it: the least positive (dᵢ − nᵢ·x)/(nᵢ·d)
+/// over facets that the ray heads for. None only for a direction that is not a number.
+pub fn next_facet(planes: &[Plane], point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+    let mut best = None;
+    for (i, plane) in planes.iter().enumerate() {
+        let toward = plane.normal.dot(direction);
+        if toward > 0.0 {
+            let distance = (-plane.height(point)).max(0.0) / toward;
+            if best.is_none_or(|(_, d)| distance < d) {
+                best = Some((i, distance));
+            }
+        }
+    }
+    best
+}
+
+/// Walks a ray until its power falls below `stop_power`, calling `visit` at every meeting; returns
+/// the power given up.
+pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnMut(&Meeting)) -> f64 {
+    for _ in 0..super::MEETINGS_LIMIT {
+        if ray.power < stop_power || ray.power <= 0.0 {
+            break;
+        }
+        let Some((facet, distance)) = next_facet(planes, ray.point, ray.direction) else { break };
+        let normal = planes[facet].normal;
+        ray.point += ray.direction * distance;
+        ray.point -= normal * planes[facet].height(ray.point);
+        let cos_inside = ray.direction.dot(normal).clamp(0.0, 1.0);
+        let (reflectance, cos_outside) = fresnel::unpolarised(cos_inside, 1.0 / ray.index);
+        let direction = if reflectance < 1.0 {
+            ray.direction * ray.index + normal * (cos_outside - ray.index * cos_inside)
+        } else {
+            DVec3::ZERO
+        };
+        let power = ray.power * (1.0 - reflectance);
+        visit(&Meeting { facet, point: ray.point, direction, power, cos_inside, cos_outside });
+        ray.power *= reflectance;
+        ray.direction = (ray.direction - 2.0 * cos_inside * normal).normalize();
+    }
+    ray.power
+}
