@@ -10,6 +10,10 @@
 pub mod cut;
 pub mod math;
 pub mod optics;
+pub mod photons;
+pub mod render;
+pub mod scene;
 pub mod solid;
 pub mod store;
+pub mod transport;
 pub mod walk;
