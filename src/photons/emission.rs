@@ -77,7 +77,8 @@ struct Flight {
 fn batch(scene: &Scene, class: Class, seed: u64, from: u64, count: u64) -> Vec<(u64, Photon)> {
     let aimed = if class == Class::Caustic { AIMED } else { 0.0 };
     let mut landed = Vec::new();
-    let mut flights: Vec<Flight> = (from..from + count).filter_map(|n| emit(scene, class, seed, n, aimed)).collect();
+    let mut flights: Vec<Flight> =
+        (from..from + count).filter_map(|n| emit(scene, class, seed, n, aimed)).collect();
     let mut arrivals: Vec<(Flight, Arrival)> = Vec::new();
     while !flights.is_empty() {
         for flight in flights.drain(..) {
@@ -103,13 +104,27 @@ fn emit(scene: &Scene, class: Class, seed: u64, number: u64, aimed: f32) -> Opti
     let nm = colour::wavelength(stream.unit());
     let point = light.point(stream.pair());
     let (direction, weight) = diffuse_direction(scene, &mut stream, point, light.normal(), aimed)?;
-    Some(Flight { stream, number, point, direction, power: total * BANDS as f32 * weight, nm, last: Last::Light })
+    Some(Flight {
+        stream,
+        number,
+        point,
+        direction,
+        power: total * BANDS as f32 * weight,
+        nm,
+        last: Last::Light,
+    })
 }
 
 /// A direction from a diffuse surface or light, a share of them aimed at the sphere around the
 /// stone, and the weight that makes the mixture right (balance heuristic). None for a direction
 /// below the surface.
-fn diffuse_direction(scene: &Scene, stream: &mut Stream, point: Vec3, normal: Vec3, aimed: f32) -> Option<(Vec3, f32)> {
+fn diffuse_direction(
+    scene: &Scene,
+    stream: &mut Stream,
+    point: Vec3,
+    normal: Vec3,
+    aimed: f32,
+) -> Option<(Vec3, f32)> {
     let pick = stream.unit();
     let u = stream.pair();
     let to_stone = scene.stone.position - point;

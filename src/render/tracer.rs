@@ -3,7 +3,6 @@
 use super::film::{Film, Pass, Pixel};
 use crate::math::random::{Purpose, Stream};
 use crate::optics::colour::{self, BANDS};
-use crate::photons::Spectrum;
 use crate::photons::map::PhotonMap;
 use crate::scene::{Camera, Scene};
 use crate::transport::Event;
@@ -47,7 +46,13 @@ pub struct Maps {
 /// - `row_done`: called after each row, from any thread
 ///
 /// The same scene, maps and settings give the same bytes on any number of threads.
-pub fn render(scene: &Scene, camera: &Camera, maps: &Maps, settings: &Settings, row_done: &(dyn Fn() + Sync)) -> Film {
+pub fn render(
+    scene: &Scene,
+    camera: &Camera,
+    maps: &Maps,
+    settings: &Settings,
+    row_done: &(dyn Fn() + Sync),
+) -> Film {
     let view = View { scene, camera, maps, settings };
     let pixels = (0..settings.height)
         .into_par_iter()
@@ -77,7 +82,8 @@ struct Sight {
 impl Sight {
     fn colour(&self) -> Pixel {
         self.light.map(|bands| {
-            let xyz: Vec3 = (0..BANDS).map(|b| colour::xyz_weight(self.nm[b]) * bands[b]).sum::<Vec3>() / BANDS as f32;
+            let xyz: Vec3 =
+                (0..BANDS).map(|b| colour::xyz_weight(self.nm[b]) * bands[b]).sum::<Vec3>() / BANDS as f32;
             colour::linear_srgb(xyz)
         })
     }
@@ -87,22 +93,20 @@ impl Sight {
     }
 }
 
-/// Photon irradiance of the surface a pixel shows, gathered once a pixel.
-#[derive(Default)]
-struct Gathered(Option<(usize, Spectrum, Spectrum)>);
-
 impl View<'_> {
     fn pixel(&self, x: u32, y: u32) -> Pixel {
-        let mut stream =
-            Stream::new(self.settings.seed, Purpose::Pixel, u64::from(y) * u64::from(self.settings.width) + u64::from(x));
+        let mut stream = Stream::new(
+            self.settings.seed,
+            Purpose::Pixel,
+            u64::from(y) * u64::from(self.settings.width) + u64::from(x),
+        );
         let rays = self.settings.rays.next_multiple_of(2).max(2);
-        let mut gathered = Gathered::default();
         let mut sum: Pixel = [Vec3::ZERO; 3];
         for pair in 0..rays / 2 {
             let mut inside = Inside::default();
             let mut sights: [Sight; 2] = std::array::from_fn(|half| {
                 let number = 2 * pair + half as u32;
-                self.look(x, y, number, rays, &mut stream, &mut gathered, half, &mut inside)
+                self.look(x, y, number, rays, &mut stream, half, &mut inside)
             });
             if inside.any {
                 self.follow(&mut inside, &mut sights, &mut stream);
@@ -125,11 +129,11 @@ impl View<'_> {
         number: u32,
         rays: u32,
         stream: &mut Stream,
-        gathered: &mut Gathered,
         half: usize,
         inside: &mut Inside,
     ) -> Sight {
-        let offset = [tent(stratum(stream.unit(), number, rays)), tent(stratum(stream.unit(), number * 7 + 3, rays))];
+        let offset =
+            [tent(stratum(stream.unit(), number, rays)), tent(stratum(stream.unit(), number * 7 + 3, rays))];
         let u = (x as f32 + 0.5 + offset[0]) / self.settings.width as f32;
         let v = (y as f32 + 0.5 + offset[1]) / self.settings.height as f32;
         let shift = stream.unit();
@@ -138,8 +142,10 @@ impl View<'_> {
         let direction = self.camera.ray(u, v);
         match self.scene.first(self.camera.position, direction, false) {
             Event::Nothing => {}
-            Event::Light(i) => (0..BANDS).for_each(|b| sight.add(Pass::Direct, b, self.scene.lights[i].radiance)),
-            Event::Surface(s, point) => self.see_surface(s, point, &mut sight, stream, gathered),
+            Event::Light(i) => {
+                (0..BANDS).for_each(|b| sight.add(Pass::Direct, b, self.scene.lights[i].radiance))
+            }
+            Event::Surface(s, point) => self.see_surface(s, point, &mut sight, stream),
             Event::Stone { facet, point, direction } => {
                 self.enter(facet, point, direction, &mut sight, stream, half, inside);
             }
@@ -147,19 +153,12 @@ impl View<'_> {
         sight
     }
 
-    /// A surface that the camera sees directly: 25 shadow rays a light, photons gathered in full.
-    fn see_surface(&self, s: usize, point: Vec3, sight: &mut Sight, stream: &mut Stream, gathered: &mut Gathered) {
+    /// A surface that the camera sees directly: 25 shadow rays a light.
+    fn see_surface(&self, s: usize, point: Vec3, sight: &mut Sight, stream: &mut Stream) {
         let surface = &self.scene.surfaces[s];
         let direct = self.scene.direct_irradiance(point, surface.normal(), SHADOW_STRATA, || stream.pair());
-        let (caustic, indirect) = match gathered.0 {
-            Some((of, caustic, indirect)) if of == s => (caustic, indirect),
-            _ => {
-                let caustic = self.maps.caustic.irradiance(self.scene, s, point);
-                let indirect = self.maps.indirect.irradiance(self.scene, s, point);
-                gathered.0 = Some((s, caustic, indirect));
-                (caustic, indirect)
-            }
-        };
+        let caustic = self.maps.caustic.irradiance(s, point);
+        let indirect = self.maps.indirect.irradiance(s, point);
         for b in 0..BANDS {
             let reflected = surface.reflectance.at(sight.nm[b]) / std::f32::consts::PI;
             sight.add(Pass::Direct, b, reflected * direct);
@@ -209,7 +208,15 @@ impl View<'_> {
                 let half = lane / BANDS;
                 let origin = placed.point_to_world(exit.point);
                 let direction = placed.direction_to_world(exit.direction);
-                self.look_out(origin, direction, lane % BANDS, exit.power, &mut sights[half], lots[half], jitter);
+                self.look_out(
+                    origin,
+                    direction,
+                    lane % BANDS,
+                    exit.power,
+                    &mut sights[half],
+                    lots[half],
+                    jitter,
+                );
             }
         });
     }
@@ -239,15 +246,15 @@ impl View<'_> {
         }
     }
 
-    /// A surface seen through the stone or mirrored in it, at one wavelength: one shadow ray,
-    /// photons from what is known beforehand.
+    /// A surface seen through the stone or mirrored in it, at one wavelength: one shadow ray a
+    /// light, photons from the nearest known place.
     fn see_afar(&self, s: usize, at: Vec3, band: usize, weight: f32, sight: &mut Sight, jitter: [f32; 2]) {
         let surface = &self.scene.surfaces[s];
         let reflected = weight * surface.reflectance.at(sight.nm[band]) / std::f32::consts::PI;
         let direct = self.scene.direct_irradiance(at, surface.normal(), 1, || jitter);
         sight.add(Pass::Direct, band, reflected * direct);
-        sight.add(Pass::Caustic, band, reflected * self.maps.caustic.known_irradiance(s, at)[band]);
-        sight.add(Pass::Indirect, band, reflected * self.maps.indirect.known_irradiance(s, at)[band]);
+        sight.add(Pass::Caustic, band, reflected * self.maps.caustic.irradiance_nearby(s, at)[band]);
+        sight.add(Pass::Indirect, band, reflected * self.maps.indirect.irradiance_nearby(s, at)[band]);
     }
 }
 

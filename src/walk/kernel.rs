@@ -17,6 +17,14 @@ fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The best facet so far, lane by lane.
+#[derive(Clone, Copy)]
+struct Best {
+    toward: Lanes,
+    height: Lanes,
+    facet: [u32; LANES],
+}
+
 /// Advances every lane to its next facet, splits its power there and reflects it.
 ///
 /// The next facet is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop
@@ -24,23 +32,26 @@ fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
 /// wins.
 #[inline(always)]
 pub(super) fn meet<const FUSED: bool>(stone: &Stone, p: &mut Packet, out: &mut Meeting) {
-    let mut best_toward: Lanes = [0.0; LANES];
-    let mut best_height: Lanes = [1.0; LANES];
-    let mut facet = [u32::MAX; LANES];
     let count = stone.normals.len();
     let (nx, ny, nz, d) = (&stone.nx[..count], &stone.ny[..count], &stone.nz[..count], &stone.d[..count]);
+    let (x, y, z, dx, dy, dz) = (p.x, p.y, p.z, p.dx, p.dy, p.dz);
+    let mut best = Best { toward: [0.0; LANES], height: [1.0; LANES], facet: [u32::MAX; LANES] };
     for i in 0..count {
         let (nx, ny, nz, d) = (nx[i], ny[i], nz[i], d[i]);
+        // built anew and moved, so that the compiler keeps the running best in registers
+        let mut next = best;
         for l in 0..LANES {
-            let toward = mul_add::<FUSED>(nx, p.dx[l], mul_add::<FUSED>(ny, p.dy[l], nz * p.dz[l]));
-            let along = mul_add::<FUSED>(nx, p.x[l], mul_add::<FUSED>(ny, p.y[l], nz * p.z[l]));
+            let toward = mul_add::<FUSED>(nx, dx[l], mul_add::<FUSED>(ny, dy[l], nz * dz[l]));
+            let along = mul_add::<FUSED>(nx, x[l], mul_add::<FUSED>(ny, y[l], nz * z[l]));
             let height = (d - along).max(LEAST_HEIGHT);
-            let wins = toward * best_height[l] > best_toward[l] * height;
-            best_toward[l] = if wins { toward } else { best_toward[l] };
-            best_height[l] = if wins { height } else { best_height[l] };
-            facet[l] = if wins { i as u32 } else { facet[l] };
+            let wins = toward * best.height[l] > best.toward[l] * height;
+            next.toward[l] = if wins { toward } else { best.toward[l] };
+            next.height[l] = if wins { height } else { best.height[l] };
+            next.facet[l] = if wins { i as u32 } else { best.facet[l] };
         }
+        best = next;
     }
+    let Best { toward: best_toward, height: best_height, mut facet } = best;
     // facet normals of the lanes
     let (mut fx, mut fy, mut fz, mut fd) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
     out.lost = 0.0;
