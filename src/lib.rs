@@ -8,8 +8,11 @@
 //! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
 
 pub mod cut;
+pub mod experiments;
 pub mod math;
+pub mod metrics;
 pub mod optics;
 pub mod solid;
 pub mod store;
+pub mod study;
 pub mod walk;
