@@ -8,6 +8,7 @@
 pub mod batches;
 pub mod beam;
 mod entrance;
+mod feed;
 pub mod hemisphere;
 pub mod points;
 pub mod view;

@@ -2,11 +2,12 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
+use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::random::Purpose;
 use crate::optics::{Material, dispersion::lines};
-use crate::walk::{LANES, Meeting, Packet, Stone};
+use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
@@ -16,11 +17,8 @@ const STOP_POWER: f32 = 1e-6;
 /// Threshold of visibility: exiting irradiance as a share of the beam's (GIA 2001: 10⁻³).
 pub const THRESHOLD: f32 = 1e-3;
 
-/// Lines of a packet: a sample takes three lanes.
+/// Lanes of a ray: the sixteenth of a packet rests.
 const LINES: usize = 3;
-
-/// Samples of a packet; the lanes left over rest.
-const SAMPLES: usize = LANES / LINES;
 
 /// Lines that are paired on one path, D first.
 const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
@@ -57,28 +55,6 @@ pub struct Tally {
     pub paired_power: f64,
 }
 
-/// One packet: `SAMPLES` points in three lines each.
-struct Rays {
-    packet: Packet,
-    /// cos t / cos i at entry.
-    widening: [f32; LANES],
-}
-
-impl Rays {
-    fn new() -> Self {
-        Self { packet: Packet::default(), widening: [0.0; LANES] }
-    }
-
-    fn set(&mut self, sample: usize, stone: &Stone, facet: usize, point: Vec3, indices: [f32; LINES]) {
-        for (line, index) in indices.into_iter().enumerate() {
-            let lane = sample * LINES + line;
-            let entry = stone.enter(facet, -Vec3::Z, index);
-            self.packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, index);
-            self.widening[lane] = entry.cos_inside / entry.cos_outside;
-        }
-    }
-}
-
 impl<'a> Beam<'a> {
     /// Lights a stone; a material without dispersion gives no angles.
     pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
@@ -91,42 +67,6 @@ impl<'a> Beam<'a> {
         let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
         Ok(Self { stone, indices, outline, crown })
     }
-
-    /// m cos² of what a lane leaves, if it goes up through the crown and is bright enough; else 0.
-    fn visible(&self, m: &Meeting, lane: usize, widening: f32) -> f32 {
-        let z = m.dz[lane];
-        let width = widening * m.cos_outside[lane] / m.cos_inside[lane].max(f32::MIN_POSITIVE);
-        let seen = m.power[lane] > THRESHOLD * width && z > 0.0;
-        if seen { width * z * z * self.crown[m.facet[lane] as usize] } else { 0.0 }
-    }
-
-    fn walk(&self, rays: &mut Rays, paired: bool, tally: &mut Tally) {
-        let mut together = [paired; SAMPLES];
-        let widening = rays.widening;
-        let (mut lit, mut streak, mut power_angle, mut power) = (0.0, 0.0, 0.0, 0.0);
-        self.stone.walk(&mut rays.packet, STOP_POWER, |m, _| {
-            for (sample, together) in together.iter_mut().enumerate() {
-                let d = sample * LINES;
-                let mut seen = [0.0; LINES];
-                for (line, seen) in seen.iter_mut().enumerate() {
-                    *seen = self.visible(m, d + line, widening[d + line]);
-                    lit += f64::from(*seen);
-                }
-                *together &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
-                let leaves = m.power[d] > 0.0 && m.power[d + 1] > 0.0 && m.power[d + 2] > 0.0;
-                if *together && leaves && m.dz[d] > 0.0 && self.crown[m.facet[d] as usize] > 0.0 {
-                    let angle = angle_deg(m, d + 1, d + 2);
-                    streak += f64::from(seen[0]) * angle;
-                    power_angle += f64::from(m.power[d]) * angle;
-                    power += f64::from(m.power[d]);
-                }
-            }
-        });
-        tally.lit += lit / lines::SIX.len() as f64;
-        tally.streak_deg += streak;
-        tally.power_angle_deg += power_angle;
-        tally.paired_power += power;
-    }
 }
 
 /// Angle between what two lanes leave, in degrees.
@@ -136,33 +76,79 @@ fn angle_deg(m: &Meeting, a: usize, b: usize) -> f64 {
     a.cross(b).length().atan2(a.dot(b)).to_degrees()
 }
 
+/// The rays of a run of points in three of the lines.
+struct Shine<'a> {
+    experiment: &'a Beam<'a>,
+    points: Points<2>,
+    tally: &'a mut Tally,
+    indices: [f32; LINES],
+    /// Whether the lines are those that are compared.
+    paired: bool,
+    /// cos t / cos i at entry.
+    widening: Lanes,
+    /// Whether the lines of a ray have met the same facets so far.
+    together: [bool; LANES],
+}
+
+impl Rays for Shine<'_> {
+    const WIDTH: usize = LINES;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Some(u) = self.points.next() else { return false };
+        let Beam { stone, outline, .. } = self.experiment;
+        let (facet, point) = outline.sample(u);
+        for (lane, index) in (lane..).zip(self.indices) {
+            let entry = stone.enter(facet, -Vec3::Z, index);
+            packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, index);
+            self.widening[lane] = entry.cos_inside / entry.cos_outside;
+        }
+        self.together[lane] = self.paired;
+        if self.paired {
+            self.tally.points += 1.0;
+        }
+        true
+    }
+
+    fn meet(&mut self, m: &Meeting) {
+        let mut seen = [0.0; LANES];
+        for (l, seen) in seen.iter_mut().enumerate() {
+            let z = m.dz[l];
+            let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
+            let visible = m.power[l] > THRESHOLD * width && z > 0.0;
+            let weight = width * z * z * self.experiment.crown[m.facet[l] as usize];
+            *seen = if visible { weight } else { 0.0 };
+        }
+        let six = lines::SIX.len() as f64;
+        self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
+        for d in (0..LANES / LINES).map(|ray| ray * LINES) {
+            self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
+            let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
+            let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
+            if self.together[d] && leaves && up {
+                let (angle, power) = (angle_deg(m, d + 1, d + 2), f64::from(m.power[d]));
+                self.tally.streak_deg += f64::from(seen[d]) * angle;
+                self.tally.power_angle_deg += power * angle;
+                self.tally.paired_power += power;
+            }
+        }
+    }
+}
+
 impl Experiment for Beam<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        let mut rays = [Rays::new(), Rays::new()];
-        let mut filled = 0;
-        let mut points = Points::new(seed, Purpose::Beam, batch, points);
-        loop {
-            let point = points.next();
-            if let Some(u) = point {
-                let (facet, at) = self.outline.sample(u);
-                tally.points += 1.0;
-                for (rays, indices) in rays.iter_mut().zip(self.indices) {
-                    rays.set(filled, self.stone, facet, at, indices);
-                }
-                filled += 1;
-            }
-            if filled == SAMPLES || point.is_none() {
-                // samples not set again are at rest since the last walk
-                let [first, second] = &mut rays;
-                self.walk(first, true, tally);
-                self.walk(second, false, tally);
-                filled = 0;
-            }
-            if point.is_none() {
-                return;
-            }
+        for (indices, paired) in [(self.indices[0], true), (self.indices[1], false)] {
+            let mut shine = Shine {
+                experiment: self,
+                points: Points::new(seed, Purpose::Beam, batch, points.clone()),
+                tally: &mut *tally,
+                indices,
+                paired,
+                widening: [0.0; LANES],
+                together: [false; LANES],
+            };
+            feed::walk_all(self.stone, STOP_POWER, &mut shine);
         }
     }
 }

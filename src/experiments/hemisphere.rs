@@ -2,11 +2,12 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
+use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::{random::Purpose, sample};
 use crate::optics::Material;
-use crate::walk::{LANES, Packet, Stone};
+use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
 
 /// A lane with less than this share of its light is given up. Smaller costs time; larger shows:
@@ -61,23 +62,55 @@ impl<'a> Hemisphere<'a> {
             crown: entrance::crown_flags(stone),
         })
     }
+}
 
-    fn walk(&self, packet: &mut Packet, tally: &mut Tally) {
-        let (mut returned, mut cos2, mut left) = ([0f32; LANES], [0f32; LANES], [0f32; LANES]);
-        let lost = self.stone.walk(packet, STOP_POWER, |m, _| {
-            for l in 0..LANES {
-                let z = m.dz[l].max(0.0);
-                let up = if z > 0.0 { m.power[l] * self.crown[m.facet[l] as usize] } else { 0.0 };
-                returned[l] += up;
-                cos2[l] += up * z * z;
-                left[l] += m.power[l];
+/// The rays of a run of points.
+struct Dome<'a> {
+    experiment: &'a Hemisphere<'a>,
+    points: Points<4>,
+    tally: &'a mut Tally,
+    returned: Lanes,
+    returned_cos2: Lanes,
+    left: Lanes,
+}
+
+impl Rays for Dome<'_> {
+    const WIDTH: usize = 1;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Hemisphere { stone, index, entrance, .. } = self.experiment;
+        for [a, b, c, d] in &mut self.points {
+            self.tally.drawn += 1.0;
+            let (facet, point) = entrance.sample([a, b]);
+            let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
+            if sky.z > 0.0 {
+                let entry = stone.enter(facet, -sky, *index);
+                self.tally.arrived += 1.0;
+                self.tally.glare += f64::from(entry.reflectance);
+                packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, *index);
+                return true;
             }
-        });
-        let sum = |lanes: &[f32; LANES]| lanes.iter().map(|x| f64::from(*x)).sum::<f64>();
-        tally.returned += sum(&returned);
-        tally.returned_cos2 += sum(&cos2);
-        tally.leaked += sum(&left) - sum(&returned);
-        tally.lost += f64::from(lost);
+        }
+        false
+    }
+
+    fn meet(&mut self, m: &Meeting) {
+        for l in 0..LANES {
+            let up = m.dz[l].max(0.0);
+            let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];
+            let returned = if up > 0.0 { through_crown } else { 0.0 };
+            self.returned[l] += returned;
+            self.returned_cos2[l] += returned * up * up;
+            self.left[l] += m.power[l];
+        }
+    }
+
+    fn ended(&mut self, lane: usize) {
+        let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
+        let returned = take(&mut self.returned);
+        self.tally.returned += returned;
+        self.tally.returned_cos2 += take(&mut self.returned_cos2);
+        self.tally.leaked += take(&mut self.left) - returned;
     }
 }
 
@@ -85,27 +118,16 @@ impl Experiment for Hemisphere<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        let mut packet = Packet::default();
-        let mut filled = 0;
-        for [a, b, c, d] in Points::new(seed, Purpose::Hemisphere, batch, points) {
-            tally.drawn += 1.0;
-            let (facet, point) = self.entrance.sample([a, b]);
-            let toward_sky =
-                sample::about(self.stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
-            if toward_sky.z <= 0.0 {
-                continue;
-            }
-            let entry = self.stone.enter(facet, -toward_sky, self.index);
-            tally.arrived += 1.0;
-            tally.glare += f64::from(entry.reflectance);
-            packet.set(filled, point, entry.direction, 1.0 - entry.reflectance, self.index);
-            filled += 1;
-            if filled == LANES {
-                self.walk(&mut packet, tally);
-                filled = 0;
-            }
-        }
-        // lanes not set again are at rest since the last walk
-        self.walk(&mut packet, tally);
+        let zero = [0.0; LANES];
+        let mut dome = Dome {
+            experiment: self,
+            points: Points::new(seed, Purpose::Hemisphere, batch, points),
+            tally,
+            returned: zero,
+            returned_cos2: zero,
+            left: zero,
+        };
+        let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);
+        tally.lost += lost;
     }
 }

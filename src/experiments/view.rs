@@ -2,11 +2,12 @@
 
 use super::batches::Experiment;
 use super::entrance::Outline;
+use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::random::Purpose;
 use crate::optics::Material;
-use crate::walk::{LANES, Packet, Stone};
+use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::Vec3;
 use std::ops::Range;
 
@@ -69,37 +70,6 @@ impl<'a> View<'a> {
     pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
         Ok(Self { stone, index: check_index(material.index_d())?, outline: Outline::new(stone)? })
     }
-
-    fn walk(&self, packet: &mut Packet, tally: &mut Tally) {
-        let mut bands = [[0f32; LANES]; 4];
-        let mut cos2 = [0f32; LANES];
-        let (mut strongest, mut strongest_z) = ([0f32; LANES], [0f32; LANES]);
-        let lost = self.stone.walk(packet, STOP_POWER, |m, _| {
-            for l in 0..LANES {
-                let (z, power) = (m.dz[l], m.power[l]);
-                let up = z.max(0.0);
-                cos2[l] += power * up * up;
-                let within = |from: bool, to: bool| if from && !to { power } else { 0.0 };
-                bands[0][l] += within(z > 0.0, z >= BAND_ENDS[0]);
-                bands[1][l] += within(z >= BAND_ENDS[0], z >= BAND_ENDS[1]);
-                bands[2][l] += within(z >= BAND_ENDS[1], false);
-                bands[3][l] += within(true, z > 0.0);
-                let stronger = power > strongest[l];
-                strongest[l] = if stronger { power } else { strongest[l] };
-                strongest_z[l] = if stronger { z } else { strongest_z[l] };
-            }
-        });
-        for (sum, lanes) in tally.bands.iter_mut().zip(&bands) {
-            *sum += lanes.iter().map(|x| f64::from(*x)).sum::<f64>();
-        }
-        for l in 0..LANES {
-            tally.up_cos2 += f64::from(cos2[l]);
-            if strongest[l] > 0.0 {
-                tally.strongest[band(strongest_z[l]) as usize] += 1.0;
-            }
-        }
-        tally.lost += f64::from(lost);
-    }
 }
 
 /// The band of a direction whose z is `z`.
@@ -115,25 +85,75 @@ fn band(z: f32) -> Band {
     }
 }
 
+/// The rays of a run of points.
+struct Gaze<'a> {
+    experiment: &'a View<'a>,
+    points: Points<2>,
+    tally: &'a mut Tally,
+    bands: [Lanes; 4],
+    up_cos2: Lanes,
+    strongest: Lanes,
+    strongest_z: Lanes,
+}
+
+impl Rays for Gaze<'_> {
+    const WIDTH: usize = 1;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Some(u) = self.points.next() else { return false };
+        let View { stone, index, outline } = self.experiment;
+        let (facet, point) = outline.sample(u);
+        let entry = stone.enter(facet, -Vec3::Z, *index);
+        self.tally.rays += 1.0;
+        self.tally.reflected += f64::from(entry.reflectance);
+        packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, *index);
+        true
+    }
+
+    fn meet(&mut self, m: &Meeting) {
+        for l in 0..LANES {
+            let (z, power) = (m.dz[l], m.power[l]);
+            let up = z.max(0.0);
+            self.up_cos2[l] += power * up * up;
+            let above = |floor: bool| if floor { power } else { 0.0 };
+            let (sky, high, zenith) = (above(z > 0.0), above(z >= BAND_ENDS[0]), above(z >= BAND_ENDS[1]));
+            self.bands[Band::Green as usize][l] += sky - high;
+            self.bands[Band::Red as usize][l] += high - zenith;
+            self.bands[Band::Blue as usize][l] += zenith;
+            self.bands[Band::Below as usize][l] += power - sky;
+            let stronger = power > self.strongest[l];
+            self.strongest[l] = if stronger { power } else { self.strongest[l] };
+            self.strongest_z[l] = if stronger { z } else { self.strongest_z[l] };
+        }
+    }
+
+    fn ended(&mut self, lane: usize) {
+        let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
+        for (sum, lanes) in self.tally.bands.iter_mut().zip(&mut self.bands) {
+            *sum += take(lanes);
+        }
+        self.tally.up_cos2 += take(&mut self.up_cos2);
+        if take(&mut self.strongest) > 0.0 {
+            self.tally.strongest[band(self.strongest_z[lane]) as usize] += 1.0;
+        }
+    }
+}
+
 impl Experiment for View<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        let mut packet = Packet::default();
-        let mut filled = 0;
-        for u in Points::new(seed, Purpose::View, batch, points) {
-            let (facet, point) = self.outline.sample(u);
-            let entry = self.stone.enter(facet, -Vec3::Z, self.index);
-            tally.rays += 1.0;
-            tally.reflected += f64::from(entry.reflectance);
-            packet.set(filled, point, entry.direction, 1.0 - entry.reflectance, self.index);
-            filled += 1;
-            if filled == LANES {
-                self.walk(&mut packet, tally);
-                filled = 0;
-            }
-        }
-        // lanes not set again are at rest since the last walk
-        self.walk(&mut packet, tally);
+        let zero = [0.0; LANES];
+        let mut gaze = Gaze {
+            experiment: self,
+            points: Points::new(seed, Purpose::View, batch, points),
+            tally,
+            bands: [zero; 4],
+            up_cos2: zero,
+            strongest: zero,
+            strongest_z: zero,
+        };
+        let lost = feed::walk_all(self.stone, STOP_POWER, &mut gaze);
+        tally.lost += lost;
     }
 }
