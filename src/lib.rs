@@ -8,12 +8,15 @@
 //! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
 
 pub mod cut;
+pub mod experiments;
 pub mod math;
+pub mod metrics;
 pub mod optics;
 pub mod photons;
 pub mod render;
 pub mod scene;
 pub mod solid;
 pub mod store;
+pub mod study;
 pub mod transport;
 pub mod walk;

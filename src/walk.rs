@@ -5,13 +5,14 @@
 //! a score and camera rays that look into the stone are all consumers of [`Stone::walk`].
 
 mod dispatch;
+pub mod feed;
 mod kernel;
 mod packet;
 pub mod scalar;
 mod stone;
 
 pub use dispatch::Isa;
-pub use packet::{Exit, LANES, Meeting, Packet};
+pub use packet::{Exit, LANES, Lanes, Meeting, Packet};
 pub use stone::{Entry, Hit, Stone};
 
 /// After so many meetings whatever power a lane still holds is given up as lost. A guard against

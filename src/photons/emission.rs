@@ -11,7 +11,6 @@ use crate::optics::colour::{self, BANDS};
 use crate::scene::{Scene, SquareLight};
 use crate::transport::Event;
 use crate::transport::crossing::{self, Arrival};
-use crate::walk::LANES;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -194,12 +193,8 @@ fn fly(
 fn cross_all(scene: &Scene, arrivals: &mut Vec<(Flight, Arrival)>) -> Vec<Flight> {
     let mut out = Vec::with_capacity(arrivals.len());
     let entering: Vec<Arrival> = arrivals.iter().map(|(_, a)| *a).collect();
-    let mut departures = vec![None; entering.len()];
-    for (chunk, results) in entering.chunks(LANES).zip(departures.chunks_mut(LANES)) {
-        crossing::cross(&scene.stone, chunk, results);
-    }
+    let departures = crossing::cross(&scene.stone, &entering);
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
-        let Some(departure) = departure else { continue };
         flight.point = scene.stone.point_to_world(departure.point);
         flight.direction = scene.stone.direction_to_world(departure.direction);
         flight.power *= departure.share;

@@ -17,12 +17,47 @@ fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The best facet so far, lane by lane.
+/// The facet that each lane meets first among those tried, as a fraction toward / height.
+///
+/// Passed and returned by value: the optimiser then keeps it in registers, where a conditional
+/// store into an array costs a round trip through memory at every plane (three times the time).
 #[derive(Clone, Copy)]
 struct Best {
     toward: Lanes,
     height: Lanes,
     facet: [u32; LANES],
+}
+
+impl Best {
+    const NONE: Best = Best { toward: [0.0; LANES], height: [1.0; LANES], facet: [u32::MAX; LANES] };
+
+    /// The better of `self` and plane number `i`; a tie leaves the earlier one.
+    #[inline(always)]
+    fn or<const FUSED: bool>(self, p: &Packet, [nx, ny, nz, d]: [f32; 4], i: usize) -> Best {
+        let (mut toward, mut height) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            toward[l] = mul_add::<FUSED>(nx, p.dx[l], mul_add::<FUSED>(ny, p.dy[l], nz * p.dz[l]));
+            let along = mul_add::<FUSED>(nx, p.x[l], mul_add::<FUSED>(ny, p.y[l], nz * p.z[l]));
+            height[l] = (d - along).max(LEAST_HEIGHT);
+        }
+        self.against(Best { toward, height, facet: [i as u32; LANES] })
+    }
+
+    /// The better of two; a tie leaves `self`.
+    #[inline(always)]
+    fn against(self, other: Best) -> Best {
+        let mut wins = [false; LANES];
+        for l in 0..LANES {
+            wins[l] = other.toward[l] * self.height[l] > self.toward[l] * other.height[l];
+        }
+        let mut best = Best::NONE;
+        for l in 0..LANES {
+            best.toward[l] = if wins[l] { other.toward[l] } else { self.toward[l] };
+            best.height[l] = if wins[l] { other.height[l] } else { self.height[l] };
+            best.facet[l] = if wins[l] { other.facet[l] } else { self.facet[l] };
+        }
+        best
+    }
 }
 
 /// Advances every lane to its next facet, splits its power there and reflects it.
@@ -34,22 +69,9 @@ struct Best {
 pub(super) fn meet<const FUSED: bool>(stone: &Stone, p: &mut Packet, out: &mut Meeting) {
     let count = stone.normals.len();
     let (nx, ny, nz, d) = (&stone.nx[..count], &stone.ny[..count], &stone.nz[..count], &stone.d[..count]);
-    let (x, y, z, dx, dy, dz) = (p.x, p.y, p.z, p.dx, p.dy, p.dz);
-    let mut best = Best { toward: [0.0; LANES], height: [1.0; LANES], facet: [u32::MAX; LANES] };
+    let mut best = Best::NONE;
     for i in 0..count {
-        let (nx, ny, nz, d) = (nx[i], ny[i], nz[i], d[i]);
-        // built anew and moved, so that the compiler keeps the running best in registers
-        let mut next = best;
-        for l in 0..LANES {
-            let toward = mul_add::<FUSED>(nx, dx[l], mul_add::<FUSED>(ny, dy[l], nz * dz[l]));
-            let along = mul_add::<FUSED>(nx, x[l], mul_add::<FUSED>(ny, y[l], nz * z[l]));
-            let height = (d - along).max(LEAST_HEIGHT);
-            let wins = toward * best.height[l] > best.toward[l] * height;
-            next.toward[l] = if wins { toward } else { best.toward[l] };
-            next.height[l] = if wins { height } else { best.height[l] };
-            next.facet[l] = if wins { i as u32 } else { best.facet[l] };
-        }
-        best = next;
+        best = best.or::<FUSED>(p, [nx[i], ny[i], nz[i], d[i]], i);
     }
     let Best { toward: best_toward, height: best_height, mut facet } = best;
     // facet normals of the lanes
