@@ -8,6 +8,7 @@
 //! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
 
 pub mod cut;
+pub mod formats;
 pub mod math;
 pub mod optics;
 pub mod solid;
