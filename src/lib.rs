@@ -9,6 +9,7 @@
 
 pub mod cut;
 pub mod experiments;
+pub mod formats;
 pub mod math;
 pub mod metrics;
 pub mod optics;
