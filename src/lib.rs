@@ -7,7 +7,9 @@
 //! `math store` → `optics solid` → `cut` `walk` → `formats` → `scene` → `transport` →
 //! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
 
+pub mod cli;
 pub mod cut;
+pub mod formats;
 pub mod math;
 pub mod optics;
 pub mod solid;

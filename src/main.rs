@@ -1,1 +1,5 @@
-fn main() {}
+//! The `cutlab` command.
+
+fn main() -> std::process::ExitCode {
+    cutlab::cli::run()
+}
