@@ -88,7 +88,8 @@ impl Parameters {
         }
         let (name, own) = spec.split_once(':').unwrap_or((spec, ""));
         let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_string();
-        let kept = own.split(',').filter(|item| !item.trim().is_empty() && !self.0.contains_key(&key_of(item)));
+        let kept =
+            own.split(',').filter(|item| !item.trim().is_empty() && !self.0.contains_key(&key_of(item)));
         let given = self.0.iter().map(|(key, value)| format!("{key}={value}"));
         let items: Vec<String> = kept.map(str::to_string).chain(given).collect();
         format!("{name}:{}", items.join(","))
@@ -111,7 +112,11 @@ mod tests {
     fn every_parameter_of_every_family_is_a_flag() {
         let command = <Parameters as clap::Args>::augment_args(Command::new("test"));
         for parameter in FAMILIES.iter().flat_map(|f| f.parameters).filter(|p| p.key != SIZE) {
-            assert!(command.get_arguments().any(|a| a.get_long() == Some(parameter.key)), "{}", parameter.key);
+            assert!(
+                command.get_arguments().any(|a| a.get_long() == Some(parameter.key)),
+                "{}",
+                parameter.key
+            );
         }
     }
 }
