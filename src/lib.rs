@@ -9,13 +9,16 @@
 
 pub mod cli;
 pub mod cut;
+pub mod experiments;
 pub mod formats;
 pub mod math;
+pub mod metrics;
 pub mod optics;
 pub mod photons;
 pub mod render;
 pub mod scene;
 pub mod solid;
 pub mod store;
+pub mod study;
 pub mod transport;
 pub mod walk;

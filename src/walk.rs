@@ -11,7 +11,7 @@ pub mod scalar;
 mod stone;
 
 pub use dispatch::Isa;
-pub use packet::{Exit, LANES, Meeting, Packet};
+pub use packet::{Exit, LANES, Lanes, Meeting, Packet};
 pub use stone::{Entry, Hit, Stone};
 
 /// After so many meetings whatever power a lane still holds is given up as lost. A guard against

@@ -9,11 +9,11 @@ use rand_philox::{Philox, splitmix64, u32_to_unit_f32, u32_to_unit_f64};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Purpose {
-    /// The hemisphere experiment, one stream a packet.
+    /// The hemisphere experiment, one stream a batch.
     Hemisphere = 1,
-    /// The view experiment, one stream a packet.
+    /// The view experiment, one stream a batch.
     View = 2,
-    /// The collimated-beam experiment, one stream a packet.
+    /// The collimated-beam experiment, one stream a batch.
     Beam = 3,
     /// Photons of the caustic map, one stream a photon.
     CausticPhoton = 4,

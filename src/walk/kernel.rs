@@ -17,6 +17,49 @@ fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// The facet that each lane meets first among those tried, as a fraction toward / height.
+///
+/// Passed and returned by value: the optimiser then keeps it in registers, where a conditional
+/// store into an array costs a round trip through memory at every plane (three times the time).
+#[derive(Clone, Copy)]
+struct Best {
+    toward: Lanes,
+    height: Lanes,
+    facet: [u32; LANES],
+}
+
+impl Best {
+    const NONE: Best = Best { toward: [0.0; LANES], height: [1.0; LANES], facet: [u32::MAX; LANES] };
+
+    /// The better of `self` and plane number `i`; a tie leaves the earlier one.
+    #[inline(always)]
+    fn or<const FUSED: bool>(self, p: &Packet, [nx, ny, nz, d]: [f32; 4], i: usize) -> Best {
+        let (mut toward, mut height) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            toward[l] = mul_add::<FUSED>(nx, p.dx[l], mul_add::<FUSED>(ny, p.dy[l], nz * p.dz[l]));
+            let along = mul_add::<FUSED>(nx, p.x[l], mul_add::<FUSED>(ny, p.y[l], nz * p.z[l]));
+            height[l] = (d - along).max(LEAST_HEIGHT);
+        }
+        self.against(Best { toward, height, facet: [i as u32; LANES] })
+    }
+
+    /// The better of two; a tie leaves `self`.
+    #[inline(always)]
+    fn against(self, other: Best) -> Best {
+        let mut wins = [false; LANES];
+        for l in 0..LANES {
+            wins[l] = other.toward[l] * self.height[l] > self.toward[l] * other.height[l];
+        }
+        let mut best = Best::NONE;
+        for l in 0..LANES {
+            best.toward[l] = if wins[l] { other.toward[l] } else { self.toward[l] };
+            best.height[l] = if wins[l] { other.height[l] } else { self.height[l] };
+            best.facet[l] = if wins[l] { other.facet[l] } else { self.facet[l] };
+        }
+        best
+    }
+}
+
 /// Advances every lane to its next facet, splits its power there and reflects it.
 ///
 /// The next facet is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop
@@ -24,23 +67,13 @@ fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
 /// wins.
 #[inline(always)]
 pub(super) fn meet<const FUSED: bool>(stone: &Stone, p: &mut Packet, out: &mut Meeting) {
-    let mut best_toward: Lanes = [0.0; LANES];
-    let mut best_height: Lanes = [1.0; LANES];
-    let mut facet = [u32::MAX; LANES];
     let count = stone.normals.len();
     let (nx, ny, nz, d) = (&stone.nx[..count], &stone.ny[..count], &stone.nz[..count], &stone.d[..count]);
+    let mut best = Best::NONE;
     for i in 0..count {
-        let (nx, ny, nz, d) = (nx[i], ny[i], nz[i], d[i]);
-        for l in 0..LANES {
-            let toward = mul_add::<FUSED>(nx, p.dx[l], mul_add::<FUSED>(ny, p.dy[l], nz * p.dz[l]));
-            let along = mul_add::<FUSED>(nx, p.x[l], mul_add::<FUSED>(ny, p.y[l], nz * p.z[l]));
-            let height = (d - along).max(LEAST_HEIGHT);
-            let wins = toward * best_height[l] > best_toward[l] * height;
-            best_toward[l] = if wins { toward } else { best_toward[l] };
-            best_height[l] = if wins { height } else { best_height[l] };
-            facet[l] = if wins { i as u32 } else { facet[l] };
-        }
+        best = best.or::<FUSED>(p, [nx[i], ny[i], nz[i], d[i]], i);
     }
+    let Best { toward: best_toward, height: best_height, mut facet } = best;
     // facet normals of the lanes
     let (mut fx, mut fy, mut fz, mut fd) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
     out.lost = 0.0;

@@ -1,0 +1,35 @@
+//! The three experiments that the scores read, each traced once a stone.
+//!
+//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye above the
+//! stone, traced backward. [`Beam`]: a point light at infinity above the stone, in colours. An
+//! experiment adds up small sums in independent batches ([`Traced`]); a metric is a ratio of such
+//! sums, and the spread of the batches is its error.
+
+pub mod batches;
+pub mod beam;
+mod entrance;
+mod feed;
+pub mod hemisphere;
+pub mod points;
+pub mod view;
+
+pub use batches::{BATCHES, Experiment, Traced};
+pub use beam::Beam;
+pub use hemisphere::Hemisphere;
+pub use view::View;
+
+/// A stone or material that cannot be lit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ExperimentError {
+    /// No facet faces up.
+    #[error("no facet faces up: no light enters from above")]
+    NoCrown,
+    /// An index of refraction that no stone has.
+    #[error("index of refraction {0} is not a number from 1 to 10")]
+    Index(f64),
+}
+
+/// Refuses indices at which the formulas mean nothing.
+fn check_index(n: f64) -> Result<f32, ExperimentError> {
+    if (1.0..=10.0).contains(&n) { Ok(n as f32) } else { Err(ExperimentError::Index(n)) }
+}

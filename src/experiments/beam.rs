@@ -1,0 +1,154 @@
+//! Beam: light from a point at infinity above the stone, in the six lines B C D e F G.
+
+use super::batches::Experiment;
+use super::entrance::{self, Outline};
+use super::feed::{self, Rays};
+use super::points::Points;
+use super::{ExperimentError, check_index};
+use crate::math::random::Purpose;
+use crate::optics::{Material, dispersion::lines};
+use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
+use glam::{DVec3, Vec3};
+use std::ops::Range;
+
+/// A path is followed while it holds this share of the light that fell on its point.
+const STOP_POWER: f32 = 1e-6;
+
+/// Threshold of visibility: exiting irradiance as a share of the beam's (GIA 2001: 10⁻³).
+pub const THRESHOLD: f32 = 1e-3;
+
+/// Lanes of a ray: the sixteenth of a packet rests.
+const LINES: usize = 3;
+
+/// Lines that are paired on one path, D first.
+const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
+
+/// The other three of the six.
+const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
+
+/// A vertical beam on one stone: points uniform over the outline, unpolarised, scalar Fresnel.
+///
+/// The exiting beam is m = (cos t / cos i) at entry × (cos out / cos in) at exit times as wide as
+/// the entering one; its irradiance is power / m. Crown exits above the horizon count.
+#[derive(Debug, Clone)]
+pub struct Beam<'a> {
+    stone: &'a Stone,
+    indices: [[f32; LINES]; 2],
+    outline: Outline,
+    crown: Vec<f32>,
+}
+
+/// Sums of a batch; every ray has power 1 in every line.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tally {
+    /// Points of the outline.
+    pub points: f64,
+    /// Σ m cos² over visible exits, mean over the six lines.
+    pub lit: f64,
+    /// Σ m cos² × angle between B and G in degrees, over visible exits at D whose B and G have
+    /// come the same way and leave too.
+    pub streak_deg: f64,
+    /// Σ power × angle between B and G in degrees, over crown exits at D whose B and G have come
+    /// the same way and leave too.
+    pub power_angle_deg: f64,
+    /// Σ power over the same exits.
+    pub paired_power: f64,
+}
+
+impl<'a> Beam<'a> {
+    /// Lights a stone; a material without dispersion gives no angles.
+    pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
+        let mut indices = [[0.0; LINES]; 2];
+        for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
+            for (n, um) in into.iter_mut().zip(lines) {
+                *n = check_index(material.index(um))?;
+            }
+        }
+        let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
+        Ok(Self { stone, indices, outline, crown })
+    }
+}
+
+/// Angle between what two lanes leave, in degrees.
+fn angle_deg(m: &Meeting, a: usize, b: usize) -> f64 {
+    let out = |l: usize| Vec3::new(m.dx[l], m.dy[l], m.dz[l]).as_dvec3();
+    let (a, b): (DVec3, DVec3) = (out(a), out(b));
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+}
+
+/// The rays of a run of points in three of the lines.
+struct Shine<'a> {
+    experiment: &'a Beam<'a>,
+    points: Points<2>,
+    tally: &'a mut Tally,
+    indices: [f32; LINES],
+    /// Whether the lines are those that are compared.
+    paired: bool,
+    /// cos t / cos i at entry.
+    widening: Lanes,
+    /// Whether the lines of a ray have met the same facets so far.
+    together: [bool; LANES],
+}
+
+impl Rays for Shine<'_> {
+    const WIDTH: usize = LINES;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Some(u) = self.points.next() else { return false };
+        let Beam { stone, outline, .. } = self.experiment;
+        let (facet, point) = outline.sample(u);
+        for (lane, index) in (lane..).zip(self.indices) {
+            let entry = stone.enter(facet, -Vec3::Z, index);
+            packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, index);
+            self.widening[lane] = entry.cos_inside / entry.cos_outside;
+        }
+        self.together[lane] = self.paired;
+        if self.paired {
+            self.tally.points += 1.0;
+        }
+        true
+    }
+
+    fn meet(&mut self, m: &Meeting) {
+        let mut seen = [0.0; LANES];
+        for (l, seen) in seen.iter_mut().enumerate() {
+            let z = m.dz[l];
+            let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
+            let visible = m.power[l] > THRESHOLD * width && z > 0.0;
+            let weight = width * z * z * self.experiment.crown[m.facet[l] as usize];
+            *seen = if visible { weight } else { 0.0 };
+        }
+        let six = lines::SIX.len() as f64;
+        self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
+        for d in (0..LANES / LINES).map(|ray| ray * LINES) {
+            self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
+            let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
+            let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
+            if self.together[d] && leaves && up {
+                let (angle, power) = (angle_deg(m, d + 1, d + 2), f64::from(m.power[d]));
+                self.tally.streak_deg += f64::from(seen[d]) * angle;
+                self.tally.power_angle_deg += power * angle;
+                self.tally.paired_power += power;
+            }
+        }
+    }
+}
+
+impl Experiment for Beam<'_> {
+    type Tally = Tally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        for (indices, paired) in [(self.indices[0], true), (self.indices[1], false)] {
+            let mut shine = Shine {
+                experiment: self,
+                points: Points::new(seed, Purpose::Beam, batch, points.clone()),
+                tally: &mut *tally,
+                indices,
+                paired,
+                widening: [0.0; LANES],
+                together: [false; LANES],
+            };
+            feed::walk_all(self.stone, STOP_POWER, &mut shine);
+        }
+    }
+}

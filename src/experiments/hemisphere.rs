@@ -1,0 +1,133 @@
+//! Hemisphere: a uniform dome of light above the girdle plane, and everything that comes out.
+
+use super::batches::Experiment;
+use super::entrance::{self, Crown, Outline};
+use super::feed::{self, Rays};
+use super::points::Points;
+use super::{ExperimentError, check_index};
+use crate::math::{random::Purpose, sample};
+use crate::optics::Material;
+use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
+use std::ops::Range;
+
+/// A lane with less than this share of its light is given up. Smaller costs time; larger shows:
+/// what is given up is counted in [`Tally::lost`], 3e-5 in all for a round brilliant.
+const STOP_POWER: f32 = 1e-4;
+
+/// The dome over one stone.
+///
+/// Points of the crown uniform by area, directions cosine-distributed about the facet's normal;
+/// directions from below the horizon are drawn but not lit. D line, unpolarised, scalar Fresnel.
+#[derive(Debug, Clone)]
+pub struct Hemisphere<'a> {
+    stone: &'a Stone,
+    index: f32,
+    entrance: Crown,
+    crown: Vec<f32>,
+    /// Area of the crown, walking units squared.
+    pub crown_area: f64,
+    /// Area within the outline seen from above, walking units squared.
+    pub outline_area: f64,
+}
+
+/// Sums of a batch; every accepted direction arrives with power 1.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tally {
+    /// Directions drawn, those from below the horizon included.
+    pub drawn: f64,
+    /// Power that arrived: directions from above the horizon.
+    pub arrived: f64,
+    /// Reflected at entry.
+    pub glare: f64,
+    /// Left through the crown, upward.
+    pub returned: f64,
+    /// The same, weighted by cos² from zenith.
+    pub returned_cos2: f64,
+    /// Left otherwise.
+    pub leaked: f64,
+    /// Given up inside.
+    pub lost: f64,
+}
+
+impl<'a> Hemisphere<'a> {
+    /// Lights a stone at the material's D line.
+    pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
+        let entrance = Crown::new(stone)?;
+        Ok(Self {
+            stone,
+            index: check_index(material.index_d())?,
+            crown_area: entrance.area(),
+            outline_area: Outline::new(stone)?.area(),
+            entrance,
+            crown: entrance::crown_flags(stone),
+        })
+    }
+}
+
+/// The rays of a run of points.
+struct Dome<'a> {
+    experiment: &'a Hemisphere<'a>,
+    points: Points<4>,
+    tally: &'a mut Tally,
+    returned: Lanes,
+    returned_cos2: Lanes,
+    left: Lanes,
+}
+
+impl Rays for Dome<'_> {
+    const WIDTH: usize = 1;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Hemisphere { stone, index, entrance, .. } = self.experiment;
+        for [a, b, c, d] in &mut self.points {
+            self.tally.drawn += 1.0;
+            let (facet, point) = entrance.sample([a, b]);
+            let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
+            if sky.z > 0.0 {
+                let entry = stone.enter(facet, -sky, *index);
+                self.tally.arrived += 1.0;
+                self.tally.glare += f64::from(entry.reflectance);
+                packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, *index);
+                return true;
+            }
+        }
+        false
+    }
+
+    fn meet(&mut self, m: &Meeting) {
+        for l in 0..LANES {
+            let up = m.dz[l].max(0.0);
+            let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];
+            let returned = if up > 0.0 { through_crown } else { 0.0 };
+            self.returned[l] += returned;
+            self.returned_cos2[l] += returned * up * up;
+            self.left[l] += m.power[l];
+        }
+    }
+
+    fn ended(&mut self, lane: usize) {
+        let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
+        let returned = take(&mut self.returned);
+        self.tally.returned += returned;
+        self.tally.returned_cos2 += take(&mut self.returned_cos2);
+        self.tally.leaked += take(&mut self.left) - returned;
+    }
+}
+
+impl Experiment for Hemisphere<'_> {
+    type Tally = Tally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        let zero = [0.0; LANES];
+        let mut dome = Dome {
+            experiment: self,
+            points: Points::new(seed, Purpose::Hemisphere, batch, points),
+            tally,
+            returned: zero,
+            returned_cos2: zero,
+            left: zero,
+        };
+        let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);
+        tally.lost += lost;
+    }
+}
