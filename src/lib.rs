@@ -16,6 +16,7 @@ pub mod metrics;
 pub mod optics;
 pub mod photons;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod solid;
 pub mod store;
