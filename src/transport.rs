@@ -40,7 +40,8 @@ impl Scene {
         }
         if !past_stone {
             let (o, d) = (self.stone.point_to_stone(origin), self.stone.direction_to_stone(direction));
-            if let Some(hit) = self.stone.stone.hit(o, d).filter(|h| h.distance * self.stone.radius < nearest) {
+            if let Some(hit) = self.stone.stone.hit(o, d).filter(|h| h.distance * self.stone.radius < nearest)
+            {
                 return Event::Stone { facet: hit.facet, point: o + d * hit.distance, direction: d };
             }
         }

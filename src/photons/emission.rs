@@ -11,7 +11,6 @@ use crate::optics::colour::{self, BANDS};
 use crate::scene::{Scene, SquareLight};
 use crate::transport::Event;
 use crate::transport::crossing::{self, Arrival};
-use crate::walk::LANES;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -77,7 +76,8 @@ struct Flight {
 fn batch(scene: &Scene, class: Class, seed: u64, from: u64, count: u64) -> Vec<(u64, Photon)> {
     let aimed = if class == Class::Caustic { AIMED } else { 0.0 };
     let mut landed = Vec::new();
-    let mut flights: Vec<Flight> = (from..from + count).filter_map(|n| emit(scene, class, seed, n, aimed)).collect();
+    let mut flights: Vec<Flight> =
+        (from..from + count).filter_map(|n| emit(scene, class, seed, n, aimed)).collect();
     let mut arrivals: Vec<(Flight, Arrival)> = Vec::new();
     while !flights.is_empty() {
         for flight in flights.drain(..) {
@@ -103,13 +103,27 @@ fn emit(scene: &Scene, class: Class, seed: u64, number: u64, aimed: f32) -> Opti
     let nm = colour::wavelength(stream.unit());
     let point = light.point(stream.pair());
     let (direction, weight) = diffuse_direction(scene, &mut stream, point, light.normal(), aimed)?;
-    Some(Flight { stream, number, point, direction, power: total * BANDS as f32 * weight, nm, last: Last::Light })
+    Some(Flight {
+        stream,
+        number,
+        point,
+        direction,
+        power: total * BANDS as f32 * weight,
+        nm,
+        last: Last::Light,
+    })
 }
 
 /// A direction from a diffuse surface or light, a share of them aimed at the sphere around the
 /// stone, and the weight that makes the mixture right (balance heuristic). None for a direction
 /// below the surface.
-fn diffuse_direction(scene: &Scene, stream: &mut Stream, point: Vec3, normal: Vec3, aimed: f32) -> Option<(Vec3, f32)> {
+fn diffuse_direction(
+    scene: &Scene,
+    stream: &mut Stream,
+    point: Vec3,
+    normal: Vec3,
+    aimed: f32,
+) -> Option<(Vec3, f32)> {
     let pick = stream.unit();
     let u = stream.pair();
     let to_stone = scene.stone.position - point;
@@ -179,12 +193,8 @@ fn fly(
 fn cross_all(scene: &Scene, arrivals: &mut Vec<(Flight, Arrival)>) -> Vec<Flight> {
     let mut out = Vec::with_capacity(arrivals.len());
     let entering: Vec<Arrival> = arrivals.iter().map(|(_, a)| *a).collect();
-    let mut departures = vec![None; entering.len()];
-    for (chunk, results) in entering.chunks(LANES).zip(departures.chunks_mut(LANES)) {
-        crossing::cross(&scene.stone, chunk, results);
-    }
+    let departures = crossing::cross(&scene.stone, &entering);
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
-        let Some(departure) = departure else { continue };
         flight.point = scene.stone.point_to_world(departure.point);
         flight.direction = scene.stone.direction_to_world(departure.direction);
         flight.power *= departure.share;

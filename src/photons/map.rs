@@ -11,60 +11,81 @@ use rayon::prelude::*;
 use std::f32::consts::PI;
 use std::num::NonZero;
 
-/// Photons of one class on one surface.
+/// Light of one class on one surface: places where the irradiance is known.
 struct Sheet {
-    tree: ImmutableKdTree<f32, 3>,
-    photons: Vec<Photon>,
-    /// Places where the irradiance is known beforehand, and the irradiance there.
-    known_at: ImmutableKdTree<f32, 3>,
-    known: Vec<Spectrum>,
+    places: ImmutableKdTree<f32, 3>,
+    irradiance: Vec<Spectrum>,
 }
 
-/// A photon map.
+/// A photon map: the irradiance at every fourth photon, gathered from its nearest photons.
+///
+/// Where photons are dense the places are too: within the disc of one estimate lie a fourth as many
+/// places as photons, so looking between them costs no detail that the estimate has.
+/// Source: P. Christensen, *Faster Photon Map Global Illumination*, J. Graphics Tools 4(3), 1999.
 pub struct PhotonMap {
     sheets: Vec<Option<Sheet>>,
-    nearest: usize,
 }
 
-/// Every how many-th photon has its irradiance computed beforehand (Christensen 1999 takes 4).
+/// Every how many-th photon has its irradiance computed, Christensen's choice.
 const KNOWN_EVERY: usize = 4;
 
+/// Places between which a smooth look-up interpolates: enough to lie around the point.
+const AROUND: NonZero<usize> = NonZero::new(9).unwrap();
+
 impl PhotonMap {
-    /// Arranges photons for look-up and computes the irradiance at every fourth of them.
+    /// Arranges photons for look-up.
     ///
-    /// - `nearest`: photons an estimate gathers
+    /// - `nearest`: photons that an estimate gathers
     pub fn new(scene: &Scene, shot: &Shot, nearest: usize) -> PhotonMap {
-        let sheets = (0..scene.surfaces.len())
-            .map(|s| {
-                let photons: Vec<Photon> = shot.photons.iter().filter(|p| usize::from(p.surface) == s).copied().collect();
-                let points: Vec<[f32; 3]> = photons.iter().map(|p| p.point.to_array()).collect();
-                let tree = ImmutableKdTree::new_from_slice(&points).ok()?;
-                let places: Vec<[f32; 3]> = points.iter().step_by(KNOWN_EVERY).copied().collect();
-                let known = places
-                    .par_iter()
-                    .map(|p| gather(scene, s, &tree, &photons, nearest, Vec3::from_array(*p)))
-                    .collect();
-                let known_at = ImmutableKdTree::new_from_slice(&places).ok()?;
-                (!photons.is_empty()).then_some(Sheet { tree, photons, known_at, known })
-            })
+        let sheets = (0..scene.surfaces.len()).map(|s| Sheet::new(scene, s, shot, nearest)).collect();
+        PhotonMap { sheets }
+    }
+
+    /// Irradiance in each band at a place of a surface, interpolated between the known places
+    /// around it; for what the camera sees directly.
+    pub fn irradiance(&self, surface: usize, point: Vec3) -> Spectrum {
+        self.sheets[surface].as_ref().map_or([0.0; BANDS], |sheet| {
+            let found =
+                sheet.places.query(&point.to_array()).nearest_n::<SquaredEuclidean<f32>>(AROUND).execute();
+            let reach = found.last().map_or(0.0, |f| f.distance.sqrt()).max(f32::MIN_POSITIVE);
+            let mut sum = [0.0; BANDS];
+            let mut total = 0.0;
+            for f in &found {
+                // falls to 0 at the farthest place, so that the sum has no steps
+                let weight = (1.0 - f.distance.sqrt() / reach).powi(2).max(1e-6);
+                total += weight;
+                (0..BANDS).for_each(|b| sum[b] += weight * sheet.irradiance[f.item as usize][b]);
+            }
+            sum.map(|s| s / total)
+        })
+    }
+
+    /// Irradiance at the nearest known place: for what is seen through the stone.
+    pub fn irradiance_nearby(&self, surface: usize, point: Vec3) -> &Spectrum {
+        static NONE: Spectrum = [0.0; BANDS];
+        self.sheets[surface].as_ref().map_or(&NONE, |sheet| {
+            let found =
+                sheet.places.query(&point.to_array()).nearest_one::<SquaredEuclidean<f32>>().execute();
+            &sheet.irradiance[found.item as usize]
+        })
+    }
+}
+
+impl Sheet {
+    fn new(scene: &Scene, surface: usize, shot: &Shot, nearest: usize) -> Option<Sheet> {
+        let photons: Vec<Photon> =
+            shot.photons.iter().filter(|p| usize::from(p.surface) == surface).copied().collect();
+        if photons.is_empty() {
+            return None;
+        }
+        let points: Vec<[f32; 3]> = photons.iter().map(|p| p.point.to_array()).collect();
+        let tree = ImmutableKdTree::new_from_slice(&points).ok()?;
+        let places: Vec<[f32; 3]> = points.iter().step_by(KNOWN_EVERY).copied().collect();
+        let irradiance = places
+            .par_iter()
+            .map(|p| gather(scene, surface, &tree, &photons, nearest, Vec3::from_array(*p)))
             .collect();
-        PhotonMap { sheets, nearest }
-    }
-
-    /// Irradiance in each band at a place of a surface, gathered from the nearest photons.
-    pub fn irradiance(&self, scene: &Scene, surface: usize, point: Vec3) -> Spectrum {
-        self.sheets[surface].as_ref().map_or([0.0; BANDS], |sheet| {
-            gather(scene, surface, &sheet.tree, &sheet.photons, self.nearest, point)
-        })
-    }
-
-    /// Irradiance known beforehand at the nearest such place: coarser and some fifty times faster,
-    /// for what is seen through the stone.
-    pub fn known_irradiance(&self, surface: usize, point: Vec3) -> Spectrum {
-        self.sheets[surface].as_ref().map_or([0.0; BANDS], |sheet| {
-            let nearest = sheet.known_at.query(&point.to_array()).nearest_one::<SquaredEuclidean<f32>>().execute();
-            sheet.known[nearest.item as usize]
-        })
+        Some(Sheet { places: ImmutableKdTree::new_from_slice(&places).ok()?, irradiance })
     }
 }
 

@@ -40,8 +40,12 @@ mod tests {
 
     #[test]
     fn the_field_spans_the_width() {
-        let camera =
-            Camera { position: Vec3::new(0.0, -8.0, 2.0), target: Vec3::new(0.0, 0.0, 2.0), field_deg: 38.0, aspect: 2.0 };
+        let camera = Camera {
+            position: Vec3::new(0.0, -8.0, 2.0),
+            target: Vec3::new(0.0, 0.0, 2.0),
+            field_deg: 38.0,
+            aspect: 2.0,
+        };
         let left = camera.ray(0.0, 0.5);
         assert!((left.x.atan2(left.y).to_degrees() + 19.0).abs() < 1e-4);
         assert!(camera.ray(0.5, 0.0).z > 0.0);

@@ -76,13 +76,13 @@ mod tests {
 
     #[test]
     fn a_brilliant_rests_on_its_pavilion_and_girdle() {
-        let design = library::design("round-brilliant", &BTreeMap::new()).expect("in the library").expect("builds");
+        let design =
+            library::design("round-brilliant", &BTreeMap::new()).expect("in the library").expect("builds");
         let solid = design.solid().expect("closed");
         let turn = Pose::Lying.rotation(&solid);
         let corners: Vec<DVec3> = solid.vertices.iter().map(|v| turn * *v).collect();
         let floor = corners.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
-        let touching: Vec<usize> =
-            (0..corners.len()).filter(|&i| corners[i].z - floor < 1e-9).collect();
+        let touching: Vec<usize> = (0..corners.len()).filter(|&i| corners[i].z - floor < 1e-9).collect();
         assert!(touching.len() >= 3, "{touching:?}");
         // it touches with the girdle's rim and leans by about the pavilion angle, crown to −y
         let radius = |i: usize| solid.vertices[i].truncate().length();

@@ -12,7 +12,8 @@ use glam::{DMat3, Vec3};
 /// centre above (`x`, `y`).
 fn placed(stone: Stone, material: Material, pose: Pose, radius: f32, at: Vec3) -> PlacedStone {
     let turn: DMat3 = pose.rotation(&stone.solid);
-    let lowest = stone.solid.vertices.iter().map(|v| (turn * stone.from_design(*v)).z).fold(f64::INFINITY, f64::min);
+    let lowest =
+        stone.solid.vertices.iter().map(|v| (turn * stone.from_design(*v)).z).fold(f64::INFINITY, f64::min);
     // a hair above the floor, so that no point of the floor lies inside the stone
     const GAP: f32 = 1e-3;
     let position = at + Vec3::Z * radius * (GAP - lowest as f32);

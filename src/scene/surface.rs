@@ -63,7 +63,13 @@ impl Surface {
 }
 
 /// Distance to the front of a parallelogram along a ray.
-pub(super) fn parallelogram_hit(corner: Vec3, u: Vec3, v: Vec3, origin: Vec3, direction: Vec3) -> Option<f32> {
+pub(super) fn parallelogram_hit(
+    corner: Vec3,
+    u: Vec3,
+    v: Vec3,
+    origin: Vec3,
+    direction: Vec3,
+) -> Option<f32> {
     let n = u.cross(v);
     let toward = n.dot(direction);
     if toward >= 0.0 {
@@ -91,8 +97,12 @@ mod tests {
 
     #[test]
     fn one_side_reflects() {
-        let floor =
-            Surface { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0, reflectance: Reflectance::Grey(0.5) };
+        let floor = Surface {
+            corner: Vec3::new(-1.0, -1.0, 0.0),
+            u: Vec3::X * 2.0,
+            v: Vec3::Y * 2.0,
+            reflectance: Reflectance::Grey(0.5),
+        };
         assert_eq!(floor.normal(), Vec3::Z);
         assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z), Some(3.0));
         assert_eq!(floor.hit(Vec3::new(0.5, 0.0, -3.0), Vec3::Z), None);

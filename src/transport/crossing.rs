@@ -1,7 +1,8 @@
 //! Photons through the stone: each goes in with its whole power and comes out by one exit.
 
 use crate::scene::PlacedStone;
-use crate::walk::{LANES, Packet};
+use crate::walk::feed::{self, Rays};
+use crate::walk::{LANES, Meeting, Packet};
 use glam::Vec3;
 
 /// A photon that is about to enter, in the walking frame.
@@ -34,46 +35,68 @@ pub struct Departure {
 /// percent, is lost.
 const STOP_SHARE: f32 = 1e-3;
 
-/// Takes up to [`LANES`] photons through the stone together.
+/// Takes photons through the stone, each to the departure of its number.
 ///
 /// Every way out, the reflection at entry among them, is chosen with a probability proportional to
 /// its power, so each photon goes on alone and the mean over photons is right. One uniform number
 /// serves all choices: it is stretched back to (0, 1) after each.
-pub fn cross(placed: &PlacedStone, arrivals: &[Arrival], departures: &mut [Option<Departure>]) {
-    debug_assert!(arrivals.len() <= LANES && departures.len() == arrivals.len());
-    let stone = &placed.stone;
-    let mut packet = Packet::default();
-    let mut total = [0f64; LANES];
-    let mut choice = [0f64; LANES];
-    let mut chosen = [None; LANES];
-    for (lane, a) in arrivals.iter().enumerate() {
-        let entry = stone.enter(a.facet, a.direction, a.index);
-        let normal = stone.normals[a.facet];
-        let reflected = a.direction - 2.0 * a.direction.dot(normal) * normal;
-        chosen[lane] = Some((a.point, reflected));
-        total[lane] = entry.reflectance.into();
-        choice[lane] = a.choice;
-        packet.set(lane, a.point, entry.direction, 1.0 - entry.reflectance, a.index);
+pub fn cross(placed: &PlacedStone, arrivals: &[Arrival]) -> Vec<Departure> {
+    let mut crossing = Crossing {
+        placed,
+        arrivals: arrivals.iter(),
+        departures: Vec::with_capacity(arrivals.len()),
+        photon: [0; LANES],
+        choice: [0.0; LANES],
+        total: [0.0; LANES],
+    };
+    feed::walk_all(&placed.stone, STOP_SHARE, &mut crossing);
+    for (departure, arrival) in crossing.departures.iter_mut().zip(arrivals) {
+        departure.direction = departure.direction.normalize_or(arrival.direction);
     }
-    stone.walk(&mut packet, STOP_SHARE, |meeting, packet| {
-        for lane in 0..arrivals.len() {
+    crossing.departures
+}
+
+struct Crossing<'a> {
+    placed: &'a PlacedStone,
+    arrivals: std::slice::Iter<'a, Arrival>,
+    departures: Vec<Departure>,
+    /// For each lane: which photon it carries, the number that chooses, the power that has left.
+    photon: [usize; LANES],
+    choice: [f64; LANES],
+    total: [f64; LANES],
+}
+
+impl Rays for Crossing<'_> {
+    const WIDTH: usize = 1;
+
+    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Some(a) = self.arrivals.next() else { return false };
+        let stone = &self.placed.stone;
+        let entry = stone.enter(a.facet, a.direction, a.index);
+        packet.set(lane, a.point, entry.direction, 1.0 - entry.reflectance, a.index);
+        self.photon[lane] = self.departures.len();
+        self.choice[lane] = a.choice;
+        self.total[lane] = entry.reflectance.into();
+        let direction = stone.reflect(a.facet, a.direction);
+        self.departures.push(Departure { point: a.point, direction, share: entry.reflectance });
+        true
+    }
+
+    fn meet(&mut self, meeting: &Meeting, packet: &Packet) {
+        for lane in 0..LANES {
             let Some(exit) = meeting.exit(packet, lane) else { continue };
+            let departure = &mut self.departures[self.photon[lane]];
             let power = f64::from(exit.power);
-            total[lane] += power;
-            let take = power / total[lane];
-            if choice[lane] < take {
-                choice[lane] /= take;
-                chosen[lane] = Some((exit.point, exit.direction));
+            self.total[lane] += power;
+            departure.share = self.total[lane] as f32;
+            let take = power / self.total[lane];
+            let choice = &mut self.choice[lane];
+            if *choice < take {
+                *choice /= take;
+                (departure.point, departure.direction) = (exit.point, exit.direction);
             } else {
-                choice[lane] = (choice[lane] - take) / (1.0 - take);
+                *choice = (*choice - take) / (1.0 - take);
             }
         }
-    });
-    for (lane, departure) in departures.iter_mut().enumerate() {
-        *departure = chosen[lane].map(|(point, direction)| Departure {
-            point,
-            direction: direction.normalize(),
-            share: total[lane] as f32,
-        });
     }
 }

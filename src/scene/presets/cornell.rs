@@ -22,7 +22,7 @@ const LIGHT_SIDE: f32 = 1.2;
 /// How far right of the middle the light hangs: read off the original's picture.
 const LIGHT_X: f32 = 1.5;
 /// Chosen so that the directly lit back wall comes out near the middle of the tone curve.
-const LIGHT_RADIANCE: f32 = 16.0;
+const LIGHT_RADIANCE: f32 = 38.0;
 /// Radius of the sphere around the stone.
 const STONE_RADIUS: f32 = 1.0;
 
@@ -32,8 +32,8 @@ fn build(stone: Stone, material: Material, pose: Pose, aspect: f32) -> Scene {
     // floor centre at the origin; the front is at y = −half, where the camera looks in
     let corner = Vec3::new(-half, -half, 0.0);
     let grey = Reflectance::Grey(0.75);
-    let red = Reflectance::Edge { low: 0.06, high: 0.72, edge_nm: 600.0 };
-    let blue = Reflectance::Edge { low: 0.72, high: 0.06, edge_nm: 495.0 };
+    let red = Reflectance::Edge { low: 0.12, high: 0.75, edge_nm: 592.0 };
+    let blue = Reflectance::Edge { low: 0.6, high: 0.12, edge_nm: 492.0 };
     let wall = |corner, u, v, reflectance| Surface { corner, u, v, reflectance };
     let floor = wall(corner, x, y, grey);
     let ceiling = wall(corner + z, y, x, grey);
@@ -43,7 +43,11 @@ fn build(stone: Stone, material: Material, pose: Pose, aspect: f32) -> Scene {
     Scene {
         name: PRESET.name,
         surfaces: vec![floor, ceiling, back, left, right],
-        lights: vec![SquareLight::facing_down(Vec3::new(LIGHT_X, 0.0, SIDE - 1e-3), LIGHT_SIDE, LIGHT_RADIANCE)],
+        lights: vec![SquareLight::facing_down(
+            Vec3::new(LIGHT_X, 0.0, SIDE - 1e-3),
+            LIGHT_SIDE,
+            LIGHT_RADIANCE,
+        )],
         stone: placed(stone, material, pose, STONE_RADIUS, Vec3::ZERO),
         camera: Camera {
             position: Vec3::new(0.0, -half - DISTANCE, half),
@@ -62,7 +66,8 @@ mod tests {
 
     #[test]
     fn the_walls_face_inward_and_the_stone_stands_on_the_floor() {
-        let design = library::design("octahedron", &BTreeMap::new()).expect("in the library").expect("builds");
+        let design =
+            library::design("octahedron", &BTreeMap::new()).expect("in the library").expect("builds");
         let stone = Stone::new(design.solid().expect("closed"));
         let scene = build(stone, Material::of_index(2.417), Pose::TableUp, 1.0);
         let middle = Vec3::new(0.0, 0.0, SIDE / 2.0);

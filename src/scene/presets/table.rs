@@ -17,12 +17,17 @@ pub static PRESET: Preset = Preset {
 };
 
 const TABLE_HALF: f32 = 20.0;
-const TABLE_REFLECTANCE: f32 = 0.35;
-const LIGHT_AT: Vec3 = Vec3::new(-1.6, 2.2, 6.5);
-const LIGHT_SIDE: f32 = 2.4;
-const LIGHT_RADIANCE: f32 = 24.0;
-const CAMERA_AT: Vec3 = Vec3::new(0.0, -6.2, 5.0);
-const FIELD_DEG: f32 = 28.0;
+const TABLE_REFLECTANCE: f32 = 0.45;
+/// A large soft box above the viewer's left shoulder: the white in the stone.
+const BOX_AT: Vec3 = Vec3::new(1.8, -1.0, 8.0);
+const BOX_SIDE: f32 = 6.0;
+const BOX_RADIANCE: f32 = 2.0;
+/// A small lamp behind the stone: caustics on the table, fire in the stone.
+const LAMP_AT: Vec3 = Vec3::new(-4.5, 3.0, 6.5);
+const LAMP_SIDE: f32 = 0.7;
+const LAMP_RADIANCE: f32 = 110.0;
+const CAMERA_AT: Vec3 = Vec3::new(3.4, -5.6, 4.6);
+const FIELD_DEG: f32 = 34.0;
 
 fn build(stone: Stone, material: Material, pose: Pose, aspect: f32) -> Scene {
     let unit = stone.unit as f32;
@@ -38,7 +43,10 @@ fn build(stone: Stone, material: Material, pose: Pose, aspect: f32) -> Scene {
     Scene {
         name: PRESET.name,
         surfaces: vec![top],
-        lights: vec![SquareLight::facing(LIGHT_AT * unit, Vec3::ZERO, LIGHT_SIDE * unit, LIGHT_RADIANCE)],
+        lights: vec![
+            SquareLight::facing(BOX_AT * unit, Vec3::ZERO, BOX_SIDE * unit, BOX_RADIANCE),
+            SquareLight::facing(LAMP_AT * unit, Vec3::ZERO, LAMP_SIDE * unit, LAMP_RADIANCE),
+        ],
         stone: placed,
         camera: Camera { position: CAMERA_AT * unit, target, field_deg: FIELD_DEG, aspect },
     }
