@@ -8,7 +8,6 @@
 pub mod batches;
 pub mod beam;
 mod entrance;
-mod feed;
 pub mod hemisphere;
 pub mod points;
 pub mod view;

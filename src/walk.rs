@@ -5,6 +5,7 @@
 //! a score and camera rays that look into the stone are all consumers of [`Stone::walk`].
 
 mod dispatch;
+pub mod feed;
 mod kernel;
 mod packet;
 pub mod scalar;

@@ -2,11 +2,11 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::random::Purpose;
 use crate::optics::{Material, dispersion::lines};
+use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -109,7 +109,7 @@ impl Rays for Shine<'_> {
         true
     }
 
-    fn meet(&mut self, m: &Meeting) {
+    fn meet(&mut self, m: &Meeting, _: &Packet) {
         let mut seen = [0.0; LANES];
         for (l, seen) in seen.iter_mut().enumerate() {
             let z = m.dz[l];

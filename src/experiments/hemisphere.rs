@@ -2,11 +2,11 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::{random::Purpose, sample};
 use crate::optics::Material;
+use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
 
@@ -94,7 +94,7 @@ impl Rays for Dome<'_> {
         false
     }
 
-    fn meet(&mut self, m: &Meeting) {
+    fn meet(&mut self, m: &Meeting, _: &Packet) {
         for l in 0..LANES {
             let up = m.dz[l].max(0.0);
             let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];

@@ -2,11 +2,11 @@
 
 use super::batches::Experiment;
 use super::entrance::Outline;
-use super::feed::{self, Rays};
 use super::points::Points;
 use super::{ExperimentError, check_index};
 use crate::math::random::Purpose;
 use crate::optics::Material;
+use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::Vec3;
 use std::ops::Range;
@@ -110,7 +110,7 @@ impl Rays for Gaze<'_> {
         true
     }
 
-    fn meet(&mut self, m: &Meeting) {
+    fn meet(&mut self, m: &Meeting, _: &Packet) {
         for l in 0..LANES {
             let (z, power) = (m.dz[l], m.power[l]);
             let up = z.max(0.0);

@@ -125,6 +125,11 @@ impl Stone {
         Entry { direction: inside.normalize(), reflectance, cos_outside, cos_inside }
     }
 
+    /// Direction of a ray mirrored at facet `facet`.
+    pub fn reflect(&self, facet: usize, direction: Vec3) -> Vec3 {
+        direction.reflect(self.normals[facet])
+    }
+
     /// The planes as the kernel has them, `f32` values widened: the scalar twin walks the very
     /// same stone.
     pub fn kernel_planes(&self) -> Vec<Plane> {

@@ -3,14 +3,14 @@
 //! Rays of a brilliant live for 34 meetings on average, the longest of sixteen for 116; a packet
 //! that waited for its longest ray would idle two thirds of its lanes.
 
-use crate::walk::{LANES, Meeting, Packet, Stone};
+use super::{LANES, Meeting, Packet, Stone};
 
 /// So many rays are fed into one walk before it drains: far fewer meetings than
-/// [`crate::walk::MEETINGS_LIMIT`], so that a ray which total reflection keeps for ever ends there.
+/// [`super::MEETINGS_LIMIT`], so that a ray which total reflection keeps for ever ends there.
 const RAYS_A_WALK: usize = 2048;
 
 /// Rays for the lanes, and what becomes of them.
-pub(super) trait Rays {
+pub trait Rays {
     /// Lanes that one ray takes (its wavelengths), next to each other.
     const WIDTH: usize;
 
@@ -18,7 +18,7 @@ pub(super) trait Rays {
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool;
 
     /// Sees what all lanes leave at a meeting.
-    fn meet(&mut self, meeting: &Meeting);
+    fn meet(&mut self, meeting: &Meeting, packet: &Packet);
 
     /// The ray in the lanes from `lane` on is at its end.
     fn ended(&mut self, _lane: usize) {}
@@ -26,7 +26,7 @@ pub(super) trait Rays {
 
 /// Walks all rays until each holds less than `stop_power` in every lane; returns the power given
 /// up.
-pub(super) fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
+pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
     let mut lost = 0.0;
     let mut more = true;
     while more {
@@ -40,7 +40,7 @@ pub(super) fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) ->
             fed += 1;
         }
         let rest = stone.walk(&mut packet, stop_power, |meeting, packet| {
-            rays.meet(meeting);
+            rays.meet(meeting, packet);
             for lane in lanes() {
                 let powers = &mut packet.power[lane..lane + R::WIDTH];
                 if !alive[lane] || powers.iter().any(|p| *p >= stop_power) {

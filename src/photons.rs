@@ -1,0 +1,88 @@
+//! Photon maps: light that reaches diffuse surfaces by way of the stone or of other surfaces.
+//!
+//! Three disjoint classes of light fall on a surface: direct (from a light, by shadow rays),
+//! caustic (last from the stone), indirect (last from another surface). The caustic map holds the
+//! second, the global map the third.
+
+pub mod emission;
+pub mod file;
+pub mod map;
+
+use crate::math::random::Purpose;
+use crate::optics::colour::BANDS;
+use crate::scene::Scene;
+use glam::Vec3;
+
+/// Which class of light a map holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Class {
+    /// The last thing before the surface was the stone.
+    Caustic,
+    /// The last thing before the surface was another surface.
+    Indirect,
+}
+
+impl Class {
+    fn purpose(self) -> Purpose {
+        match self {
+            Class::Caustic => Purpose::CausticPhoton,
+            Class::Indirect => Purpose::GlobalPhoton,
+        }
+    }
+}
+
+/// A photon on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Photon {
+    /// Where, in the world.
+    pub point: Vec3,
+    /// What it adds to the spectral power of its band: Φ / emitted × the number of bands, so that
+    /// light of equal energy has equal power in every band.
+    pub power: f32,
+    /// Number of the surface.
+    pub surface: u16,
+    /// Its wavelength's band.
+    pub band: u8,
+}
+
+/// Power, irradiance or radiance in each band.
+pub type Spectrum = [f32; BANDS];
+
+/// How the maps of a picture are made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Photons kept in each map.
+    pub photons: usize,
+    /// Photons that an estimate gathers.
+    pub nearest: usize,
+    /// The user's seed.
+    pub seed: u64,
+}
+
+/// The photons of one class, before they are arranged for look-up.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Shot {
+    /// The photons, powers scaled by the number emitted.
+    pub photons: Vec<Photon>,
+    /// Photons emitted to get them.
+    pub emitted: u64,
+}
+
+/// The stored photons of a scene, both classes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shots {
+    /// Light last from the stone.
+    pub caustic: Shot,
+    /// Light last from another surface.
+    pub indirect: Shot,
+}
+
+impl Shots {
+    /// Sends photons through a scene until each class has as many as asked for.
+    pub fn shoot(scene: &Scene, settings: &Settings) -> Shots {
+        Shots {
+            caustic: emission::shoot(scene, Class::Caustic, settings),
+            indirect: emission::shoot(scene, Class::Indirect, settings),
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Photon maps on disk.
