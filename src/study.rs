@@ -1,1 +1,4 @@
-//! x
+//! Studies: many stones, many scores.
+
+pub mod score;
+pub mod table;

@@ -4,6 +4,9 @@
 //! instructions once `dispatch.rs` has named the instruction set. `FUSED` says whether a fused
 //! multiply-add is an instruction (a library call otherwise).
 
+// the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
+#![allow(clippy::needless_range_loop)]
+
 use super::packet::{LANES, Lanes, Meeting, Packet};
 use super::stone::{Hit, Stone};
 use glam::Vec3;

@@ -1,0 +1,16 @@
+//! ASET by the strongest path: light from 45 to 75° above the girdle plane.
+
+use super::{Metric, Reading};
+use crate::experiments::view::Band;
+
+/// ASET by the strongest path: light from 45 to 75° above the girdle plane.
+pub static ASET_RED_STRONGEST: Metric = Metric {
+    name: "aset_red_strongest",
+    unit: "",
+    range: (0.0, 1.0),
+    definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \
+        light, scalar Fresnel, D line. Share of the outline whose strongest path comes from 45 to 75° \
+        above the girdle plane, as a photograph shows it; reflection at entry not counted.",
+    source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
+    reading: Reading::View(|t| (t.strongest[Band::Red as usize], t.rays)),
+};

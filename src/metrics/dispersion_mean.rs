@@ -1,0 +1,15 @@
+//! Mean separation of the colours.
+
+use super::{Metric, Reading};
+
+/// Mean separation of the colours.
+pub static DISPERSION_MEAN: Metric = Metric {
+    name: "dispersion_mean",
+    unit: "°",
+    range: (0.0, 180.0),
+    definition: "Vertical collimated beam on the whole outline, unpolarised, scalar Fresnel; exits upward through \
+        the crown. Angle between lines B and G where both leave by the same facets as D, mean weighted by \
+        the power at D. High for stones that return little: read it beside light return.",
+    source: "defined by cutlab",
+    reading: Reading::Beam(|t| (t.power_angle_deg, t.paired_power)),
+};

@@ -1,0 +1,16 @@
+//! Fire: length of the streaks.
+
+use super::{Metric, Reading};
+
+/// Fire: length of the streaks.
+pub static FIRE_STREAK: Metric = Metric {
+    name: "fire_streak",
+    unit: "°",
+    range: (0.0, 1e3),
+    definition: "Vertical collimated beam on the whole outline, unpolarised, scalar Fresnel; exits upward through \
+        the crown. Area of the exiting beams brighter than 1e-3 of the incident irradiance at D, weighted \
+        by cos² of the angle from zenith and by the angle between lines B and G where both leave by the \
+        same facets, per outline area. A surrogate.",
+    source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
+    reading: Reading::Beam(|t| (t.streak_deg, t.points)),
+};

@@ -1,0 +1,16 @@
+//! Leakage by the strongest path: the outline that looks down through the stone.
+
+use super::{Metric, Reading};
+use crate::experiments::view::Band;
+
+/// Leakage by the strongest path: the outline that looks down through the stone.
+pub static LEAKAGE_STRONGEST: Metric = Metric {
+    name: "leakage_strongest",
+    unit: "",
+    range: (0.0, 1.0),
+    definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \
+        light, scalar Fresnel, D line. Share of the outline whose strongest path comes from below the \
+        horizon, as a photograph shows it; reflection at entry not counted.",
+    source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
+    reading: Reading::View(|t| (t.strongest[Band::Below as usize], t.rays)),
+};

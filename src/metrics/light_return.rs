@@ -1,0 +1,16 @@
+//! Light return.
+
+use super::{Metric, Reading};
+
+/// Light return.
+pub static LIGHT_RETURN: Metric = Metric {
+    name: "light_return",
+    unit: "",
+    range: (0.0, 1.0),
+    definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \
+        Fresnel, D line. Power that leaves upward through the crown after entering, per power arriving. \
+        Directions are cosine-distributed about the crown facets' normals, points uniform by crown area; \
+        those from below the horizon are not counted.",
+    source: "defined by cutlab; light_return + glare + leakage + lost = 1",
+    reading: Reading::Hemisphere(|t| (t.returned, t.arrived)),
+};

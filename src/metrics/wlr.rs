@@ -1,0 +1,18 @@
+//! Weighted light return.
+
+use super::{Metric, Reading};
+
+/// Weighted light return.
+pub static WLR: Metric = Metric {
+    name: "wlr",
+    unit: "",
+    range: (0.0, 1.0),
+    definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \
+        Fresnel, D line. Power that leaves upward through the crown, weighted by cos² of its angle from \
+        zenith, surface reflection excluded, per power arriving. Directions are cosine-distributed about \
+        the crown facets' normals, points uniform by crown area; those from below the horizon are not \
+        counted.",
+    source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
+        which tests/scores.rs holds",
+    reading: Reading::Hemisphere(|t| (t.returned_cos2, t.arrived)),
+};
