@@ -8,6 +8,7 @@ mod import;
 mod list;
 mod outcome;
 mod parameters;
+mod render;
 mod show;
 mod stones;
 
@@ -40,6 +41,8 @@ enum Command {
     Import(import::Args),
     /// Proportions, facets, volume and weight
     Show(show::Args),
+    /// Take a photon-mapped picture, or a turntable of pictures
+    Render(render::Args),
     /// What there is to choose from
     List(list::Args),
 }
@@ -50,6 +53,7 @@ impl Command {
             Command::Generate(args) => generate::run(args, console),
             Command::Import(args) => import::run(args, console),
             Command::Show(args) => show::run(args, console),
+            Command::Render(args) => render::run(args, console),
             Command::List(args) => list::run(args, console),
         }
     }

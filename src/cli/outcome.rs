@@ -2,6 +2,7 @@
 
 use crate::cut::CutError;
 use crate::formats::FormatError;
+use crate::photons::file::MapFileError;
 use crate::solid::SolidError;
 use crate::store::replace::WriteError;
 use std::io::Write;
@@ -82,6 +83,16 @@ impl From<WriteError> for Failure {
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
         Failure::input(error.to_string())
+    }
+}
+
+impl From<MapFileError> for Failure {
+    fn from(error: MapFileError) -> Failure {
+        match error {
+            MapFileError::Write(cause) => cause.into(),
+            MapFileError::Read { .. } => Failure { code: Code::Io, message: error.to_string() },
+            _ => Failure::input(error.to_string()),
+        }
     }
 }
 

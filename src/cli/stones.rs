@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::Design;
-use crate::formats::stone::{self, Imported};
+use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
 use rayon::prelude::*;
