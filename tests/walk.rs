@@ -132,7 +132,8 @@ fn assert_energy(stone: &Stone, mut packet: Packet, reflected: [f32; LANES], sto
 
 #[test]
 fn what_enters_leaves_or_is_counted_as_lost() {
-    for (number, solid) in [brilliant(), random_stone(4, 0), random_stone(500, 1), cube()].into_iter().enumerate()
+    for (number, solid) in
+        [brilliant(), random_stone(4, 0), random_stone(500, 1), cube()].into_iter().enumerate()
     {
         let stone = Stone::new(solid);
         let mut s = Stream::new(SEED, Purpose::Test, 100 + number as u64);
@@ -230,7 +231,11 @@ fn same_way(planes: &[Plane], ray: scalar::Ray, met: &[(usize, f64)]) -> bool {
             let there = distance_to(&planes[facet], from.0, from.1);
             let behind = there.map(|d| d - m.point.distance(from.0));
             let tie = TIE * (at + 1) as f64;
-            assert!(behind.is_some_and(|b| b < tie), "meeting {at}: {facet} is {behind:?} behind {}", m.facet);
+            assert!(
+                behind.is_some_and(|b| b < tie),
+                "meeting {at}: {facet} is {behind:?} behind {}",
+                m.facet
+            );
             together = false;
         }
         if together {
