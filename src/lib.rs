@@ -7,13 +7,16 @@
 //! `math store` → `optics solid` → `cut` `walk` → `formats` → `scene` → `transport` →
 //! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
 
+pub mod cli;
 pub mod cut;
 pub mod experiments;
+pub mod formats;
 pub mod math;
 pub mod metrics;
 pub mod optics;
 pub mod photons;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod solid;
 pub mod store;

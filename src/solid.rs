@@ -4,6 +4,8 @@ pub mod measure;
 pub mod mesh;
 pub mod plane;
 pub mod polyhedron;
+pub mod recover;
+mod surface;
 
 pub use plane::Plane;
 pub use polyhedron::{Polyhedron, SolidError};

@@ -73,7 +73,7 @@ impl<'a> View<'a> {
 }
 
 /// The band of a direction whose z is `z`.
-fn band(z: f32) -> Band {
+pub fn band(z: f32) -> Band {
     if z >= BAND_ENDS[1] {
         Band::Blue
     } else if z >= BAND_ENDS[0] {

@@ -108,8 +108,8 @@ impl Polyhedron {
         let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
         let mut cut = Carving::box_of(size * BOX, size * ON_PLANE);
         let mut fates = Vec::with_capacity(planes.len());
-        for (i, plane) in planes.iter().enumerate() {
-            fates.push(cut.by(i, plane)?);
+        for i in 0..planes.len() {
+            fates.push(cut.by(i, planes)?);
         }
         cut.refuse_open(size)?;
         Ok(cut.finish(planes, fates))
@@ -152,8 +152,9 @@ impl Carving {
         Self { vertices, faces, on_plane }
     }
 
-    /// Cuts by one plane.
-    fn by(&mut self, number: usize, plane: &Plane) -> Result<Fate, SolidError> {
+    /// Cuts by plane `number` of `planes`.
+    fn by(&mut self, number: usize, planes: &[Plane]) -> Result<Fate, SolidError> {
+        let plane = &planes[number];
         let side: Vec<i8> = self
             .vertices
             .iter()
@@ -205,7 +206,21 @@ impl Carving {
         }
         let corners = ring(rim).ok_or(SolidError::Degenerate { plane: number })?;
         self.faces.push(Face { plane: number, corners });
+        self.settle_from(side.len(), planes);
         Ok(Fate::Facet(0)) // the face's number is known at the end
+    }
+
+    /// Puts the corners from number `first` on onto their planes. A corner cut from an edge that
+    /// ran to the far box has that edge's rounding, ten thousand times the stone's own: unsettled,
+    /// it can miss a plane that passes through it, and the stone gets two corners in one place.
+    fn settle_from(&mut self, first: usize, planes: &[Plane]) {
+        let mut around = vec![Vec::new(); self.vertices.len() - first];
+        for f in self.faces.iter().filter(|f| f.plane != OF_THE_BOX) {
+            f.corners.iter().filter(|c| **c >= first).for_each(|&c| around[c - first].push(f.plane));
+        }
+        for (v, around) in self.vertices[first..].iter_mut().zip(&around) {
+            *v = settle(*v, around, planes);
+        }
     }
 
     fn refuse_open(&self, size: f64) -> Result<(), SolidError> {

@@ -1,0 +1,87 @@
+//! The command line: one subcommand a file.
+//!
+//! A new subcommand is one file in `cli/`, one line in [`Command`] and one in its `run`.
+
+mod console;
+mod generate;
+mod import;
+mod list;
+mod outcome;
+mod parameters;
+mod render;
+mod show;
+mod stones;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use console::Console;
+use outcome::{Code, Failure};
+use std::process::ExitCode;
+
+/// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
+#[derive(Debug, Parser)]
+#[command(name = "cutlab", version, max_term_width = 100, after_help = AFTER_HELP)]
+struct Cli {
+    #[command(flatten)]
+    console: Console,
+    #[command(subcommand)]
+    command: Command,
+}
+
+const AFTER_HELP: &str = "\
+STONE is a name from `cutlab list cuts`, a name with parameters
+(round-brilliant:crown-angle=35,pavilion-angle=41), or a file.
+Exit codes: 0 done, 1 some stones failed, 2 usage or no input was good,
+3 could not read or write, 130 interrupted.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Make a stone from its parameters and write it as OBJ, STL, GLB or TOML
+    Generate(generate::Args),
+    /// Read designs and meshes and write them in another format
+    Import(import::Args),
+    /// Proportions, facets, volume and weight
+    Show(show::Args),
+    /// Take a photon-mapped picture, or a turntable of pictures
+    Render(render::Args),
+    /// What there is to choose from
+    List(list::Args),
+}
+
+impl Command {
+    fn run(&self, console: &Console) -> Result<Code, Failure> {
+        match self {
+            Command::Generate(args) => generate::run(args, console),
+            Command::Import(args) => import::run(args, console),
+            Command::Show(args) => show::run(args, console),
+            Command::Render(args) => render::run(args, console),
+            Command::List(args) => list::run(args, console),
+        }
+    }
+}
+
+/// Runs the program on the process's arguments and gives its exit code.
+///
+/// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
+/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs`.
+pub fn run() -> ExitCode {
+    // if the handler cannot be set the system's own takes its place: the program still stops
+    let _ = ctrlc::set_handler(|| std::process::exit(outcome::INTERRUPTED));
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return outcome::usage(&error, &Cli::command()),
+    };
+    match cli.command.run(&cli.console) {
+        Ok(code) => code.into(),
+        Err(failure) => failure.report(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

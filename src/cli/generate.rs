@@ -1,0 +1,93 @@
+//! `cutlab generate`: a stone from its parameters.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::parameters::Parameters;
+use super::stones::{self, DEFAULT_STONE};
+use crate::cut::{families, library};
+use crate::formats;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab generate --facets 153                    round-brilliant-153.obj in this folder
+  cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
+  cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron")]
+pub struct Args {
+    /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
+    #[arg(default_value = DEFAULT_STONE)]
+    stone: String,
+    /// Exact total of facets; girdle flats are added or taken to meet it
+    #[arg(long, value_name = "N")]
+    facets: Option<u32>,
+    /// Girdle diameter (width) in millimetres
+    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    size: Option<f64>,
+    /// Where to write; the ending chooses the format; may be given several times
+    #[arg(long, short, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    #[command(flatten)]
+    parameters: Parameters,
+}
+
+/// What was made, for `--json`.
+#[derive(serde::Serialize)]
+struct Made {
+    name: String,
+    facets: usize,
+    made_up_of: String,
+    files: Vec<PathBuf>,
+}
+
+/// Makes the stone and writes it.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let mut parameters = args.parameters.clone();
+    if let Some(n) = args.facets {
+        parameters.0.insert("facets".into(), n.into());
+    }
+    let has_size = takes_size(&args.stone);
+    if let (true, Some(mm)) = (has_size, args.size) {
+        parameters.0.insert("size".into(), mm);
+    }
+    let name = args.stone.split(':').next().unwrap_or_default();
+    if let (None, Some(flag)) = (library::document(name), parameters.0.keys().next())
+        && Path::new(&args.stone).exists()
+    {
+        return Err(Failure::input(format!(
+            "{} is a file with fixed facets: --{flag} needs a parametric cut (cutlab list cuts)",
+            args.stone
+        )));
+    }
+    let imported = stones::open(&parameters.applied_to(&args.stone))?;
+    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+    let design = stones::sized(imported.design, args.size.filter(|_| !has_size))?;
+    let (made_up_of, facets) = families::made_up_of(&design)?;
+
+    let mut files = args.output.clone();
+    if files.is_empty() {
+        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone)).into());
+    }
+    for file in &files {
+        formats::write(&design, file)?;
+        console.note(&format!("wrote {}", file.display()));
+    }
+    let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
+    if files.iter().any(|f| f == Path::new("-")) {
+        console.note(&summary);
+    } else if console.json {
+        console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
+    } else {
+        console.print(&summary)?;
+    }
+    Ok(Code::Done)
+}
+
+/// Whether the stone's family has a parameter `size`; other stones are scaled as a whole.
+fn takes_size(spec: &str) -> bool {
+    let name = spec.split(':').next().unwrap_or_default();
+    let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
+    family
+        .and_then(|f| families::family(&f).ok())
+        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"))
+}

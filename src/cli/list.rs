@@ -1,0 +1,61 @@
+//! `cutlab list`: what there is to choose from, straight from the catalogues.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use crate::cut::library;
+use crate::optics::materials::MATERIALS;
+use serde::Serialize;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Which catalogue
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Kind {
+    /// Cuts of the library
+    Cuts,
+    /// Materials
+    Materials,
+}
+
+#[derive(Serialize)]
+struct Entry {
+    name: String,
+    about: String,
+}
+
+/// Lists a catalogue.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let entries = match args.kind {
+        Kind::Cuts => cuts(),
+        Kind::Materials => entries(MATERIALS.iter().map(|m| {
+            let weight = m.specific_gravity.map_or(String::new(), |sg| format!(", density {sg} g/cm³"));
+            (m.name.to_string(), format!("{}, n_D {:.4}{weight}", m.about, m.index_d()))
+        })),
+    };
+    if console.json {
+        console.print_json(&entries)?;
+    } else {
+        let width = entries.iter().map(|e| e.name.len()).max().unwrap_or(0);
+        let lines: Vec<String> = entries.iter().map(|e| format!("{:width$}  {}", e.name, e.about)).collect();
+        console.print(&lines.join("\n"))?;
+    }
+    Ok(Code::Done)
+}
+
+fn entries(pairs: impl Iterator<Item = (String, String)>) -> Vec<Entry> {
+    pairs.map(|(name, about)| Entry { name, about }).collect()
+}
+
+fn cuts() -> Vec<Entry> {
+    entries(library::names().map(|name| {
+        let about = match library::document(name) {
+            Some(Ok(document)) => document.about,
+            Some(Err(error)) => error.to_string(), // a test keeps this from happening
+            None => String::new(),
+        };
+        (name.to_string(), about)
+    }))
+}

@@ -1,0 +1,166 @@
+//! How a command ends: exit codes, and errors of one line.
+
+use crate::cut::CutError;
+use crate::formats::FormatError;
+use crate::photons::file::MapFileError;
+use crate::solid::SolidError;
+use crate::store::replace::WriteError;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Exit code after an interrupt from the keyboard: 128 + SIGINT, as shells have it.
+pub const INTERRUPTED: i32 = 130;
+
+/// Exit codes, as the README lists them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// Everything was done.
+    Done = 0,
+    /// Some stones failed, the rest were done.
+    SomeFailed = 1,
+    /// The command was not understood, or no input was good.
+    NoGoodInput = 2,
+    /// Something could not be read or written.
+    Io = 3,
+}
+
+impl From<Code> for ExitCode {
+    fn from(code: Code) -> ExitCode {
+        ExitCode::from(code as u8)
+    }
+}
+
+/// A command that ends early, and why.
+#[derive(Debug)]
+pub struct Failure {
+    code: Code,
+    message: String,
+}
+
+impl Failure {
+    /// A wrong argument or unusable input.
+    pub fn input(message: impl Into<String>) -> Failure {
+        Failure { code: Code::NoGoodInput, message: message.into() }
+    }
+
+    /// Standard output could not be written; a reader that went away is no error.
+    pub fn output(cause: &std::io::Error) -> Failure {
+        if cause.kind() == std::io::ErrorKind::BrokenPipe {
+            Failure { code: Code::Done, message: String::new() }
+        } else {
+            Failure { code: Code::Io, message: format!("cannot write to standard output: {cause}") }
+        }
+    }
+
+    /// What to say, in one line; empty if there is nothing to say.
+    pub fn message(&self) -> String {
+        one_line(&self.message)
+    }
+
+    /// The exit code.
+    pub fn code(&self) -> Code {
+        self.code
+    }
+
+    /// Says it on standard error and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        if !self.message.is_empty() {
+            complain(&self.message());
+        }
+        self.code.into()
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Failure {
+        if error.cause.kind() == std::io::ErrorKind::BrokenPipe {
+            return Failure::output(&error.cause);
+        }
+        Failure { code: Code::Io, message: error.to_string() }
+    }
+}
+
+impl From<FormatError> for Failure {
+    fn from(error: FormatError) -> Failure {
+        Failure::input(error.to_string())
+    }
+}
+
+impl From<MapFileError> for Failure {
+    fn from(error: MapFileError) -> Failure {
+        match error {
+            MapFileError::Write(cause) => cause.into(),
+            MapFileError::Read { .. } => Failure { code: Code::Io, message: error.to_string() },
+            _ => Failure::input(error.to_string()),
+        }
+    }
+}
+
+impl From<CutError> for Failure {
+    fn from(error: CutError) -> Failure {
+        Failure::input(error.to_string())
+    }
+}
+
+impl From<SolidError> for Failure {
+    fn from(error: SolidError) -> Failure {
+        Failure::input(error.to_string())
+    }
+}
+
+/// One line on standard error; nobody there to read it is no reason to fail.
+pub fn complain(message: &str) {
+    let _ = writeln!(std::io::stderr(), "cutlab: {}", one_line(message));
+}
+
+/// The text with its lines joined.
+fn one_line(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
+    lines.join("; ")
+}
+
+/// Ends after the argument parser: help and version go to standard output, an error becomes one
+/// line that ends in what to type next.
+pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
+    use clap::error::ErrorKind;
+    let asked = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if asked || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return match error.print() {
+            Err(cause) if asked => Failure::output(&cause).report(),
+            _ => if asked { Code::Done } else { Code::NoGoodInput }.into(),
+        };
+    }
+    let text = error.to_string();
+    let said: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let said = said.join(" ");
+    let said = said.strip_prefix("error: ").unwrap_or(&said);
+    complain(&format!("{said}; see {}", help_command(command)));
+    Code::NoGoodInput.into()
+}
+
+/// The help command nearest to what was typed.
+fn help_command(command: &clap::Command) -> String {
+    let typed: Vec<String> = std::env::args().skip(1).collect();
+    let sub = command.get_subcommands().map(clap::Command::get_name).find(|s| typed.iter().any(|t| t == s));
+    sub.map_or_else(|| "cutlab --help".into(), |s| format!("cutlab {s} --help"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_one_line_and_a_closed_pipe_is_none() {
+        assert_eq!(Failure::input("a\n  b\n").message(), "a; b");
+        let gone = std::io::Error::from(std::io::ErrorKind::BrokenPipe);
+        assert_eq!(Failure::output(&gone).code(), Code::Done);
+        assert!(Failure::output(&gone).message().is_empty());
+        let full = std::io::Error::from(std::io::ErrorKind::StorageFull);
+        assert_eq!(Failure::output(&full).code(), Code::Io);
+    }
+}

@@ -1,0 +1,233 @@
+//! `cutlab show`: what a cutter or a grader reads off a stone.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::stones;
+use crate::cut::proportions::{self, Proportions};
+use crate::cut::{Design, Unit};
+use crate::optics::fresnel::critical_angle_deg;
+use crate::optics::{Material, materials};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Stones: names from `cutlab list cuts`, with parameters or not, or files
+    #[arg(required = true, value_name = "STONE")]
+    stones: Vec<String>,
+    /// Girdle width in millimetres, for volume in mm³ and weight
+    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    size: Option<f64>,
+    /// Material, for critical angle and weight [the file's own index; weight as diamond]
+    #[arg(long, value_name = "NAME", value_parser = stones::material)]
+    material: Option<&'static Material>,
+}
+
+/// One stone as JSON. Lengths are in `unit`, percentages of the girdle width.
+#[derive(Debug, Serialize)]
+struct Sheet {
+    file: String,
+    format: String,
+    name: String,
+    facets: usize,
+    closed: bool,
+    convex: bool,
+    /// Why it is not closed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    /// In the file's own unit cubed; null for an open design.
+    volume: Option<f64>,
+    unit: &'static str,
+    facets_by_kind: BTreeMap<&'static str, usize>,
+    #[serde(flatten)]
+    measured: Option<Measured>,
+    material: String,
+    refractive_index: f64,
+    critical_angle_deg: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Measured {
+    width: f64,
+    length: f64,
+    surface: f64,
+    table_percent: Option<f64>,
+    crown_angle_deg: Option<f64>,
+    crown_height_percent: f64,
+    pavilion_angle_deg: Option<f64>,
+    pavilion_depth_percent: f64,
+    girdle_percent: f64,
+    depth_percent: f64,
+    culet_percent: f64,
+    width_mm: Option<f64>,
+    volume_mm3: Option<f64>,
+    carats: Option<f64>,
+    weighed_as: Option<String>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry<'a> {
+    Good(&'a Sheet),
+    Bad { file: &'a str, error: String },
+}
+
+/// Shows every stone.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let results = stones::each(&args.stones, console, "reading", |spec| sheet(spec, args));
+    let pairs = args.stones.iter().zip(&results);
+    if console.json {
+        let entries: Vec<Entry> = pairs
+            .map(|(file, result)| match result {
+                Ok(sheet) => Entry::Good(sheet),
+                Err(failure) => Entry::Bad { file, error: failure.message() },
+            })
+            .collect();
+        console.print_json(&entries)?;
+    } else {
+        let mut text = String::new();
+        for sheet in results.iter().flatten() {
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            text += &sheet.text();
+        }
+        if !text.is_empty() {
+            console.print(&text)?;
+        }
+        results.iter().filter_map(|r| r.as_ref().err()).for_each(|f| console.complain(&f.message()));
+    }
+    Ok(stones::code(&results))
+}
+
+fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
+    let imported = stones::open(spec)?;
+    let design = imported.design;
+    let (material, index) = match (args.material, design.refractive_index) {
+        (Some(m), _) => (m.name.to_string(), m.index_d()),
+        (None, Some(n)) => ("the file's index".into(), n),
+        (None, None) => (materials::MATERIALS[0].name.to_string(), materials::MATERIALS[0].index_d()),
+    };
+    let proportions = match proportions::of(&design) {
+        Ok(p) => Ok(p),
+        Err(e @ crate::solid::SolidError::Open { .. }) => Err(e.to_string()),
+        Err(e) => return Err(Failure::input(format!("{spec}: {e}"))),
+    };
+    let closed = proportions.as_ref().ok();
+    Ok(Sheet {
+        file: spec.into(),
+        format: imported.format.to_string(),
+        name: design.name.clone(),
+        facets: closed.map_or(design.facets().count(), |p| p.facets),
+        closed: closed.is_some(),
+        convex: true, // the planes are the truth, and half-spaces meet in a convex solid
+        reason: proportions.as_ref().err().cloned(),
+        volume: closed.map(|p| p.volume),
+        unit: match design.unit {
+            Unit::Millimetre => "mm",
+            Unit::Free => "file",
+        },
+        facets_by_kind: closed.map(|p| p.by_zone.iter().copied().collect()).unwrap_or_default(),
+        measured: closed.map(|p| Measured::of(p, &design, args)),
+        material,
+        refractive_index: index,
+        critical_angle_deg: critical_angle_deg(index),
+        warnings: imported.warnings,
+    })
+}
+
+impl Measured {
+    fn of(p: &Proportions, design: &Design, args: &Args) -> Measured {
+        // weight is asked for by --size or known by the unit; without a material it is diamond's
+        let to_mm = match (args.size, design.unit) {
+            (Some(mm), _) => Some(mm / p.width),
+            (None, Unit::Millimetre) => Some(1.0),
+            (None, Unit::Free) => None,
+        };
+        let volume_mm3 = to_mm.map(|k| p.volume * k.powi(3));
+        let weighed = args.material.unwrap_or(materials::MATERIALS[0]);
+        let carats = volume_mm3.and_then(|v| weighed.carats(v));
+        Measured {
+            width: p.width,
+            length: p.length,
+            surface: p.surface,
+            table_percent: p.table_percent,
+            crown_angle_deg: p.crown_angle_deg,
+            crown_height_percent: p.crown_height_percent,
+            pavilion_angle_deg: p.pavilion_angle_deg,
+            pavilion_depth_percent: p.pavilion_depth_percent,
+            girdle_percent: p.girdle_percent,
+            depth_percent: p.depth_percent,
+            culet_percent: p.culet_percent,
+            width_mm: to_mm.map(|k| p.width * k),
+            volume_mm3,
+            carats,
+            weighed_as: carats.map(|_| weighed.name.to_string()),
+        }
+    }
+}
+
+impl Sheet {
+    fn text(&self) -> String {
+        let mut out = format!("{} ({})\n", self.file, self.format);
+        let mut line = |label: &str, value: String| {
+            let _ = writeln!(out, "  {label:<15} {value}");
+        };
+        if !self.name.is_empty() && self.name != self.file {
+            line("name", self.name.clone());
+        }
+        let kinds: Vec<String> = ["table", "crown", "girdle", "pavilion", "culet"]
+            .iter()
+            .filter_map(|k| self.facets_by_kind.get(k).filter(|n| **n > 0).map(|n| format!("{n} {k}")))
+            .collect();
+        line(
+            "facets",
+            if kinds.is_empty() {
+                format!("{} planes", self.facets)
+            } else {
+                format!("{} = {}", self.facets, kinds.join(" + "))
+            },
+        );
+        if let (Some(m), Some(volume)) = (&self.measured, self.volume) {
+            let angle = |a: Option<f64>| a.map_or("no facets".into(), |a| format!("{a:.2}°"));
+            let unit = if self.unit == "mm" { " mm" } else { "" };
+            line("table", m.table_percent.map_or("none".into(), |t| format!("{t:.2} %")));
+            line("crown", format!("{}, height {:.2} %", angle(m.crown_angle_deg), m.crown_height_percent));
+            line(
+                "pavilion",
+                format!("{}, depth {:.2} %", angle(m.pavilion_angle_deg), m.pavilion_depth_percent),
+            );
+            line("girdle", format!("{:.2} % at its thick places", m.girdle_percent));
+            if m.culet_percent > 0.0 {
+                line("culet", format!("{:.2} %", m.culet_percent));
+            }
+            line("depth", format!("{:.2} %", m.depth_percent));
+            line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
+            line(
+                "volume",
+                match self.unit {
+                    "mm" => format!("{volume:.4} mm³"),
+                    _ => format!("{volume:.6} in the file's own unit"),
+                },
+            );
+            if let (Some(mm), Some(mm3)) = (m.width_mm, m.volume_mm3) {
+                let weight = match (m.carats, &m.weighed_as) {
+                    (Some(ct), Some(name)) => format!("{ct:.3} ct in {name}"),
+                    _ => "the material's density is not known".into(),
+                };
+                line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm} mm)"));
+            }
+        }
+        line("closed", self.reason.clone().map_or("yes".into(), |why| format!("no, {why}")));
+        line("convex", if self.convex { "yes" } else { "no" }.into());
+        line(
+            "critical angle",
+            format!("{:.2}° ({}, n {:.4})", self.critical_angle_deg, self.material, self.refractive_index),
+        );
+        self.warnings.iter().for_each(|w| line("note", w.clone()));
+        out
+    }
+}

@@ -1,0 +1,86 @@
+//! STONE arguments: opened in parallel, each on its own, and the options about them.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use crate::cut::Design;
+use crate::formats::{Imported, stone};
+use crate::optics::Material;
+use crate::optics::materials::MATERIALS;
+use rayon::prelude::*;
+
+/// The stone that every command takes when none is named.
+pub const DEFAULT_STONE: &str = "round-brilliant";
+
+/// Opens one STONE.
+pub fn open(spec: &str) -> Result<Imported, Failure> {
+    Ok(stone::open(spec)?)
+}
+
+/// Does `work` for every stone, in parallel; results in the order of `specs`. A stone that fails
+/// does not stop the rest.
+pub fn each<T: Send>(
+    specs: &[String],
+    console: &Console,
+    what: &'static str,
+    work: impl Fn(&str) -> Result<T, Failure> + Sync,
+) -> Vec<Result<T, Failure>> {
+    let bar = console.progress(specs.len(), what);
+    let results = specs
+        .par_iter()
+        .map(|spec| {
+            let result = work(spec);
+            bar.inc(1);
+            result
+        })
+        .collect();
+    bar.finish_and_clear();
+    results
+}
+
+/// The exit code of a batch: what went wrong with each stone is known, and how many were good.
+pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
+    let failed: Vec<Code> = results.iter().filter_map(|r| r.as_ref().err().map(Failure::code)).collect();
+    match (failed.len(), results.len()) {
+        (0, _) => Code::Done,
+        (bad, all) if bad < all => Code::SomeFailed,
+        _ if failed.iter().all(|c| *c == Code::Io) => Code::Io,
+        _ => Code::NoGoodInput,
+    }
+}
+
+/// Value parser of `--size`.
+pub fn millimetres(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if (1e-3..=1e3).contains(&mm) => Ok(mm),
+        _ => Err("a girdle width is a number of millimetres from 0.001 to 1000".into()),
+    }
+}
+
+/// Value parser of `--material`.
+pub fn material(name: &str) -> Result<&'static Material, String> {
+    Material::named(name).ok_or_else(|| {
+        let near = nearest(name, MATERIALS.iter().map(|m| m.name.as_ref()));
+        format!("no material is called '{name}', the nearest is '{near}' (all: cutlab list materials)")
+    })
+}
+
+/// The candidate most like `name`.
+pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
+    let likeness = |c: &&str| strsim::jaro_winkler(c, name);
+    candidates.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or_default()
+}
+
+/// The stone's design, with `--size` applied.
+pub fn sized(design: Design, size: Option<f64>) -> Result<Design, Failure> {
+    Ok(match size {
+        Some(mm) => design.sized(mm)?,
+        None => design,
+    })
+}
+
+/// A file name for a stone: the cut's name, or the file's without folder and ending.
+pub fn file_stem(spec: &str) -> String {
+    let name = spec.split(':').next().unwrap_or(spec);
+    let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    if stem.is_empty() { "stone".into() } else { stem.into_owned() }
+}

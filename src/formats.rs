@@ -1,0 +1,192 @@
+//! Foreign designs and meshes: one format a file, one error type, one grammar for stones.
+//!
+//! The bytes decide which reader is used; only for writing does the file's ending decide.
+
+mod beside;
+mod cs580;
+pub mod error;
+mod gemcad_text;
+mod glb;
+mod glb_write;
+mod obj;
+mod own;
+mod perfect_diamond;
+mod refused;
+mod sc_tracer;
+mod shell;
+pub mod source;
+mod stl;
+pub mod stone;
+mod triangle_words;
+
+pub use error::FormatError;
+pub use source::Source;
+
+use crate::cut::Design;
+use crate::solid::polyhedron::Fate;
+use crate::solid::recover::MOST_FACETS;
+use crate::store::replace;
+use std::io::Read;
+use std::path::Path;
+
+/// Largest file that is read: a hundred times the largest mesh of a convex stone. What a reader
+/// allots is bounded by the bytes it was given.
+pub const MOST_BYTES: u64 = 64 << 20;
+
+/// A file format.
+pub struct Format {
+    /// Its name, as in `--to NAME` and in reports.
+    pub name: &'static str,
+    /// File endings in lower case, the usual one first.
+    pub extensions: &'static [&'static str],
+    /// One line of help.
+    pub about: &'static str,
+    /// How surely a file is of this format, 0 (not at all) to 100 (a magic number).
+    pub sniff: fn(&Source) -> u8,
+    /// Reads a design.
+    pub read: fn(&Source) -> Result<Reading, FormatError>,
+    /// Writes a design, if the format can be written.
+    pub write: Option<fn(&Design) -> Result<Vec<u8>, FormatError>>,
+}
+
+/// Every format that is read.
+pub static FORMATS: &[&Format] = &[
+    &own::FORMAT,
+    &gemcad_text::FORMAT,
+    &obj::FORMAT,
+    &stl::FORMAT,
+    &glb::FORMAT,
+    &sc_tracer::FORMAT,
+    &cs580::FORMAT,
+    &perfect_diamond::SCENE,
+    &perfect_diamond::LIST,
+];
+
+/// A design as a reader found it, and what it had to overlook.
+#[derive(Debug)]
+pub struct Reading {
+    /// The design.
+    pub design: Design,
+    /// One line each.
+    pub warnings: Vec<String>,
+}
+
+/// A design from outside.
+#[derive(Debug)]
+pub struct Imported {
+    /// The design. Its planes are known to bound a solid.
+    pub design: Design,
+    /// Name of the format it came in, or `library`.
+    pub format: &'static str,
+    /// What had to be overlooked or may surprise, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// Reads the file at `path`, whatever its ending.
+///
+/// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
+pub fn read(path: &Path) -> Result<Imported, FormatError> {
+    let name = path.display().to_string();
+    let bytes = bytes_of(path, MOST_BYTES)?;
+    read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+}
+
+/// The bytes of a file, if they are not more than `most`.
+fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, FormatError> {
+    let file = || path.display().to_string();
+    let fail = |cause| FormatError::Read { file: file(), cause };
+    let mut bytes = Vec::new();
+    std::fs::File::open(path).map_err(fail)?.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > most {
+        return Err(FormatError::TooLarge { file: file(), limit: MOST_BYTES });
+    }
+    Ok(bytes)
+}
+
+/// Reads a file from memory.
+///
+/// - `name`: shown in errors; its ending only tells apart formats that are refused
+/// - `folder`: where files that it refers to must lie; none refuses them
+pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imported, FormatError> {
+    let source = Source { name, bytes, folder };
+    let (sure, format) = FORMATS
+        .iter()
+        .rev()
+        .map(|f| ((f.sniff)(&source), *f))
+        .max_by_key(|(sure, _)| *sure)
+        .filter(|(sure, _)| *sure > 0)
+        .ok_or_else(|| refused::why(&source))?;
+    /// Below this a known ending is the better evidence.
+    const GUESS: u8 = 30;
+    if sure < GUESS && refused::by_name(&source).is_some() {
+        return Err(refused::why(&source));
+    }
+    let Reading { design, mut warnings } = (format.read)(&source)?;
+    warnings.extend(closed(name, &design)?);
+    Ok(Imported { design, format: format.name, warnings })
+}
+
+/// Checks that the planes bound a solid; remarks on planes that bound nothing of it.
+fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
+    let facets = design.facets().count();
+    if facets > MOST_FACETS {
+        return Err(FormatError::TooManyFacets { file: file.into(), facets, most: MOST_FACETS });
+    }
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
+    let count = |wanted: fn(&Fate) -> bool| solid.fates.iter().filter(|f| wanted(f)).count();
+    let mut remarks = Vec::new();
+    for (n, what) in [
+        (count(|f| matches!(f, Fate::Duplicate(_))), "coincide with other facets"),
+        (count(|f| matches!(f, Fate::Redundant)), "do not touch the stone"),
+    ] {
+        if n > 0 {
+            remarks.push(format!("{n} of {facets} facets {what}"));
+        }
+    }
+    Ok(remarks)
+}
+
+/// Writes the design to `path` in the format that its ending names.
+///
+/// The file is replaced whole. Checked in `tests/formats.rs`.
+pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
+    let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+    let bytes = encoded(design, &path.display().to_string(), |f| f.extensions.contains(&ending.as_str()))?;
+    Ok(replace::write(path, &bytes)?)
+}
+
+/// The bytes of a file of the design in the format called `format`, by name or ending.
+pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
+    encoded(design, format, |f| f.name == format || f.extensions.contains(&format))
+}
+
+fn encoded(design: &Design, asked: &str, wanted: impl Fn(&Format) -> bool) -> Result<Vec<u8>, FormatError> {
+    let writers = || FORMATS.iter().filter_map(|f| f.write.map(|write| (*f, write)));
+    let Some((_, write)) = writers().find(|(f, _)| wanted(f)) else {
+        let known = writers().filter_map(|(f, _)| f.extensions.first().copied()).collect();
+        return Err(FormatError::NoWriter { asked: asked.into(), known });
+    };
+    write(design)
+}
+
+/// A name for each facet, in the order of [`Design::facets`]: its own, or its tier's with a number.
+fn facet_labels(design: &Design) -> Vec<String> {
+    design
+        .tiers
+        .iter()
+        .enumerate()
+        .flat_map(|(t, tier)| {
+            tier.facets.iter().enumerate().map(move |(i, f)| match (&*f.name, &*tier.name) {
+                ("", "") => format!("tier {} {}", t + 1, i + 1),
+                ("", of) => format!("{of} {}", i + 1),
+                (own, _) => own.to_owned(),
+            })
+        })
+        .collect()
+}
+
+impl std::fmt::Debug for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}

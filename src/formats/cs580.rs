@@ -1,0 +1,38 @@
+//! CS580 triangle list, `.asc`: per corner place, normal and texture coordinates.
+//!
+//! A word `triangle…`, then three times `x y z nx ny nz u v`; line ends are often lone CR, and some
+//! files hold a line `object`. The normals are for shading and not used.
+
+use super::error::FormatError;
+use super::shell::{STATED_IN_F32, design_of_mesh};
+use super::source::Source;
+use super::triangle_words::{first_count, records};
+use super::{Format, Reading};
+use crate::solid::recover::Polygon;
+use glam::DVec3;
+
+/// Triangle lists with 24 numbers a triangle.
+pub static FORMAT: Format = Format {
+    name: "cs580",
+    extensions: &["asc"],
+    about: "CS580 triangle list: place, normal and texture of each corner",
+    sniff: |source| if first_count(source) == Some(24) { 90 } else { 0 },
+    read,
+    write: None,
+};
+
+fn read(source: &Source) -> Result<Reading, FormatError> {
+    let text = source.text();
+    let mut vertices = Vec::new();
+    let mut polygons = Vec::new();
+    for record in records(source, &text)? {
+        if record.numbers.len() != 24 {
+            let found = format!("{} numbers", record.numbers.len());
+            return Err(source.at_line(record.line, "24 numbers after 'triangle'", &found));
+        }
+        let first = vertices.len();
+        vertices.extend(record.numbers.chunks_exact(8).map(|c| DVec3::new(c[0], c[1], c[2])));
+        polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
+    }
+    design_of_mesh(source, &vertices, &polygons, STATED_IN_F32)
+}

@@ -1,0 +1,156 @@
+//! The one error of every reader and writer. Each is one line.
+
+use crate::cut::document::DocumentError;
+use crate::solid::SolidError;
+use crate::solid::recover::RecoverError;
+use crate::store::replace::WriteError;
+
+/// A stone that could not be read or written: which file, where in it, what was expected and what
+/// was found.
+#[derive(Debug, thiserror::Error)]
+pub enum FormatError {
+    /// The operating system refused.
+    #[error("cannot read {file}: {cause}")]
+    Read {
+        /// The file.
+        file: String,
+        /// What the operating system said.
+        cause: std::io::Error,
+    },
+    /// A file beyond [`super::MOST_BYTES`].
+    #[error("{file} is larger than {limit} bytes, more than any stone needs; it was not read")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// A text file that breaks off or says something else than its format allows.
+    #[error("{file}, line {line}: expected {expected}, found {found}")]
+    Line {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// What should stand there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A binary file that breaks off or says something else than its format allows.
+    #[error("{file}, byte {offset}: expected {expected}, found {found}")]
+    Byte {
+        /// The file.
+        file: String,
+        /// Offset from the file's start.
+        offset: usize,
+        /// What should stand there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// Bytes of no format that cutlab knows.
+    #[error("{file}, byte 0: expected one of {}, found {found}", .known.join(", "))]
+    Unrecognised {
+        /// The file.
+        file: String,
+        /// Its first bytes.
+        found: String,
+        /// The formats that are read.
+        known: Vec<&'static str>,
+    },
+    /// A format known by name that cutlab does not read.
+    #[error("{file}: {format} files are not read: {instead}")]
+    Refused {
+        /// The file.
+        file: String,
+        /// The format's name.
+        format: &'static str,
+        /// What to do instead.
+        instead: &'static str,
+    },
+    /// A mesh that is no convex stone.
+    #[error("{file}: {cause}")]
+    Mesh {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        cause: RecoverError,
+    },
+    /// Planes that bound no stone.
+    #[error("{file}: {cause}")]
+    Solid {
+        /// The file, or the design's name when writing.
+        file: String,
+        /// What is wrong with them.
+        cause: SolidError,
+    },
+    /// More facets than any stone has.
+    #[error("{file}: {facets} facets, more than the {most} that are read")]
+    TooManyFacets {
+        /// The file.
+        file: String,
+        /// How many it has.
+        facets: usize,
+        /// The limit.
+        most: usize,
+    },
+    /// A design file or a library cut with a wrong tier, parameter or value.
+    #[error("{file}: {cause}")]
+    Cut {
+        /// The file or the stone as asked for.
+        file: String,
+        /// What is wrong with it.
+        cause: DocumentError,
+    },
+    /// `name:key=value` with something else in place of a `key=value`.
+    #[error("stone '{spec}': expected key=value with a number, found '{found}'")]
+    Parameter {
+        /// The stone as asked for.
+        spec: String,
+        /// The part that is not understood.
+        found: String,
+    },
+    /// Neither a cut nor a file.
+    #[error("no cut and no file is called '{spec}': did you mean '{nearest}'?")]
+    NoSuchStone {
+        /// The stone as asked for.
+        spec: String,
+        /// The library's nearest name.
+        nearest: &'static str,
+    },
+    /// A format or extension that is not written.
+    #[error("cannot write '{asked}': its ending must be one of {}", .known.join(", "))]
+    NoWriter {
+        /// The file or format asked for.
+        asked: String,
+        /// The endings that are written.
+        known: Vec<&'static str>,
+    },
+    /// A design that does not fit into the format.
+    #[error("cannot write {name} as {format}: {problem}")]
+    Encode {
+        /// The design.
+        name: String,
+        /// The format.
+        format: &'static str,
+        /// Why.
+        problem: String,
+    },
+    /// The operating system refused.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// The start of `text` in quotes, control characters escaped, for an error's single line.
+pub(super) fn shown(text: &str) -> String {
+    if text.is_empty() {
+        return "the end".into();
+    }
+    let mut start = String::new();
+    for c in text.chars().take(40) {
+        if c.is_control() { start.extend(c.escape_default()) } else { start.push(c) }
+    }
+    let more = if text.chars().nth(40).is_some() { "…" } else { "" };
+    format!("'{start}{more}'")
+}

@@ -1,0 +1,133 @@
+//! GLB written: one node turned upright, one mesh, one primitive a facet.
+//!
+//! Positions are `f32`, shared by all facets, in the design's own unit (glTF would have metres;
+//! a stone of millimetres is then seen a thousand times too large, at once and without rounding).
+//! No normals are stored: glTF then asks for flat shading, which is what facets want.
+
+use super::error::FormatError;
+use super::facet_labels;
+use super::glb::FacetExtras;
+use crate::cut::Design;
+use ::gltf::binary::{Glb, Header};
+use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
+use ::gltf::json::validation::{Checked, USize64};
+use ::gltf::json::{self, Index, Root, buffer, mesh, serialize};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// The design as a GLB file.
+pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    let fail = |problem: String| FormatError::Encode { name: design.name.clone(), format: "glb", problem };
+    let (triangles, planes, labels) = (solid.triangulate(), design.planes(), facet_labels(design));
+    let positions: Vec<[f32; 3]> = triangles.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
+    let mut bin: Vec<u8> = positions.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let positions_end = bin.len();
+
+    let mut root = Root::default();
+    root.asset.generator = Some("cutlab".into());
+    let buffer = root.push(json::Buffer {
+        byte_length: USize64(0),
+        name: None,
+        uri: None,
+        extensions: None,
+        extras: None,
+    });
+    let position_view = root.push(view(buffer, 0, positions_end, buffer::Target::ArrayBuffer));
+    let index_view = root.push(view(buffer, positions_end, 0, buffer::Target::ElementArrayBuffer));
+    let mut at = accessor(position_view, 0, positions.len(), ComponentType::F32, Type::Vec3);
+    at.min = Some(json::Value::from(extreme(&positions, f32::min).to_vec()));
+    at.max = Some(json::Value::from(extreme(&positions, f32::max).to_vec()));
+    let position = root.push(at);
+
+    let mut primitives = Vec::with_capacity(solid.faces.len());
+    for (number, face) in solid.faces.iter().enumerate() {
+        let start = bin.len();
+        let of_facet = triangles.triangles.iter().zip(&triangles.faces).filter(|(_, f)| **f == number);
+        let corners: Vec<u32> = of_facet.flat_map(|(t, _)| t.map(|c| c as u32)).collect();
+        bin.extend(corners.iter().flat_map(|c| c.to_le_bytes()));
+        let offset = start - positions_end;
+        let indices =
+            root.push(accessor(index_view, offset, corners.len(), ComponentType::U32, Type::Scalar));
+        let said = FacetExtras {
+            facet: labels[face.plane].clone(),
+            normal: Some(planes[face.plane].normal.to_array()),
+        };
+        primitives.push(mesh::Primitive {
+            attributes: BTreeMap::from([(Checked::Valid(mesh::Semantic::Positions), position)]),
+            indices: Some(indices),
+            material: None,
+            mode: Checked::Valid(mesh::Mode::Triangles),
+            targets: None,
+            extensions: None,
+            extras: Some(serde_json::value::to_raw_value(&said).map_err(|e| fail(e.to_string()))?),
+        });
+    }
+    root.buffers[0].byte_length = USize64(bin.len() as u64);
+    root.buffer_views[1].byte_length = USize64((bin.len() - positions_end) as u64);
+    let mesh = root.push(json::Mesh {
+        name: Some(design.name.clone()),
+        primitives,
+        weights: None,
+        extensions: None,
+        extras: None,
+    });
+    // our +z becomes glTF's +y
+    let upright = [1., 0., 0., 0., 0., 0., -1., 0., 0., 1., 0., 0., 0., 0., 0., 1.];
+    let node = root.push(json::Node { mesh: Some(mesh), matrix: Some(upright), ..json::Node::default() });
+    root.scene = Some(root_scene(&mut root, node));
+
+    let mut text = serialize::to_string(&root).map_err(|e| fail(e.to_string()))?.into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    bin.resize(bin.len().next_multiple_of(4), 0);
+    let length = u32::try_from(12 + 8 + text.len() + 8 + bin.len()).map_err(|e| fail(e.to_string()))?;
+    let header = Header { magic: *b"glTF", version: 2, length };
+    Glb { header, json: Cow::Owned(text), bin: Some(Cow::Owned(bin)) }
+        .to_vec()
+        .map_err(|e| fail(e.to_string()))
+}
+
+fn root_scene(root: &mut Root, node: Index<json::Node>) -> Index<json::Scene> {
+    root.push(json::Scene { nodes: vec![node], name: None, extensions: None, extras: None })
+}
+
+fn view(buffer: Index<json::Buffer>, start: usize, length: usize, target: buffer::Target) -> buffer::View {
+    buffer::View {
+        buffer,
+        byte_length: USize64(length as u64),
+        byte_offset: Some(USize64(start as u64)),
+        byte_stride: None,
+        name: None,
+        target: Some(Checked::Valid(target)),
+        extensions: None,
+        extras: None,
+    }
+}
+
+fn accessor(
+    view: Index<buffer::View>,
+    offset: usize,
+    count: usize,
+    component: ComponentType,
+    kind: Type,
+) -> json::Accessor {
+    json::Accessor {
+        buffer_view: Some(view),
+        byte_offset: Some(USize64(offset as u64)),
+        count: USize64(count as u64),
+        component_type: Checked::Valid(GenericComponentType(component)),
+        type_: Checked::Valid(kind),
+        min: None,
+        max: None,
+        name: None,
+        normalized: false,
+        sparse: None,
+        extensions: None,
+        extras: None,
+    }
+}
+
+fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> [f32; 3] {
+    let start = positions.first().copied().unwrap_or_default();
+    positions.iter().fold(start, |m, p| [0, 1, 2].map(|k| pick(m[k], p[k])))
+}

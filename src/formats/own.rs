@@ -1,0 +1,65 @@
+//! Our own TOML form, which keeps everything a design knows; see [`crate::cut::document`].
+
+use super::error::{FormatError, shown};
+use super::source::{Source, lines};
+use super::{Format, Reading};
+use crate::cut::Design;
+use crate::cut::document::{Document, DocumentError};
+use std::collections::BTreeMap;
+
+/// Design files as in `cuts/`.
+pub static FORMAT: Format = Format {
+    name: "cutlab",
+    extensions: &["toml"],
+    about: "cutlab's own design file: tiers, or a family and its parameters",
+    sniff,
+    read,
+    write: Some(write),
+};
+
+fn sniff(source: &Source) -> u8 {
+    let start = source.beginning();
+    let said = lines(&start).map(|(_, l)| l.trim()).find(|l| !l.is_empty() && !l.starts_with('#'));
+    let key = |line: &str| {
+        let key = line.split_once('=')?.0.trim_end();
+        key.chars().all(|c| c.is_ascii_alphanumeric() || "-_.\"".contains(c)).then_some(key.len())
+    };
+    match said {
+        Some(line) if line.starts_with("[[tier]]") || line.starts_with("[parameters]") => 90,
+        Some(line) if key(line).is_some_and(|n| n > 0) => 80,
+        _ => 0,
+    }
+}
+
+fn read(source: &Source) -> Result<Reading, FormatError> {
+    let text = source.text();
+    let mut design = document(source, &text)?
+        .design(&BTreeMap::new())
+        .map_err(|cause| FormatError::Cut { file: source.name.into(), cause })?;
+    if design.name.is_empty() {
+        design.name = source.stem();
+    }
+    Ok(Reading { design, warnings: Vec::new() })
+}
+
+/// The document; TOML's own several-line complaint is brought into one line.
+fn document(source: &Source, text: &str) -> Result<Document, FormatError> {
+    Document::parse(text).map_err(|error| match error {
+        DocumentError::Syntax(syntax) => {
+            let at = syntax.span().map_or(0, |s| s.start).min(text.len());
+            let before = text.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count();
+            let found = text.lines().nth(before).unwrap_or_default().trim();
+            FormatError::Line {
+                file: source.name.into(),
+                line: before + 1,
+                expected: format!("a design ({})", syntax.message().split('\n').next().unwrap_or_default()),
+                found: shown(found),
+            }
+        }
+        cause => FormatError::Cut { file: source.name.into(), cause },
+    })
+}
+
+fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+    Ok(Document::of(design).text().into_bytes())
+}

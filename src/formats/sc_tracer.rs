@@ -1,0 +1,68 @@
+//! SC_Tracer triangle list, `.asc`: the format that the original renderer's diamond is in.
+//!
+//! `triangle`, three places, colour, emission, then a token of the surface's kind (`T` transparent,
+//! `D` diffuse, `S`, `G`). Files without token, without emission, or without either exist. They are
+//! whole scenes: the stone is what is transparent, or, where no triangle has a token, what does
+//! not shine.
+
+use super::error::FormatError;
+use super::shell::{STATED_IN_F64, design_of_mesh};
+use super::source::Source;
+use super::triangle_words::{first_count, records};
+use super::{Format, Reading};
+use crate::solid::recover::Polygon;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Triangle lists with 15 numbers a triangle, or 12.
+pub static FORMAT: Format = Format {
+    name: "sc-tracer",
+    extensions: &["asc"],
+    about: "SC_Tracer scene: the transparent triangles are the stone",
+    sniff: |source| match first_count(source) {
+        Some(15 | 12) => 90,
+        Some(24) | None => 0,
+        Some(_) => 70,
+    },
+    read,
+    write: None,
+};
+
+fn read(source: &Source) -> Result<Reading, FormatError> {
+    let text = source.text();
+    let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
+    let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+    let all = records(source, &text)?;
+    let with_kind = all.iter().any(|r| !r.after.is_empty());
+    for record in &all {
+        let n = &record.numbers;
+        if !matches!(n.len(), 12 | 15) {
+            let expected = "9 coordinates, 3 of colour and maybe 3 of emission";
+            return Err(source.at_line(record.line, expected, &format!("{} numbers", n.len())));
+        }
+        let kind = match record.after.as_slice() {
+            [] => "none",
+            [kind @ ("T" | "D" | "S" | "G")] => kind,
+            [other, ..] => {
+                return Err(source.at_line(record.line, "one of T, D, S, G after the numbers", other));
+            }
+        };
+        *kinds.entry(kind.into()).or_default() += 1;
+        let shines = n.iter().skip(12).any(|&e| e != 0.0);
+        if if with_kind { kind == "T" } else { !shines } {
+            let first = vertices.len();
+            vertices.extend(n[..9].chunks_exact(3).map(DVec3::from_slice));
+            polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
+        }
+    }
+    if polygons.is_empty() {
+        let found: Vec<_> = kinds.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
+        return Err(source.at_line(1, "triangles of kind T, the stone", &found.join(", ")));
+    }
+    let mut reading = design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)?;
+    let others = all.len() - polygons.len();
+    if others > 0 {
+        reading.warnings.push(format!("{others} triangles of room and lights left out"));
+    }
+    Ok(reading)
+}

@@ -1,0 +1,43 @@
+//! What the two `.asc` triangle lists share: records that begin with a word `triangle…`.
+
+use super::error::FormatError;
+use super::source::{Source, number, words};
+
+/// One record: the numbers after `triangle`, and the words after the numbers.
+pub struct Record<'t> {
+    /// The line of its word `triangle`.
+    pub line: usize,
+    /// The numbers up to the next word.
+    pub numbers: Vec<f64>,
+    /// What follows up to the next record (a type token, `object`).
+    pub after: Vec<&'t str>,
+}
+
+/// Whether `word` begins a record: `triangle`, `triangle1`, `triangle-----`.
+fn begins(word: &str) -> bool {
+    word.get(..8).is_some_and(|start| start.eq_ignore_ascii_case("triangle"))
+}
+
+/// All records of the text. Words before the first are passed over.
+pub fn records<'t>(source: &Source, text: &'t str) -> Result<Vec<Record<'t>>, FormatError> {
+    let mut records: Vec<Record> = Vec::new();
+    for (line, word) in words(text) {
+        let last = records.last_mut();
+        match (number(word), last) {
+            _ if begins(word) => records.push(Record { line, numbers: Vec::new(), after: Vec::new() }),
+            (Some(value), Some(record)) if record.after.is_empty() => record.numbers.push(value),
+            (Some(_), _) => return Err(source.at_line(line, "the word 'triangle'", word)),
+            (None, Some(record)) => record.after.push(word),
+            (None, None) => {}
+        }
+    }
+    Ok(records)
+}
+
+/// How many numbers the first record has, if the file begins as such a list does; the record may
+/// break off at the end of the file.
+pub fn first_count(source: &Source) -> Option<usize> {
+    let start = source.beginning();
+    let mut all = words(&start).map(|(_, w)| w).skip_while(|w| w.eq_ignore_ascii_case("object"));
+    begins(all.next()?).then(|| all.take_while(|w| number(w).is_some()).count())
+}

@@ -1,0 +1,263 @@
+//! The page about one stone: one HTML file that needs nothing beside it.
+
+use super::aset;
+use super::diagram::{self, View};
+use crate::cut::proportions::Proportions;
+use crate::math::stats::Estimate;
+use crate::solid::Polyhedron;
+use base64::Engine;
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("page.css");
+
+/// One score on the page.
+#[derive(Debug, Clone)]
+pub struct Score {
+    /// Its name in the table of scores.
+    pub name: String,
+    /// One line on what it means.
+    pub about: String,
+    /// `%`, `°` or empty.
+    pub unit: String,
+    /// Value with standard error; none if the metric has no value here.
+    pub value: Option<Estimate>,
+}
+
+/// A head with its scores, the ones that matter first.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Brilliance, Dispersion.
+    pub head: &'static str,
+    /// One line on what the head is about.
+    pub about: &'static str,
+    /// How many of the scores are shown large.
+    pub large: usize,
+    /// The scores.
+    pub scores: Vec<Score>,
+}
+
+/// Everything the page shows.
+#[derive(Debug)]
+pub struct Page<'a> {
+    /// Name of the stone.
+    pub name: &'a str,
+    /// How its facets are made up.
+    pub made_up_of: &'a str,
+    /// Where its proportions are from; may be empty.
+    pub source: &'a str,
+    /// Material and index, in words.
+    pub material: String,
+    /// Width and weight, in words.
+    pub weight: String,
+    /// Its solid, for the drawings.
+    pub solid: &'a Polyhedron,
+    /// Its proportions.
+    pub proportions: &'a Proportions,
+    /// The picture on the table as PNG, and a line under it.
+    pub picture: Option<(&'a [u8], String)>,
+    /// The ASET picture.
+    pub aset: &'a aset::Aset,
+    /// The scores.
+    pub sections: &'a [Section],
+    /// How the scores were traced, in words.
+    pub traced: String,
+    /// The command that made the page.
+    pub command: String,
+    /// Files beside the page.
+    pub files: &'a [String],
+}
+
+/// Text as HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn data_uri(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
+}
+
+/// A number with as many digits as its error deserves.
+pub fn number(e: Estimate) -> (String, Option<String>) {
+    if e.error > 0.0 && e.error.is_finite() {
+        let digits = (1.0 - e.error.log10().floor()).clamp(0.0, 7.0) as usize;
+        (format!("{:.digits$}", e.value), Some(format!("{:.digits$}", e.error)))
+    } else {
+        (format!("{:.4}", e.value), None)
+    }
+}
+
+impl Score {
+    fn value_html(&self) -> String {
+        let Some(value) = self.value else { return "–".into() };
+        let (value, error) = number(value);
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
+        match error {
+            Some(error) => format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>"),
+            None => format!("<b>{value}</b>{unit}"),
+        }
+    }
+}
+
+impl Page<'_> {
+    /// The whole page.
+    pub fn html(&self) -> String {
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{name} · cutlab</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <header>\n<h1>{name}</h1>\n<p class=\"sub\">{facets} facets · {weight} · {material}</p>\n</header>\n",
+            name = escaped(self.name),
+            facets = self.proportions.facets,
+            weight = escaped(&self.weight),
+            material = escaped(&self.material),
+        );
+        self.tiles(&mut out);
+        self.pictures(&mut out);
+        self.proportions(&mut out);
+        self.scores(&mut out);
+        self.footer(&mut out);
+        out + "</main>\n</body>\n</html>\n"
+    }
+
+    fn tiles(&self, out: &mut String) {
+        *out += "<section class=\"tiles\">\n";
+        for section in self.sections {
+            let _ = write!(out, "<div class=\"tile\"><h2>{}</h2><dl>", section.head);
+            for score in section.scores.iter().take(section.large) {
+                let _ = write!(
+                    out,
+                    "<div><dt>{}</dt><dd>{}</dd></div>",
+                    escaped(&score.name),
+                    score.value_html()
+                );
+            }
+            *out += "</dl></div>\n";
+        }
+        *out += "</section>\n";
+    }
+
+    fn pictures(&self, out: &mut String) {
+        *out += "<section class=\"pictures\">\n";
+        if let Some((png, caption)) = &self.picture {
+            let _ = writeln!(
+                out,
+                "<figure class=\"wide\"><img src=\"{}\" alt=\"the stone on a grey table\">\
+                 <figcaption>{}</figcaption></figure>",
+                data_uri(png),
+                escaped(caption)
+            );
+        }
+        let _ = write!(
+            out,
+            "<figure><img src=\"{}\" alt=\"ASET map of the stone seen from above\"><figcaption>ASET map, seen \
+             straight from above; each point has the colour of its strongest path<ul class=\"legend\">",
+            data_uri(&self.aset.png)
+        );
+        for (key, share) in aset::LEGEND.iter().zip(self.aset.shares) {
+            let [r, g, b] = key.colour;
+            let _ = write!(
+                out,
+                "<li><i style=\"background:rgb({r},{g},{b})\"></i><span>{}</span><b>{:.1} %</b></li>",
+                escaped(key.about),
+                100.0 * share
+            );
+        }
+        *out += "</ul></figcaption></figure>\n</section>\n";
+    }
+
+    fn proportions(&self, out: &mut String) {
+        *out += "<section>\n<h2>Proportions</h2>\n<div class=\"drawings\">";
+        for view in [View::Crown, View::Profile, View::Pavilion] {
+            let _ = write!(
+                out,
+                "<figure>{}<figcaption>{}</figcaption></figure>",
+                diagram::svg(self.solid, view),
+                view.name()
+            );
+        }
+        *out += "</div>\n<table class=\"facts\"><tbody>\n";
+        for (label, value) in self.facts() {
+            let _ = writeln!(out, "<tr><th scope=\"row\">{label}</th><td>{}</td></tr>", escaped(&value));
+        }
+        *out += "</tbody></table>\n";
+        if !self.source.is_empty() {
+            let _ = writeln!(out, "<p class=\"note\">Source: {}</p>", escaped(self.source));
+        }
+        *out += "</section>\n";
+    }
+
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        let p = self.proportions;
+        let percent = |x: f64| format!("{x:.2} %");
+        let angle = |a: Option<f64>| a.map_or("no facets".into(), |a| format!("{a:.2}°"));
+        vec![
+            ("facets", self.made_up_of.to_string()),
+            ("table", p.table_percent.map_or("none".into(), percent)),
+            ("crown", format!("{}, height {}", angle(p.crown_angle_deg), percent(p.crown_height_percent))),
+            (
+                "pavilion",
+                format!("{}, depth {}", angle(p.pavilion_angle_deg), percent(p.pavilion_depth_percent)),
+            ),
+            ("girdle", format!("{} at its thick places", percent(p.girdle_percent))),
+            ("culet", if p.culet_percent > 0.0 { percent(p.culet_percent) } else { "pointed".into() }),
+            ("depth", percent(p.depth_percent)),
+            ("length to width", format!("{:.3}", p.length / p.width)),
+        ]
+    }
+
+    fn scores(&self, out: &mut String) {
+        for section in self.sections {
+            let _ = write!(
+                out,
+                "<section>\n<h2>{}</h2>\n<p class=\"note\">{}</p>\n<table class=\"scores\"><tbody>\n",
+                section.head,
+                escaped(section.about)
+            );
+            for score in &section.scores {
+                let _ = writeln!(
+                    out,
+                    "<tr><th scope=\"row\">{}</th><td class=\"value\">{}</td><td>{}</td></tr>",
+                    escaped(&score.name),
+                    score.value_html(),
+                    escaped(&score.about)
+                );
+            }
+            *out += "</tbody></table>\n</section>\n";
+        }
+        let _ = writeln!(
+            out,
+            "<p class=\"note\">{} After ± stands one standard error.</p>",
+            escaped(&self.traced)
+        );
+    }
+
+    fn footer(&self, out: &mut String) {
+        let links: Vec<String> =
+            self.files.iter().map(|f| format!("<a href=\"{0}\">{0}</a>", escaped(f))).collect();
+        let _ = write!(
+            out,
+            "<footer>\n<p>Beside this page: {}</p>\n<p>Made by cutlab {} with <code>{}</code></p>\n</footer>\n",
+            links.join(", "),
+            env!("CARGO_PKG_VERSION"),
+            escaped(&self.command)
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_show_two_digits_of_their_error() {
+        let shown = |value, error| number(Estimate { value, error });
+        assert_eq!(shown(0.283_21, 0.000_43), ("0.28321".into(), Some("0.00043".into())));
+        assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
+        assert_eq!(shown(0.25, 0.0), ("0.2500".into(), None));
+    }
+
+    #[test]
+    fn names_cannot_break_the_page() {
+        assert_eq!(escaped("<b>&\"x\""), "&lt;b&gt;&amp;&quot;x&quot;");
+    }
+}

@@ -1,0 +1,229 @@
+//! From a mesh back to facets: weld, orient, merge coplanar polygons, judge.
+//!
+//! A mesh file stores corners that were rounded (to `f32`, to six decimals) and facets cut into
+//! triangles. What comes out are the planes that the stone was cut by, and whether the mesh was
+//! a closed convex surface at all.
+
+use super::plane::Plane;
+use super::polyhedron::{Polyhedron, SolidError};
+use super::surface::{Surface, welded};
+use glam::DVec3;
+
+/// Distances below which two corners are one, in parts of the mesh's diagonal, tried in turn until
+/// the surface closes: rounding of `f64` and of long decimals, then of `f32`, then of five and four
+/// digits. Starting coarser would swallow the short edges of a finely written mesh.
+const WELD: [f64; 4] = [1e-9, 1e-6, 1e-5, 1e-4];
+
+/// Heights within which the corners of two neighbours are coplanar, in parts of the mesh's
+/// diagonal, tried in turn until the facets make a convex solid of the mesh's volume. The first is
+/// ten times the rounding of `f32`, and a tenth of the sagitta of a girdle of 2,000 flats; the last
+/// still is below a micrometre on a stone of 6.5 mm.
+const COPLANAR: [f64; 3] = [1e-6, 1e-5, 1e-4];
+
+/// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
+/// between a mesh and the solid of its planes.
+const VOLUME_SLACK: f64 = 30.0;
+
+/// Most polygons of a mesh: a thousand times the facets of any real stone. It bounds time.
+pub const MOST_POLYGONS: usize = 500_000;
+
+/// Most facets of a solid: twenty times any real stone. Half-space intersection is quadratic.
+pub const MOST_FACETS: usize = 10_000;
+
+/// One polygon of a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Polygon {
+    /// The facet it belongs to, or empty.
+    pub name: String,
+    /// Numbers of its corners, in either winding.
+    pub corners: Vec<usize>,
+    /// The outward normal that the file states for the facet, if any; any length.
+    pub normal: Option<DVec3>,
+}
+
+/// What a mesh was found to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recovered {
+    /// Name and plane of each facet, in the order of the polygons.
+    pub facets: Vec<(String, Plane)>,
+    /// Number of edges that are not shared by exactly two polygons.
+    pub open_edges: usize,
+    /// Number of separate surfaces.
+    pub shells: usize,
+    /// Whether no corner stands out of any facet's plane.
+    pub convex: bool,
+    /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
+    pub stands_out: f64,
+    /// Volume enclosed by the polygons as given, in the mesh's unit cubed; 0 if not closed.
+    pub volume: f64,
+    /// The coplanar tolerance that was needed, in parts of the mesh's diagonal.
+    pub tolerance: f64,
+}
+
+/// A mesh of which no convex stone can be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RecoverError {
+    /// No polygon with an area.
+    #[error("the mesh has no face with an area")]
+    Empty,
+    /// More than [`MOST_POLYGONS`].
+    #[error("the mesh has {0} faces: more than {MOST_POLYGONS} are not read")]
+    TooManyPolygons(usize),
+    /// More than [`MOST_FACETS`].
+    #[error("the mesh has {0} facets: more than {MOST_FACETS} are not read")]
+    TooManyFacets(usize),
+    /// A polygon with a corner that is not there.
+    #[error("face {polygon} names corner {corner} of {vertices} (both counted from 0)")]
+    NoCorner {
+        /// The polygon, from 0.
+        polygon: usize,
+        /// The corner it names, from 0.
+        corner: usize,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// A corner that is not a finite point.
+    #[error("corner {0} (from 0) is not a finite point")]
+    NotFinite(usize),
+    /// A surface with an edge.
+    #[error("the mesh is open: {0} edges are not shared by exactly two faces; only closed meshes are read")]
+    Open(usize),
+    /// Several surfaces.
+    #[error("the mesh holds {0} separate closed surfaces: one stone is wanted")]
+    Shells(usize),
+    /// A dent.
+    #[error(
+        "the mesh is not convex: a corner stands out of a facet's plane by {0:.1e} of its size; only convex stones are read"
+    )]
+    NotConvex(f64),
+    /// The planes leave another solid than the mesh.
+    #[error("the facet planes enclose a volume of {planes}, the mesh one of {mesh}")]
+    Volume {
+        /// Volume of the half-space intersection.
+        planes: f64,
+        /// Volume of the mesh.
+        mesh: f64,
+    },
+    /// The planes bound no solid.
+    #[error("the facet planes bound no solid: {0}")]
+    Solid(#[from] SolidError),
+}
+
+/// Finds the facets of a mesh.
+///
+/// - `vertices`: in any unit
+/// - `stated_within`: a stated normal is taken if the facet's corners lie in its plane within this
+///   part of the mesh's diagonal (1e-11 for a text format in full `f64`, 3e-7 for `f32`);
+///   otherwise the normal is the area-weighted mean of the merged polygons
+///
+/// Corners are welded, faces without three different corners dropped, windings made consistent
+/// and outward, coplanar neighbours merged unless both have names and stated normals and differ in
+/// both. A mesh that is open or not convex comes back with its flags saying so;
+/// [`Recovered::stone`] turns those into errors. Checked below and in `tests/formats.rs`.
+pub fn facets_of_polygons(
+    vertices: &[DVec3],
+    polygons: &[Polygon],
+    stated_within: f64,
+) -> Result<Recovered, RecoverError> {
+    if polygons.len() > MOST_POLYGONS {
+        return Err(RecoverError::TooManyPolygons(polygons.len()));
+    }
+    for (polygon, p) in polygons.iter().enumerate() {
+        if let Some(&corner) = p.corners.iter().find(|&&c| c >= vertices.len()) {
+            return Err(RecoverError::NoCorner { polygon, corner, vertices: vertices.len() });
+        }
+        if let Some(&c) = p.corners.iter().find(|&&c| !vertices[c].is_finite()) {
+            return Err(RecoverError::NotFinite(c));
+        }
+    }
+    let used = || polygons.iter().flat_map(|p| p.corners.iter().map(|&c| vertices[c]));
+    let (lo, hi) = used().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+    let size = (hi - lo).length();
+    if !(size > 0.0 && size.is_finite()) {
+        return Err(RecoverError::Empty);
+    }
+    let mut surface = Surface::default();
+    for weld in WELD {
+        surface = Surface::of(vertices, polygons, &welded(vertices, weld * size));
+        if surface.open_edges == 0 {
+            break;
+        }
+    }
+    if surface.faces.is_empty() {
+        return Err(RecoverError::Empty);
+    }
+    let mut best: Option<Recovered> = None;
+    for tolerance in COPLANAR {
+        let found = judge(&surface, polygons, tolerance, stated_within, size)?;
+        let done = found.convex || found.open_edges > 0 || found.shells > 1;
+        if done || best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
+            best = Some(found);
+        }
+        if done {
+            break;
+        }
+    }
+    best.ok_or(RecoverError::Empty)
+}
+
+fn judge(
+    surface: &Surface,
+    polygons: &[Polygon],
+    tolerance: f64,
+    stated_within: f64,
+    size: f64,
+) -> Result<Recovered, RecoverError> {
+    let regions = surface.regions(polygons, tolerance * size);
+    if regions.len() > MOST_FACETS {
+        return Err(RecoverError::TooManyFacets(regions.len()));
+    }
+    let mut facets = Vec::with_capacity(regions.len());
+    let mut stands_out: f64 = 0.0;
+    let corners = surface.corners();
+    for region in &regions {
+        let plane = surface.plane(region, polygons, stated_within * size);
+        let out = corners.iter().map(|&v| plane.height(v)).fold(0.0, f64::max) / size;
+        // a narrow facet's normal is uncertain in proportion to its narrowness, and so is what it
+        // seems to cut off
+        let doubt = (1.0 / surface.narrowness(region, size)).clamp(1.0, 1e4);
+        stands_out = stands_out.max(out / doubt);
+        let name = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name).find(|n| !n.is_empty());
+        facets.push((name.cloned().unwrap_or_default(), plane));
+    }
+    Ok(Recovered {
+        facets,
+        open_edges: surface.open_edges,
+        shells: surface.shells,
+        convex: stands_out <= 10.0 * tolerance && surface.shells == 1 && surface.open_edges == 0,
+        stands_out,
+        volume: if surface.open_edges == 0 { surface.volume() } else { 0.0 },
+        tolerance,
+    })
+}
+
+impl Recovered {
+    /// Whether every edge is shared by two polygons.
+    pub fn closed(&self) -> bool {
+        self.open_edges == 0
+    }
+
+    /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.
+    pub fn stone(self) -> Result<Vec<(String, Plane)>, RecoverError> {
+        if self.open_edges > 0 {
+            return Err(RecoverError::Open(self.open_edges));
+        }
+        if self.shells > 1 {
+            return Err(RecoverError::Shells(self.shells));
+        }
+        if !self.convex {
+            return Err(RecoverError::NotConvex(self.stands_out));
+        }
+        let planes: Vec<_> = self.facets.iter().map(|(_, p)| *p).collect();
+        let volume = Polyhedron::from_planes(&planes)?.volume();
+        if (volume - self.volume).abs() <= VOLUME_SLACK * self.tolerance * self.volume {
+            Ok(self.facets)
+        } else {
+            Err(RecoverError::Volume { planes: volume, mesh: self.volume })
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! The rules of the house: rows of rooms, file headers and lengths, no way to panic, one file with
+//! `unsafe`, no folder that nobody expects.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms, lowest row first. A file imports only from lower rows; rooms of one row are
+/// strangers.
+const ROWS: &[&[&str]] = &[
+    &["math", "store"],
+    &["optics", "solid"],
+    &["cut", "walk"],
+    &["formats"],
+    &["scene"],
+    &["transport"],
+    &["photons", "experiments"],
+    &["metrics", "render"],
+    &["study"],
+    &["report"],
+    &["cli"],
+];
+
+/// Folders of the repository, apart from what git ignores.
+const FOLDERS: &[&str] = &["cuts", "tools", "reports", "tests", "src"];
+
+const LONGEST: usize = 400;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry.expect("the folder can be listed").path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+fn sources() -> Vec<(PathBuf, String)> {
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a source file is UTF-8");
+        (path.strip_prefix(root()).expect("inside the repository").to_owned(), text)
+    };
+    rust_files(&root().join("src")).into_iter().map(read).collect()
+}
+
+/// The text before a file's own tests, without comments.
+fn code(text: &str) -> String {
+    let before_tests = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = before_tests.lines().filter(|l| !l.trim_start().starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The room of a file, from `src/ROOM.rs` or `src/ROOM/…`; none for the crate's own two files.
+fn room_of(path: &Path) -> Option<String> {
+    let inside = path.strip_prefix("src").expect("a source file");
+    let first = inside.iter().next()?.to_string_lossy();
+    let room = first.trim_end_matches(".rs");
+    (!["lib", "main"].contains(&room)).then(|| room.to_string())
+}
+
+fn row_of(room: &str) -> Option<usize> {
+    ROWS.iter().position(|row| row.contains(&room))
+}
+
+/// Every room that the text names after `crate::`, also in `crate::{a, b::c}`.
+fn imports(text: &str) -> Vec<String> {
+    let mut rooms = Vec::new();
+    let word = |s: &str| s.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    for rest in text.split("crate::").skip(1) {
+        if let Some(group) = rest.strip_prefix('{') {
+            let mut depth = 0;
+            let mut start = true;
+            for (i, c) in group.char_indices() {
+                if start && c.is_alphabetic() && depth == 0 {
+                    rooms.push(word(&group[i..]));
+                }
+                start = matches!(c, ',' | ' ' | '\n') && (start || c == ',');
+                match c {
+                    '{' => depth += 1,
+                    '}' if depth == 0 => break,
+                    '}' => depth -= 1,
+                    _ => (),
+                }
+            }
+            rooms.extend(group.starts_with(char::is_alphabetic).then(|| word(group)));
+        } else {
+            rooms.push(word(rest));
+        }
+    }
+    rooms
+}
+
+#[test]
+fn rooms_import_only_from_lower_rows() {
+    let mut wrong = Vec::new();
+    for (path, text) in sources() {
+        let Some(room) = room_of(&path) else { continue };
+        let Some(row) = row_of(&room) else {
+            wrong.push(format!("{}: {room} is no room of design.md", path.display()));
+            continue;
+        };
+        // a file's tests may look anywhere
+        for other in imports(&code(&text)) {
+            if other != room && row_of(&other).is_none_or(|r| r >= row) {
+                wrong.push(format!("{}: {room} must not know {other}", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_check_of_rows_sees_every_form_of_import() {
+    assert_eq!(imports("use crate::math::random;"), ["math"]);
+    assert_eq!(imports("fn f(x: crate::cut::Design)"), ["cut"]);
+    let mut group = imports("use crate::{cut::{Design, Tier},\n    solid::Plane, walk};");
+    group.sort();
+    group.dedup();
+    assert_eq!(group, ["cut", "solid", "walk"]);
+}
+
+#[test]
+fn every_file_has_a_header_and_is_short() {
+    let mut wrong = Vec::new();
+    for folder in ["src", "tools", "tests"] {
+        for path in rust_files(&root().join(folder)) {
+            let text = fs::read_to_string(&path).expect("a source file is UTF-8");
+            if !text.starts_with("//! ") {
+                wrong.push(format!("{} does not start with //!", path.display()));
+            }
+            let lines = text.lines().count();
+            if lines > LONGEST {
+                wrong.push(format!("{} has {lines} lines, more than {LONGEST}", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn nothing_in_the_program_is_made_to_panic() {
+    let mut wrong = Vec::new();
+    for (path, text) in sources() {
+        for word in [".unwrap()", ".expect(", "panic!", "todo!", "unimplemented!", "dbg!"] {
+            if code(&text).contains(word) {
+                wrong.push(format!("{}: {word}", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn unsafe_stays_in_the_dispatch_of_the_walk() {
+    for (path, text) in sources() {
+        let code = code(&text);
+        let found = ["unsafe {", "unsafe fn", "unsafe impl", "unsafe trait", "unsafe extern"]
+            .iter()
+            .any(|w| code.contains(w));
+        assert!(!found || path == Path::new("src/walk/dispatch.rs"), "{} has unsafe", path.display());
+    }
+}
+
+#[test]
+fn the_top_level_holds_the_folders_of_the_house() {
+    for entry in fs::read_dir(root()).expect("the repository can be listed") {
+        let entry = entry.expect("the repository can be listed");
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let ignored = name.starts_with('.') || ["target", "out"].contains(&name.as_str());
+        if entry.path().is_dir() && !ignored {
+            assert!(FOLDERS.contains(&name.as_str()), "{name}/ is no folder of design.md");
+        }
+    }
+}
