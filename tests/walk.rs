@@ -29,10 +29,7 @@ fn brilliant() -> Polyhedron {
 
 /// A cube of half side 1.
 fn cube() -> Polyhedron {
-    let planes: Vec<_> = [DVec3::X, DVec3::Y, DVec3::Z]
-        .into_iter()
-        .flat_map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)])
-        .collect();
+    let planes = DVec3::AXES.map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).concat();
     Polyhedron::from_planes(&planes).expect("closed")
 }
 
@@ -134,7 +131,7 @@ fn assert_energy(stone: &Stone, mut packet: Packet, reflected: [f32; LANES], sto
         let radiance = f64::from(reflected[l]) + sum;
         assert!((radiance - 1.0).abs() < 1e-5, "lane {l} returns {radiance}");
     }
-    let total: f64 = left.iter().sum::<f64>() + f64::from(lost);
+    let total = left.iter().sum::<f64>() + f64::from(lost);
     let all: f64 = entered.iter().map(|p| f64::from(*p)).sum();
     assert!((total - all).abs() < 1e-5 * LANES as f64, "{all} became {total}");
     f64::from(lost) / LANES as f64
@@ -176,9 +173,8 @@ fn the_twin_keeps_energy_to_twelve_digits() {
         for _ in 0..10 {
             let (packet, _) = entering(&stone, &mut s, DIAMOND);
             for lane in 0..LANES {
-                let power = f64::from(packet.power[lane]);
                 let ray = twin_of(&packet, lane);
-                let mut left = 1.0 - power;
+                let mut left = 1.0 - ray.power;
                 left += scalar::walk(&stone.planes, ray, 1e-14, |m| left += m.power);
                 assert!((left - 1.0).abs() < 1e-12, "{left}");
             }
