@@ -8,6 +8,7 @@ use super::plane::Plane;
 use super::polyhedron::{Polyhedron, SolidError};
 use super::surface::{Surface, welded};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Distances below which two corners are one, in parts of the mesh's diagonal, tried in turn until
 /// the surface closes: rounding of `f64` and of long decimals, then of `f32`, then of five and four
@@ -19,6 +20,11 @@ const WELD: [f64; 4] = [1e-9, 1e-6, 1e-5, 1e-4];
 /// ten times the rounding of `f32`, and a tenth of the sagitta of a girdle of 2,000 flats; the last
 /// still is below a micrometre on a stone of 6.5 mm.
 const COPLANAR: [f64; 3] = [1e-6, 1e-5, 1e-4];
+
+/// A corner may stand out of a facet's plane by the coplanar tolerance, or by this part of it over
+/// the facet's narrowness if that is more: the roundings that the tolerance is meant for are a few
+/// times smaller than it is.
+const DOUBT: f64 = 0.25;
 
 /// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
 /// between a mesh and the solid of its planes.
@@ -33,8 +39,8 @@ pub const MOST_FACETS: usize = 10_000;
 /// One polygon of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Polygon {
-    /// The facet it belongs to, or empty.
-    pub name: String,
+    /// The facet it belongs to, or empty; shared, as thousands of polygons may have the same.
+    pub name: Arc<str>,
     /// Numbers of its corners, in either winding.
     pub corners: Vec<usize>,
     /// The outward normal that the file states for the facet, if any; any length.
@@ -48,8 +54,6 @@ pub struct Recovered {
     pub facets: Vec<(String, Plane)>,
     /// Number of edges that are not shared by exactly two polygons.
     pub open_edges: usize,
-    /// Number of separate surfaces.
-    pub shells: usize,
     /// Whether no corner stands out of any facet's plane.
     pub convex: bool,
     /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
@@ -58,6 +62,8 @@ pub struct Recovered {
     pub volume: f64,
     /// The coplanar tolerance that was needed, in parts of the mesh's diagonal.
     pub tolerance: f64,
+    /// Whether the facets make a stone: closed, convex, in one piece and of the mesh's volume.
+    verdict: Result<(), RecoverError>,
 }
 
 /// A mesh of which no convex stone can be made.
@@ -119,7 +125,8 @@ pub enum RecoverError {
 /// Corners are welded, faces without three different corners dropped, windings made consistent
 /// and outward, coplanar neighbours merged unless both have names and stated normals and differ in
 /// both. A mesh that is open or not convex comes back with its flags saying so;
-/// [`Recovered::stone`] turns those into errors. Checked below and in `tests/formats.rs`.
+/// [`Recovered::stone`] turns those into errors. Checked below, in `tests/formats.rs` and
+/// on real designs in `tests/corpus.rs`.
 pub fn facets_of_polygons(
     vertices: &[DVec3],
     polygons: &[Polygon],
@@ -155,12 +162,12 @@ pub fn facets_of_polygons(
     let mut best: Option<Recovered> = None;
     for tolerance in COPLANAR {
         let found = judge(&surface, polygons, tolerance, stated_within, size)?;
-        let done = found.convex || found.open_edges > 0 || found.shells > 1;
-        if done || best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
-            best = Some(found);
+        let hopeless = matches!(found.verdict, Err(RecoverError::Open(_) | RecoverError::Shells(_)));
+        if found.verdict.is_ok() || hopeless {
+            return Ok(found);
         }
-        if done {
-            break;
+        if best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
+            best = Some(found);
         }
     }
     best.ok_or(RecoverError::Empty)
@@ -178,27 +185,44 @@ fn judge(
         return Err(RecoverError::TooManyFacets(regions.len()));
     }
     let mut facets = Vec::with_capacity(regions.len());
-    let mut stands_out: f64 = 0.0;
+    let (mut stands_out, mut convex) = (0.0f64, surface.shells == 1 && surface.open_edges == 0);
     let corners = surface.corners();
     for region in &regions {
-        let plane = surface.plane(region, polygons, stated_within * size);
+        // a facet narrower than the tolerance has no plane of its own: what it cuts off is smaller
+        // than the tolerance, and its normal is noise
+        let narrowness = surface.narrowness(region, size);
+        let Some(plane) = surface.plane(region, polygons, stated_within * size, narrowness > tolerance)
+        else {
+            continue;
+        };
         let out = corners.iter().map(|&v| plane.height(v)).fold(0.0, f64::max) / size;
-        // a narrow facet's normal is uncertain in proportion to its narrowness, and so is what it
-        // seems to cut off
-        let doubt = (1.0 / surface.narrowness(region, size)).clamp(1.0, 1e4);
-        stands_out = stands_out.max(out / doubt);
+        // a narrow facet's normal is uncertain in proportion to its narrowness, and so is what
+        // stands out of its plane
+        let doubt = (DOUBT / narrowness).max(1.0);
+        convex &= out <= tolerance * doubt;
+        stands_out = stands_out.max(out);
         let name = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name).find(|n| !n.is_empty());
-        facets.push((name.cloned().unwrap_or_default(), plane));
+        facets.push((name.map_or_else(String::new, |n| n.to_string()), plane));
     }
-    Ok(Recovered {
-        facets,
-        open_edges: surface.open_edges,
-        shells: surface.shells,
-        convex: stands_out <= 10.0 * tolerance && surface.shells == 1 && surface.open_edges == 0,
-        stands_out,
-        volume: if surface.open_edges == 0 { surface.volume() } else { 0.0 },
-        tolerance,
-    })
+    let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
+    let verdict = match (surface.open_edges, surface.shells, convex) {
+        (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
+        (_, 2.., _) => Err(RecoverError::Shells(surface.shells)),
+        (_, _, false) => Err(RecoverError::NotConvex(stands_out)),
+        _ => enclose(&facets, volume, tolerance),
+    };
+    Ok(Recovered { facets, open_edges: surface.open_edges, convex, stands_out, volume, tolerance, verdict })
+}
+
+/// Checks that the planes enclose the mesh's volume.
+fn enclose(facets: &[(String, Plane)], mesh: f64, tolerance: f64) -> Result<(), RecoverError> {
+    let planes: Vec<_> = facets.iter().map(|(_, p)| *p).collect();
+    let volume = Polyhedron::from_planes(&planes)?.volume();
+    if (volume - mesh).abs() <= VOLUME_SLACK * tolerance * mesh {
+        Ok(())
+    } else {
+        Err(RecoverError::Volume { planes: volume, mesh })
+    }
 }
 
 impl Recovered {
@@ -209,21 +233,61 @@ impl Recovered {
 
     /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.
     pub fn stone(self) -> Result<Vec<(String, Plane)>, RecoverError> {
-        if self.open_edges > 0 {
-            return Err(RecoverError::Open(self.open_edges));
+        self.verdict.map(|()| self.facets)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit cube as twelve triangles, `wind` deciding which are turned round.
+    fn cube(wind: impl Fn(usize) -> bool) -> (Vec<DVec3>, Vec<Polygon>) {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.iter().flat_map(|s| [[s[0], s[1], s[2]], [s[0], s[2], s[3]]]);
+        let polygon = |(i, mut c): (usize, [usize; 3])| {
+            if wind(i) {
+                c.reverse();
+            }
+            Polygon { name: format!("side {}", i / 2).into(), corners: c.to_vec(), normal: None }
+        };
+        ((0..8).map(corner).collect(), triangles.enumerate().map(polygon).collect())
+    }
+
+    #[test]
+    fn triangles_of_any_winding_become_named_outward_facets() {
+        for wind in [|_: usize| false, |_| true, |i| i % 3 == 0] {
+            let (vertices, polygons) = cube(wind);
+            let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+            assert!(found.closed() && found.convex && (found.volume - 1.0).abs() < 1e-15);
+            let facets = found.stone().expect("a stone");
+            assert_eq!(facets.len(), 6);
+            for (i, (name, plane)) in facets.iter().enumerate() {
+                assert_eq!(*name, format!("side {i}"));
+                assert!(plane.height(DVec3::splat(0.5)) < -0.49);
+            }
         }
-        if self.shells > 1 {
-            return Err(RecoverError::Shells(self.shells));
-        }
-        if !self.convex {
-            return Err(RecoverError::NotConvex(self.stands_out));
-        }
-        let planes: Vec<_> = self.facets.iter().map(|(_, p)| *p).collect();
-        let volume = Polyhedron::from_planes(&planes)?.volume();
-        if (volume - self.volume).abs() <= VOLUME_SLACK * self.tolerance * self.volume {
-            Ok(self.facets)
-        } else {
-            Err(RecoverError::Volume { planes: volume, mesh: self.volume })
-        }
+    }
+
+    #[test]
+    fn open_and_dented_meshes_say_so() {
+        let (mut vertices, mut polygons) = cube(|_| false);
+        polygons.pop();
+        let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+        assert!(!found.closed() && !found.convex);
+        assert_eq!(found.stone(), Err(RecoverError::Open(3)));
+        vertices[7] = DVec3::splat(0.4);
+        let found = facets_of_polygons(&vertices, &cube(|_| false).1, 1e-11).expect("a mesh");
+        assert!(found.closed() && !found.convex);
+        assert!(matches!(found.stone(), Err(RecoverError::NotConvex(_))));
+    }
+
+    #[test]
+    fn corners_that_are_not_there_are_errors() {
+        let (vertices, polygons) = cube(|_| false);
+        let error = facets_of_polygons(&vertices[..7], &polygons, 1e-11).expect_err("a corner is missing");
+        assert_eq!(error, RecoverError::NoCorner { polygon: 2, corner: 7, vertices: 7 });
+        assert_eq!(facets_of_polygons(&vertices, &[], 1e-11), Err(RecoverError::Empty));
     }
 }
