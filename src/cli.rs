@@ -8,6 +8,8 @@ mod import;
 mod list;
 mod outcome;
 mod parameters;
+mod report;
+mod score;
 mod show;
 mod stones;
 
@@ -40,6 +42,10 @@ enum Command {
     Import(import::Args),
     /// Proportions, facets, volume and weight
     Show(show::Args),
+    /// Scores of brilliance and fire, one row a stone
+    Score(score::Args),
+    /// Everything about one stone: pictures, scores and a page
+    Report(report::Args),
     /// What there is to choose from
     List(list::Args),
 }
@@ -50,6 +56,8 @@ impl Command {
             Command::Generate(args) => generate::run(args, console),
             Command::Import(args) => import::run(args, console),
             Command::Show(args) => show::run(args, console),
+            Command::Score(args) => score::run(args, console),
+            Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),
         }
     }

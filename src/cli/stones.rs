@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::Design;
-use crate::formats::stone::{self, Imported};
+use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
 use rayon::prelude::*;
@@ -62,6 +62,24 @@ pub fn material(name: &str) -> Result<&'static Material, String> {
         let near = nearest(name, MATERIALS.iter().map(|m| m.name.as_ref()));
         format!("no material is called '{name}', the nearest is '{near}' (all: cutlab list materials)")
     })
+}
+
+/// Value parser of `--ri`.
+pub fn refractive_index(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(n) if (1.0..=10.0).contains(&n) => Ok(n),
+        _ => Err("a refractive index is a number from 1 to 10".into()),
+    }
+}
+
+/// What a stone is made of: the material asked for, or the bare index asked for, or the index that
+/// its file was drawn for, or diamond.
+pub fn material_of(design: &Design, material: Option<&Material>, ri: Option<f64>) -> Material {
+    match (material, ri.or(design.refractive_index)) {
+        (Some(material), _) => material.clone(),
+        (None, Some(n)) => Material::of_index(n),
+        (None, None) => MATERIALS[0].clone(),
+    }
 }
 
 /// The candidate most like `name`.
