@@ -80,13 +80,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for section in &bundle.sections {
         text += &format!("{}\n", section.head);
         for score in section.scores.iter().take(section.large) {
+            let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
             let value = match score.value.map(number) {
-                Some((value, Some(error))) => format!("{value} ± {error}"),
-                Some((value, None)) => value,
-                None => "does not apply to a material without dispersion".into(),
+                Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
+                Some((value, None)) => format!("{value}{unit}"),
+                None => "does not apply: the material has no dispersion".into(),
             };
-            text += &format!("  {:<16} {value} {}", score.name, score.unit).trim_end().to_string();
-            text.push('\n');
+            text += &format!("  {:<16} {value}\n", score.name);
         }
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();

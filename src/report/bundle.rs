@@ -19,7 +19,7 @@ use crate::walk::Stone;
 use std::path::Path;
 
 /// Pixels across and down of the picture on the table, and camera rays a pixel.
-const PICTURE: (u32, u32, u32) = (900, 675, 16);
+const PICTURE: (u32, u32, u32) = (720, 540, 16);
 
 /// Photons of each map, and how many an estimate gathers: the original project's numbers.
 const PHOTONS: (usize, usize) = (100_000, 500);
@@ -136,7 +136,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         picture: Some((
             &files[2].1,
             format!(
-                "Lying on a grey table, photon-mapped with {} photons in each of two maps, {} gathered, {} rays a pixel",
+                "Lying on a grey table: {} photons in each of two maps, the {} nearest gathered, {} rays a pixel",
                 PHOTONS.0, PHOTONS.1, PICTURE.2
             ),
         )),

@@ -49,11 +49,11 @@ const MEANINGS: &[(&str, &str)] = &[
     ("leakage_strongest", "share of the outline whose strongest path comes from below"),
     (
         "fire_lit",
-        "area that a point light lights up around the stone, per area of the stone (surrogate of GIA's DCLR)",
+        "area of the beams that a point light sends out of the crown, per area of the stone (surrogate of GIA's DCLR)",
     ),
     (
         "fire_streak",
-        "the same, times the length of the colour streaks from line B to G (surrogate of GIA's DCLR)",
+        "length of the colour streaks, line B to G, summed over the beams that a point light sends out of the crown (surrogate of GIA's DCLR)",
     ),
     (
         "dispersion_mean",
