@@ -8,6 +8,7 @@ mod import;
 mod list;
 mod outcome;
 mod parameters;
+mod render;
 mod report;
 mod score;
 mod show;
@@ -42,6 +43,8 @@ enum Command {
     Import(import::Args),
     /// Proportions, facets, volume and weight
     Show(show::Args),
+    /// Take a photon-mapped picture, or a turntable of pictures
+    Render(render::Args),
     /// Scores of brilliance and fire, one row a stone
     Score(score::Args),
     /// Everything about one stone: pictures, scores and a page
@@ -56,6 +59,7 @@ impl Command {
             Command::Generate(args) => generate::run(args, console),
             Command::Import(args) => import::run(args, console),
             Command::Show(args) => show::run(args, console),
+            Command::Render(args) => render::run(args, console),
             Command::Score(args) => score::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),

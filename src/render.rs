@@ -5,4 +5,4 @@ pub mod tone;
 pub mod tracer;
 
 pub use film::{Film, Pass};
-pub use tracer::{Settings, render};
+pub use tracer::{Maps, Settings, render};

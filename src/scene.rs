@@ -75,6 +75,7 @@ pub struct Scene {
 }
 
 /// A scene of the catalogue.
+#[derive(Debug)]
 pub struct Preset {
     /// Its name, as in `--scene table`.
     pub name: &'static str,

@@ -2,6 +2,7 @@
 
 use crate::cut::CutError;
 use crate::formats::FormatError;
+use crate::photons::file::MapFileError;
 use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
@@ -124,6 +125,16 @@ fn shape_of(error: &FormatError) -> Option<Shape> {
             Some(Shape { closed: true, convex: Some(false) })
         }
         _ => None,
+    }
+}
+
+impl From<MapFileError> for Failure {
+    fn from(error: MapFileError) -> Failure {
+        match error {
+            MapFileError::Write(cause) => cause.into(),
+            MapFileError::Read { .. } => Failure { code: Code::Io, message: error.to_string() },
+            _ => Failure::input(error.to_string()),
+        }
     }
 }
 

@@ -1,1 +1,257 @@
-//! Photon maps on disk.
+//! Photon maps on disk: kept for other views of the same scene, refused for any other.
+//!
+//! Layout, little-endian: the magic `CUTLABPM`, u32 version, u32 length of the header, the header
+//! as JSON ([`Origin`]), then the photons of both classes (19 bytes each: three f32 of place, f32
+//! power, u16 surface, u8 band), last a CRC-32 of everything before it.
+
+use super::{Photon, Settings, Shot, Shots};
+use crate::optics::colour::BANDS;
+use crate::scene::Scene;
+use crate::store::replace::{self, WriteError};
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+const MAGIC: &[u8; 8] = b"CUTLABPM";
+const VERSION: u32 = 1;
+/// Bytes of one stored photon.
+const PHOTON: usize = 19;
+/// A header is a few hundred bytes; more is not one of ours.
+const HEADER_LIMIT: usize = 1 << 16;
+
+/// A stored map that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum MapFileError {
+    /// The file cannot be read.
+    #[error("cannot read the photon map {path}: {cause}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        cause: std::io::Error,
+    },
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// Not a photon map, damaged, or of another version.
+    #[error("{path} is no photon map that can be used: {problem}; delete it to have it made anew")]
+    Unusable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A map of something else.
+    #[error(
+        "the photon map {path} was made for {what} {made_for}, not {wanted}; name another file or delete it"
+    )]
+    OfAnother {
+        /// The file.
+        path: PathBuf,
+        /// What differs: the scene, the stone …
+        what: &'static str,
+        /// Value in the file.
+        made_for: String,
+        /// Value asked for.
+        wanted: String,
+    },
+}
+
+/// What a map was made from. Everything but the view and the estimate's settings counts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    scene: String,
+    stone: String,
+    material: String,
+    photons: usize,
+    seed: u64,
+    caustic_stored: usize,
+    caustic_emitted: u64,
+    indirect_stored: usize,
+    indirect_emitted: u64,
+}
+
+impl Origin {
+    fn of(scene: &Scene, settings: &Settings, shots: &Shots) -> Origin {
+        Origin {
+            scene: format!("{} ({:08x})", scene.name, surroundings_checksum(scene)),
+            stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
+            material: format!("{} ({:08x})", scene.stone.material.name, material_checksum(scene)),
+            photons: settings.photons,
+            seed: settings.seed,
+            caustic_stored: shots.caustic.photons.len(),
+            caustic_emitted: shots.caustic.emitted,
+            indirect_stored: shots.indirect.photons.len(),
+            indirect_emitted: shots.indirect.emitted,
+        }
+    }
+
+    /// The first thing in which a stored map differs from the wanted one.
+    fn difference(&self, wanted: &Origin) -> Option<(&'static str, String, String)> {
+        let pairs = [
+            ("the scene", &self.scene, &wanted.scene),
+            ("the stone", &self.stone, &wanted.stone),
+            ("the material", &self.material, &wanted.material),
+            ("--photons", &self.photons.to_string(), &wanted.photons.to_string()),
+            ("--seed", &self.seed.to_string(), &wanted.seed.to_string()),
+        ];
+        pairs.into_iter().find(|(_, a, b)| a != b).map(|(what, a, b)| (what, a.clone(), b.clone()))
+    }
+}
+
+/// Checksum of the stone's shape, size and place.
+fn stone_checksum(scene: &Scene) -> u32 {
+    let placed = &scene.stone;
+    let mut crc = crc32fast::Hasher::new();
+    for v in &placed.stone.solid.vertices {
+        let world = placed.point_to_world(placed.stone.from_design(*v).as_vec3());
+        world.to_array().iter().for_each(|x| crc.update(&x.to_le_bytes()));
+    }
+    crc.finalize()
+}
+
+/// Checksum of the law by which the stone refracts.
+fn material_checksum(scene: &Scene) -> u32 {
+    crc32fast::hash(format!("{:?}", scene.stone.material.dispersion).as_bytes())
+}
+
+/// Checksum of surfaces and lights.
+fn surroundings_checksum(scene: &Scene) -> u32 {
+    crc32fast::hash(format!("{:?} {:?}", scene.surfaces, scene.lights).as_bytes())
+}
+
+/// The photons of a scene: read from `path` if it exists and fits, else shot and written there.
+///
+/// Returns the shots and whether they were read. Checked below and in `tests/render.rs`.
+pub fn load_or_shoot(path: &Path, scene: &Scene, settings: &Settings) -> Result<(Shots, bool), MapFileError> {
+    match std::fs::read(path) {
+        Ok(bytes) => {
+            let (origin, shots) =
+                decode(&bytes).map_err(|problem| MapFileError::Unusable { path: path.into(), problem })?;
+            let wanted = Origin::of(scene, settings, &shots);
+            if let Some((what, made_for, wanted)) = origin.difference(&wanted) {
+                return Err(MapFileError::OfAnother { path: path.into(), what, made_for, wanted });
+            }
+            Ok((shots, true))
+        }
+        Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {
+            let shots = Shots::shoot(scene, settings);
+            replace::write(path, &encode(&Origin::of(scene, settings, &shots), &shots))?;
+            Ok((shots, false))
+        }
+        Err(cause) => Err(MapFileError::Read { path: path.into(), cause }),
+    }
+}
+
+fn encode(origin: &Origin, shots: &Shots) -> Vec<u8> {
+    // plain strings and numbers cannot fail to serialise
+    let header = serde_json::to_vec(origin).unwrap_or_default();
+    let mut bytes = Vec::from(MAGIC);
+    bytes.extend(VERSION.to_le_bytes());
+    bytes.extend((header.len() as u32).to_le_bytes());
+    bytes.extend(header);
+    for p in shots.caustic.photons.iter().chain(&shots.indirect.photons) {
+        p.point.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes.extend(p.power.to_le_bytes());
+        bytes.extend(p.surface.to_le_bytes());
+        bytes.push(p.band);
+    }
+    let crc = crc32fast::hash(&bytes);
+    bytes.extend(crc.to_le_bytes());
+    bytes
+}
+
+fn decode(bytes: &[u8]) -> Result<(Origin, Shots), String> {
+    if !bytes.starts_with(MAGIC) {
+        return Err("it does not begin as one".into());
+    }
+    let word = |at: usize| bytes.get(at..at + 4).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
+    let cut_short = || "it is cut short".to_string();
+    let version = word(8).ok_or_else(cut_short)?;
+    if version != VERSION {
+        return Err(format!("its version is {version}, this program reads {VERSION}"));
+    }
+    let end = bytes.len() - 4;
+    if word(end) != Some(crc32fast::hash(&bytes[..end])) {
+        return Err("its checksum does not match, it is damaged or cut short".into());
+    }
+    let header_len = word(12).ok_or_else(cut_short)? as usize;
+    let header = bytes.get(16..16 + header_len.min(HEADER_LIMIT)).ok_or_else(cut_short)?;
+    let origin: Origin =
+        serde_json::from_slice(header).map_err(|e| format!("its header is unreadable ({e})"))?;
+    let body = bytes.get(16 + header.len()..end).ok_or_else(cut_short)?;
+    let photons: Vec<Photon> = body.chunks_exact(PHOTON).filter_map(photon).collect();
+    let stored = origin.caustic_stored.checked_add(origin.indirect_stored);
+    if stored != Some(photons.len()) || body.len() != photons.len() * PHOTON {
+        return Err(format!("it holds {} photons where its header says {stored:?}", photons.len()));
+    }
+    let (caustic, indirect) = photons.split_at(origin.caustic_stored);
+    let shots = Shots {
+        caustic: Shot { photons: caustic.to_vec(), emitted: origin.caustic_emitted },
+        indirect: Shot { photons: indirect.to_vec(), emitted: origin.indirect_emitted },
+    };
+    Ok((origin, shots))
+}
+
+/// One photon; none if a number in it is impossible.
+fn photon(b: &[u8]) -> Option<Photon> {
+    let float = |at: usize| b.get(at..at + 4)?.try_into().ok().map(f32::from_le_bytes);
+    let point = Vec3::new(float(0)?, float(4)?, float(8)?);
+    let power = float(12)?;
+    let surface = u16::from_le_bytes(b.get(16..18)?.try_into().ok()?);
+    let band = *b.get(18)?;
+    (point.is_finite() && power.is_finite() && usize::from(band) < BANDS).then_some(Photon {
+        point,
+        power,
+        surface,
+        band,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> (Origin, Shots) {
+        let photon = |i: usize| Photon {
+            point: Vec3::new(i as f32, 0.5, -1.0),
+            power: 0.25 * i as f32,
+            surface: i as u16,
+            band: (i % BANDS) as u8,
+        };
+        let shots = Shots {
+            caustic: Shot { photons: (0..5).map(photon).collect(), emitted: 77 },
+            indirect: Shot { photons: (5..8).map(photon).collect(), emitted: 88 },
+        };
+        let origin = Origin {
+            scene: "table".into(),
+            stone: "s".into(),
+            material: "m".into(),
+            photons: 5,
+            seed: 1,
+            caustic_stored: 5,
+            caustic_emitted: 77,
+            indirect_stored: 3,
+            indirect_emitted: 88,
+        };
+        (origin, shots)
+    }
+
+    #[test]
+    fn a_map_comes_back_as_it_was() {
+        let (origin, shots) = sample();
+        assert_eq!(decode(&encode(&origin, &shots)), Ok((origin, shots)));
+    }
+
+    #[test]
+    fn every_truncation_and_every_flipped_byte_is_found() {
+        let (origin, shots) = sample();
+        let bytes = encode(&origin, &shots);
+        for len in 0..bytes.len() {
+            assert!(decode(&bytes[..len]).is_err(), "cut at {len}");
+            let mut flipped = bytes.clone();
+            flipped[len] ^= 0x10;
+            assert!(decode(&flipped).is_err(), "flipped {len}");
+        }
+    }
+}

@@ -3,6 +3,7 @@
 use super::film::{Film, Pass, Pixel};
 use crate::math::random::{Purpose, Stream};
 use crate::optics::colour::{self, BANDS};
+use crate::photons::Shots;
 use crate::photons::map::PhotonMap;
 use crate::scene::{Camera, Scene};
 use crate::transport::Event;
@@ -40,6 +41,18 @@ pub struct Maps {
     pub caustic: PhotonMap,
     /// Light last from another surface.
     pub indirect: PhotonMap,
+}
+
+impl Maps {
+    /// Arranges both classes of photons for look-up.
+    ///
+    /// - `nearest`: photons that an estimate gathers
+    pub fn new(scene: &Scene, shots: &Shots, nearest: usize) -> Maps {
+        Maps {
+            caustic: PhotonMap::new(scene, &shots.caustic, nearest),
+            indirect: PhotonMap::new(scene, &shots.indirect, nearest),
+        }
+    }
 }
 
 /// Takes a picture.
