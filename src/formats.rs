@@ -33,6 +33,9 @@ use std::path::Path;
 /// allots is bounded by the bytes it was given.
 pub const MOST_BYTES: u64 = 64 << 20;
 
+/// Makes a file's bytes of a design.
+pub type Writer = fn(&Design) -> Result<Vec<u8>, FormatError>;
+
 /// A file format.
 pub struct Format {
     /// Its name, as in `--to NAME` and in reports.
@@ -46,7 +49,7 @@ pub struct Format {
     /// Reads a design.
     pub read: fn(&Source) -> Result<Reading, FormatError>,
     /// Writes a design, if the format can be written.
-    pub write: Option<fn(&Design) -> Result<Vec<u8>, FormatError>>,
+    pub write: Option<Writer>,
 }
 
 /// Every format that is read.

@@ -3,7 +3,7 @@
 //! The program's own frame is the y-mirror of ours; with the formula of [`facet_normal`] the stone
 //! comes out the right way round. Distances have no unit and the origin is free.
 
-use super::error::FormatError;
+use super::error::{FormatError, shown};
 use super::source::{Source, lines, number};
 use super::{Format, Reading};
 use crate::cut::design::facet_normal;
@@ -90,26 +90,25 @@ impl File {
         let (keyword, rest) = content.split_once(char::is_whitespace).unwrap_or((content, ""));
         let rest = rest.trim();
         match keyword {
-            "a" => self.tier(source, at, rest),
-            "H" => Ok(self.headers.push(rest.into())),
-            "F" => Ok(self.footers.push(rest.into())),
-            "I" => self.index(source, at, rest),
-            "y" => self.symmetry(source, at, rest),
-            "g" => self.gear(source, at, rest),
-            _ if content.starts_with([';', '#']) => Ok(()),
-            _ if self.gear.is_none()
-                && keyword.get(..6).is_some_and(|k| k.eq_ignore_ascii_case("gemcad")) =>
-            {
-                Ok(())
-            }
+            "a" => self.tier(source, at, rest)?,
+            "H" => self.headers.push(rest.into()),
+            "F" => self.footers.push(rest.into()),
+            "I" => self.index(source, at, rest)?,
+            "y" => self.symmetry(source, at, rest)?,
+            "g" => self.gear(source, at, rest)?,
+            _ if content.starts_with([';', '#']) || self.is_title(keyword) => {}
             // `g96 0.0`, and `96 0.0` as some writer leaves the letter out
             _ if self.gear.is_none() && number(keyword.trim_start_matches('g')).is_some() => {
-                self.gear(source, at, content.trim_start_matches('g'))
+                self.gear(source, at, content.trim_start_matches('g'))?;
             }
-            _ => Ok(self
-                .warnings
-                .push(format!("line {at}: not understood and left out: {}", super::error::shown(content)))),
+            _ => self.warnings.push(format!("line {at}: not understood and left out: {}", shown(content))),
         }
+        Ok(())
+    }
+
+    /// `GemCad 5.0` on the first line.
+    fn is_title(&self, keyword: &str) -> bool {
+        self.gear.is_none() && keyword.get(..6).is_some_and(|k| k.eq_ignore_ascii_case("gemcad"))
     }
 
     fn gear(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {

@@ -8,10 +8,12 @@ use super::plane::Plane;
 use glam::{DMat3, DVec3};
 use std::collections::HashMap;
 
-/// A corner nearer to a plane than this, times the largest distance of the planes from their
-/// middle, lies on it. Far above the rounding of `f64`, far below what a faceter can cut; a
-/// smaller value splits corners at which many facets meet, a larger one swallows facets.
-const ON_PLANE: f64 = 1e-10;
+/// A corner nearer to a plane than this, times the largest distance of the planes from the origin,
+/// lies on it. Tried in turn until every cut leaves one closed outline: the first is far above the
+/// rounding of `f64` and far below what a faceter can cut; planes that were recovered from nine
+/// decimals or from `f32` miss their common corners by as much as that, and need the later ones.
+/// A smaller value splits corners at which many facets meet, a larger one swallows facets.
+const ON_PLANE: [f64; 5] = [1e-10, 1e-9, 1e-8, 1e-7, 1e-6];
 
 /// Half the side of the box that is cut, times the same distance: a stone that reaches further is
 /// called open.
@@ -106,7 +108,18 @@ impl Polyhedron {
             }
         }
         let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
-        let mut cut = Carving::box_of(size * BOX, size * ON_PLANE);
+        let mut outcome = Err(SolidError::Degenerate { plane: 0 });
+        for on_plane in ON_PLANE {
+            outcome = Self::carved(planes, size, on_plane);
+            if !matches!(outcome, Err(SolidError::Degenerate { .. })) {
+                break;
+            }
+        }
+        outcome
+    }
+
+    fn carved(planes: &[Plane], size: f64, on_plane: f64) -> Result<Self, SolidError> {
+        let mut cut = Carving::box_of(size * BOX, size * on_plane);
         let mut fates = Vec::with_capacity(planes.len());
         for i in 0..planes.len() {
             fates.push(cut.by(i, planes)?);

@@ -20,6 +20,11 @@ const WELD: [f64; 4] = [1e-9, 1e-6, 1e-5, 1e-4];
 /// still is below a micrometre on a stone of 6.5 mm.
 const COPLANAR: [f64; 3] = [1e-6, 1e-5, 1e-4];
 
+/// A corner may stand out of a facet's plane by the coplanar tolerance, or by this part of it over
+/// the facet's narrowness if that is more: the roundings that the tolerance is meant for are a few
+/// times smaller than it is.
+const DOUBT: f64 = 0.25;
+
 /// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
 /// between a mesh and the solid of its planes.
 const VOLUME_SLACK: f64 = 30.0;
@@ -48,8 +53,6 @@ pub struct Recovered {
     pub facets: Vec<(String, Plane)>,
     /// Number of edges that are not shared by exactly two polygons.
     pub open_edges: usize,
-    /// Number of separate surfaces.
-    pub shells: usize,
     /// Whether no corner stands out of any facet's plane.
     pub convex: bool,
     /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
@@ -58,6 +61,8 @@ pub struct Recovered {
     pub volume: f64,
     /// The coplanar tolerance that was needed, in parts of the mesh's diagonal.
     pub tolerance: f64,
+    /// Whether the facets make a stone: closed, convex, in one piece and of the mesh's volume.
+    verdict: Result<(), RecoverError>,
 }
 
 /// A mesh of which no convex stone can be made.
@@ -155,12 +160,12 @@ pub fn facets_of_polygons(
     let mut best: Option<Recovered> = None;
     for tolerance in COPLANAR {
         let found = judge(&surface, polygons, tolerance, stated_within, size)?;
-        let done = found.convex || found.open_edges > 0 || found.shells > 1;
-        if done || best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
-            best = Some(found);
+        let hopeless = matches!(found.verdict, Err(RecoverError::Open(_) | RecoverError::Shells(_)));
+        if found.verdict.is_ok() || hopeless {
+            return Ok(found);
         }
-        if done {
-            break;
+        if best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
+            best = Some(found);
         }
     }
     best.ok_or(RecoverError::Empty)
@@ -178,27 +183,44 @@ fn judge(
         return Err(RecoverError::TooManyFacets(regions.len()));
     }
     let mut facets = Vec::with_capacity(regions.len());
-    let mut stands_out: f64 = 0.0;
+    let (mut stands_out, mut convex) = (0.0f64, surface.shells == 1 && surface.open_edges == 0);
     let corners = surface.corners();
     for region in &regions {
-        let plane = surface.plane(region, polygons, stated_within * size);
+        // a facet narrower than the tolerance has no plane of its own: what it cuts off is smaller
+        // than the tolerance, and its normal is noise
+        let narrowness = surface.narrowness(region, size);
+        let Some(plane) = surface.plane(region, polygons, stated_within * size, narrowness > tolerance)
+        else {
+            continue;
+        };
         let out = corners.iter().map(|&v| plane.height(v)).fold(0.0, f64::max) / size;
-        // a narrow facet's normal is uncertain in proportion to its narrowness, and so is what it
-        // seems to cut off
-        let doubt = (1.0 / surface.narrowness(region, size)).clamp(1.0, 1e4);
-        stands_out = stands_out.max(out / doubt);
+        // a narrow facet's normal is uncertain in proportion to its narrowness, and so is what
+        // stands out of its plane
+        let doubt = (DOUBT / narrowness).max(1.0);
+        convex &= out <= tolerance * doubt;
+        stands_out = stands_out.max(out);
         let name = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name).find(|n| !n.is_empty());
         facets.push((name.cloned().unwrap_or_default(), plane));
     }
-    Ok(Recovered {
-        facets,
-        open_edges: surface.open_edges,
-        shells: surface.shells,
-        convex: stands_out <= 10.0 * tolerance && surface.shells == 1 && surface.open_edges == 0,
-        stands_out,
-        volume: if surface.open_edges == 0 { surface.volume() } else { 0.0 },
-        tolerance,
-    })
+    let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
+    let verdict = match (surface.open_edges, surface.shells, convex) {
+        (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
+        (_, 2.., _) => Err(RecoverError::Shells(surface.shells)),
+        (_, _, false) => Err(RecoverError::NotConvex(stands_out)),
+        _ => enclose(&facets, volume, tolerance),
+    };
+    Ok(Recovered { facets, open_edges: surface.open_edges, convex, stands_out, volume, tolerance, verdict })
+}
+
+/// Checks that the planes enclose the mesh's volume.
+fn enclose(facets: &[(String, Plane)], mesh: f64, tolerance: f64) -> Result<(), RecoverError> {
+    let planes: Vec<_> = facets.iter().map(|(_, p)| *p).collect();
+    let volume = Polyhedron::from_planes(&planes)?.volume();
+    if (volume - mesh).abs() <= VOLUME_SLACK * tolerance * mesh {
+        Ok(())
+    } else {
+        Err(RecoverError::Volume { planes: volume, mesh })
+    }
 }
 
 impl Recovered {
@@ -209,21 +231,6 @@ impl Recovered {
 
     /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.
     pub fn stone(self) -> Result<Vec<(String, Plane)>, RecoverError> {
-        if self.open_edges > 0 {
-            return Err(RecoverError::Open(self.open_edges));
-        }
-        if self.shells > 1 {
-            return Err(RecoverError::Shells(self.shells));
-        }
-        if !self.convex {
-            return Err(RecoverError::NotConvex(self.stands_out));
-        }
-        let planes: Vec<_> = self.facets.iter().map(|(_, p)| *p).collect();
-        let volume = Polyhedron::from_planes(&planes)?.volume();
-        if (volume - self.volume).abs() <= VOLUME_SLACK * self.tolerance * self.volume {
-            Ok(self.facets)
-        } else {
-            Err(RecoverError::Volume { planes: volume, mesh: self.volume })
-        }
+        self.verdict.map(|()| self.facets)
     }
 }

@@ -24,6 +24,7 @@ pub(super) struct Surface {
     vertices: Vec<DVec3>,
     pub faces: Vec<SurfaceFace>,
     neighbours: Vec<Vec<usize>>,
+    stated_inward: bool,
     /// Edges not shared by exactly two faces in opposite directions.
     pub open_edges: usize,
     /// Connected parts.
@@ -98,6 +99,7 @@ impl Surface {
             }
         }
         surface.orient();
+        surface.stated_inward = surface.states_inward(polygons);
         surface
     }
 
@@ -248,23 +250,36 @@ impl Surface {
     }
 
     /// The plane of a region: with its first stated normal that fits the corners, else with the
-    /// area-weighted mean normal.
-    pub fn plane(&self, region: &[usize], polygons: &[Polygon], stated_within: f64) -> Plane {
+    /// area-weighted mean normal if the region is `broad` enough to have one.
+    pub fn plane(
+        &self,
+        region: &[usize],
+        polygons: &[Polygon],
+        stated_within: f64,
+        broad: bool,
+    ) -> Option<Plane> {
         let area: DVec3 = region.iter().map(|&f| self.faces[f].area).sum();
-        let stated = region.iter().find_map(|&f| polygons[self.faces[f].polygon].normal);
         let levelled = |normal: DVec3| {
             let plane = Plane { normal, distance: 0.0 };
             let (sum, n) = self.points(region).fold((0.0, 0usize), |(s, n), p| (s + plane.height(p), n + 1));
             Plane { normal, distance: sum / n as f64 }
         };
         let fits = |plane: &Plane| self.points(region).all(|p| plane.height(p).abs() <= stated_within);
+        let stated = region.iter().find_map(|&f| polygons[self.faces[f].polygon].normal);
         stated
             .filter(|n| n.is_finite() && n.length() > 0.0)
-            .map(unit)
-            .map(|n| if n.dot(area) < 0.0 { -n } else { n })
+            .map(|n| unit(if self.stated_inward { -n } else { n }))
+            .filter(|n| !broad || n.dot(area) > 0.0)
             .map(levelled)
             .filter(fits)
-            .unwrap_or_else(|| levelled(area.normalize()))
+            .or_else(|| broad.then(|| levelled(area.normalize())))
+    }
+
+    /// Whether the stated normals, weighed by area, point into the mesh.
+    fn states_inward(&self, polygons: &[Polygon]) -> bool {
+        let agreement =
+            |f: &SurfaceFace| polygons[f.polygon].normal.map_or(0.0, |n| n.normalize_or_zero().dot(f.area));
+        self.faces.iter().map(agreement).sum::<f64>() < 0.0
     }
 
     /// Area of a region over its longest extent and the mesh's size: how well its normal is known.

@@ -1,0 +1,180 @@
+//! Real files: every GemCad text design and mesh of the corpus has the volume that an independent
+//! program found.
+//!
+//! The corpus is in `$CUTLAB_CORPUS`, or in `../shared/corpus` beside the package; where there is
+//! none, the tests say so and pass.
+
+use cutlab::formats::{self, Imported};
+use std::path::{Path, PathBuf};
+
+fn corpus() -> Option<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder =
+        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
+    if !folder.join("geometry.csv").is_file() {
+        println!("no corpus at {}: set CUTLAB_CORPUS; nothing was checked", folder.display());
+        return None;
+    }
+    Some(folder)
+}
+
+fn volume(stone: &Imported) -> f64 {
+    stone.design.solid().expect("what is read is closed").volume()
+}
+
+/// The columns of `geometry.csv` that are compared.
+struct Known {
+    file: String,
+    facets: usize,
+    closed: bool,
+    volume: f64,
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+fn known(corpus: &Path) -> Vec<Known> {
+    let mut table = csv::ReaderBuilder::new()
+        .flexible(true)
+        .from_path(corpus.join("geometry.csv"))
+        .expect("the corpus has its table");
+    let heads = table.headers().expect("with a first row").clone();
+    let column = |name: &str| heads.iter().position(|h| h == name).expect("and the columns it promises");
+    let names = ["xmin", "ymin", "zmin", "xmax", "ymax", "zmax"].map(column);
+    let (file, format, facets) = (column("file"), column("format"), column("faces_area_gt_1e-9"));
+    let (closed, volume) = (column("closed"), column("volume"));
+    table
+        .records()
+        .map(|row| row.expect("rows are CSV"))
+        .filter(|row| &row[format] == "asc")
+        .map(|row| {
+            let number = |i: usize| row.get(i).and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
+            Known {
+                file: row[file].into(),
+                facets: number(facets) as usize,
+                closed: &row[closed] == "1",
+                volume: number(volume),
+                low: [0, 1, 2].map(|k| number(names[k])),
+                high: [3, 4, 5].map(|k| number(names[k])),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn gemcad_designs_have_the_volume_box_and_facets_known_for_them() {
+    let Some(corpus) = corpus() else { return };
+    let (mut closed, mut open) = (0, 0);
+    let mut wrong = Vec::new();
+    let known = known(&corpus);
+    for k in &known {
+        let stone = match formats::read(&corpus.join(&k.file)) {
+            Ok(stone) => stone,
+            Err(error) => {
+                let line = error.to_string();
+                if k.closed || line.contains('\n') {
+                    wrong.push(format!("{}: {line}", k.file));
+                } else {
+                    println!("refused: {line}");
+                    open += 1;
+                }
+                continue;
+            }
+        };
+        assert_eq!(stone.format, "gemcad", "{}", k.file);
+        if !k.closed {
+            wrong.push(format!("{}: known to be open, but was read", k.file));
+            continue;
+        }
+        closed += 1;
+        let solid = stone.design.solid().expect("what is read is closed");
+        let volume = solid.volume();
+        if (volume / k.volume - 1.0).abs() > 1e-6 {
+            wrong.push(format!("{}: volume {volume}, known {}", k.file, k.volume));
+        }
+        let facets = (0..solid.faces.len()).filter(|&f| solid.area(f) > 1e-9).count();
+        if facets != k.facets {
+            wrong.push(format!("{}: {facets} facets, known {}", k.file, k.facets));
+        }
+        let (low, high) = solid.bounds();
+        let off = (0..3).map(|a| (low[a] - k.low[a]).abs().max((high[a] - k.high[a]).abs()));
+        let off = off.fold(0.0, f64::max);
+        if off > 1e-6 {
+            wrong.push(format!("{}: box off by {off:e}", k.file));
+        }
+        if solid.euler() != 2 {
+            wrong.push(format!("{}: V - E + F = {}", k.file, solid.euler()));
+        }
+    }
+    println!("{} GemCad text designs: {closed} closed, {open} refused as open", known.len());
+    assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn meshes_have_the_volume_and_facets_of_the_designs_they_were_made_from() {
+    let Some(corpus) = corpus() else { return };
+    let table = std::fs::read_to_string(corpus.join("meshes/volumes.tsv")).expect("the meshes have a table");
+    let (mut read, mut wrong) = (0, Vec::new());
+    for row in table.lines().skip(1) {
+        let cells: Vec<_> = row.split('\t').collect();
+        let (name, faces) = (cells[0], cells[3].parse::<usize>().expect("a count"));
+        let known: f64 = cells[5].parse().expect("a volume");
+        for ending in [".obj", "_tri.obj", ".stl", "_ascii.stl"] {
+            let file = corpus.join("meshes").join(format!("{name}{ending}"));
+            match formats::read(&file) {
+                Err(error) => wrong.push(error.to_string()),
+                Ok(stone) => {
+                    let (volume, facets) = (volume(&stone), stone.design.facets().count());
+                    println!(
+                        "{name}{ending}: {facets} facets of {faces}, volume off by {:.1e} {:?}",
+                        volume / known - 1.0,
+                        stone.warnings
+                    );
+                    read += 1;
+                    if (volume / known - 1.0).abs() > 1e-6 {
+                        wrong.push(format!("{name}{ending}: volume {volume}, known {known}"));
+                    }
+                    if facets != faces {
+                        wrong.push(format!("{name}{ending}: {facets} facets, known {faces}"));
+                    }
+                }
+            }
+        }
+    }
+    // an artist's diamond: its crown has dents of a fiftieth of its size
+    let dented = formats::read(&corpus.join("meshes/diamond.glb")).map(|i| i.design.facets().count());
+    match dented {
+        Err(error) if error.to_string().contains("not convex") => println!("refused: {error}"),
+        other => wrong.push(format!("diamond.glb: {other:?}, but it is not convex")),
+    }
+    println!("{read} meshes read");
+    assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn real_designs_survive_being_written_and_read_back() {
+    let Some(corpus) = corpus() else { return };
+    let mut wrong = Vec::new();
+    let mut worst = std::collections::BTreeMap::new();
+    for k in known(&corpus).iter().filter(|k| k.closed) {
+        let stone = formats::read(&corpus.join(&k.file)).expect("is read, see above");
+        let solid = stone.design.solid().expect("what is read is closed");
+        for format in formats::FORMATS.iter().filter(|f| f.write.is_some()) {
+            let bytes = formats::encode(&stone.design, format.name).expect("can be written");
+            match formats::read_bytes(&k.file, &bytes, None) {
+                Err(error) => wrong.push(format!("{}: {error}", format.name)),
+                Ok(back) => {
+                    let again = back.design.solid().expect("what is read is closed");
+                    let off = (again.volume() / solid.volume() - 1.0).abs();
+                    let lost = solid.faces.len().abs_diff(again.faces.len());
+                    let entry = worst.entry(format.name).or_insert((0.0f64, 0usize, 0usize));
+                    *entry = (entry.0.max(off), entry.1.max(lost), entry.2 + usize::from(lost > 0));
+                    if off > 1e-6 {
+                        wrong.push(format!("{} as {}: volume off by {off:.1e}", k.file, format.name));
+                    }
+                }
+            }
+        }
+    }
+    println!("largest difference of volume, most facets lost, designs that lost any: {worst:?}");
+    assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
