@@ -57,10 +57,18 @@ impl Console {
         }
     }
 
-    /// A step counter with a clock for a few steps of unequal length.
-    pub fn spinner(&self, steps: usize) -> ProgressBar {
-        let bar = self.progress(steps, "");
-        if let Ok(style) = ProgressStyle::with_template("{pos}/{len} {msg} … {elapsed}") {
+    /// A clock for work without a count.
+    pub fn spinner(&self, what: &'static str) -> ProgressBar {
+        self.clock(self.progress(0, what), "{msg} … {elapsed}")
+    }
+
+    /// A clock over a few steps of unequal length.
+    pub fn steps(&self, steps: usize) -> ProgressBar {
+        self.clock(self.progress(steps, ""), "{pos}/{len} {msg} … {elapsed}")
+    }
+
+    fn clock(&self, bar: ProgressBar, template: &str) -> ProgressBar {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         if !bar.is_hidden() {

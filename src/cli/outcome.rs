@@ -132,7 +132,7 @@ impl From<MapFileError> for Failure {
     fn from(error: MapFileError) -> Failure {
         match error {
             MapFileError::Write(cause) => cause.into(),
-            MapFileError::Read { .. } => Failure { code: Code::Io, message: error.to_string() },
+            MapFileError::Read { .. } => Failure::new(Code::Io, error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }

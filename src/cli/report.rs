@@ -55,7 +55,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let design = stones::sized(imported.design, size)?;
     let request = Request { stone: args.stone.clone(), design, material, seed: args.seed, command: typed() };
 
-    let bar = console.spinner(STEPS);
+    let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {
         bar.set_message(what);
         bar.inc(1);

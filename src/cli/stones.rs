@@ -84,7 +84,7 @@ pub fn material_of(design: &Design, material: Option<&Material>, ri: Option<f64>
 
 /// The candidate most like `name`.
 pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
-    let likeness = |c: &&str| strsim::jaro_winkler(c, name);
+    let likeness = |c: &&str| strsim::normalized_damerau_levenshtein(c, name);
     candidates.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or_default()
 }
 

@@ -8,8 +8,8 @@ use crate::formats::{self, FormatError};
 use crate::math::stats::Estimate;
 use crate::metrics::Metric;
 use crate::optics::Material;
-use crate::photons::{self, Shots, map::PhotonMap};
-use crate::render::{self, tone, tracer::Maps};
+use crate::photons::{self, Shots};
+use crate::render::{self, Maps, tone};
 use crate::scene::Preset;
 use crate::solid::SolidError;
 use crate::store::replace::{self, WriteError};
@@ -168,10 +168,7 @@ fn table_picture(
     let scene = (preset.build)(stone, request.material.clone(), preset.default_pose, aspect);
     let seed = request.seed;
     let shots = Shots::shoot(&scene, &photons::Settings { photons, nearest, seed });
-    let maps = Maps {
-        caustic: PhotonMap::new(&scene, &shots.caustic, nearest),
-        indirect: PhotonMap::new(&scene, &shots.indirect, nearest),
-    };
+    let maps = Maps::new(&scene, &shots, nearest);
     step("picture");
     let settings = render::Settings { width, height, rays, seed };
     let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
