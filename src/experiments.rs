@@ -9,7 +9,6 @@ pub mod batches;
 pub mod beam;
 mod entrance;
 pub mod hemisphere;
-pub mod points;
 pub mod view;
 
 pub use batches::{BATCHES, Experiment, Traced};

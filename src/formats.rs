@@ -30,8 +30,8 @@ use std::io::Read;
 use std::path::Path;
 
 /// Largest file that is read: a hundred times the largest mesh of a convex stone. What a reader
-/// allots is bounded by the bytes it was given.
-pub const MOST_BYTES: u64 = 64 << 20;
+/// allots is bounded by the bytes it was given, and by the most polygons and facets of a stone.
+pub const MOST_BYTES: u64 = 32 << 20;
 
 /// Makes a file's bytes of a design.
 pub type Writer = fn(&Design) -> Result<Vec<u8>, FormatError>;
@@ -101,7 +101,7 @@ fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, FormatError> {
     let mut bytes = Vec::new();
     std::fs::File::open(path).map_err(fail)?.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;
     if bytes.len() as u64 > most {
-        return Err(FormatError::TooLarge { file: file(), limit: MOST_BYTES });
+        return Err(FormatError::TooLarge { file: file(), limit: most });
     }
     Ok(bytes)
 }

@@ -6,6 +6,7 @@
 
 pub mod emission;
 pub mod file;
+mod light;
 pub mod map;
 
 use crate::math::random::Purpose;
@@ -36,13 +37,22 @@ impl Class {
 pub struct Photon {
     /// Where, in the world.
     pub point: Vec3,
-    /// What it adds to the spectral power of its band: Φ / emitted × the number of bands, so that
-    /// light of equal energy has equal power in every band.
+    /// Spectral power of its strongest band, a share of the lights' total Φ: Φ is the power at each
+    /// wavelength, so light of equal energy has equal power in every band.
     pub power: f32,
+    /// Power of each band as a share of the strongest, in 255ths: one band alone for a photon that
+    /// has been through the stone.
+    pub tint: [u8; BANDS],
     /// Number of the surface.
     pub surface: u16,
-    /// Its wavelength's band.
-    pub band: u8,
+}
+
+impl Photon {
+    fn new(point: Vec3, surface: usize, spectrum: &Spectrum) -> Photon {
+        let power = spectrum.iter().copied().fold(0.0, f32::max);
+        let tint = spectrum.map(|p| (255.0 * p / power.max(f32::MIN_POSITIVE)).round() as u8);
+        Photon { point, power, tint, surface: surface as u16 }
+    }
 }
 
 /// Power, irradiance or radiance in each band.

@@ -267,6 +267,28 @@ fn a_folder_and_a_missing_file_are_errors_of_one_line() {
     }
 }
 
+#[test]
+fn what_would_fill_the_memory_or_the_day_is_refused() {
+    let wheel = format!("GemCad 5.0\ng 96 0\na 42 1{}\n", " 3".repeat(20_000));
+    let faces = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}", "f 1 2 3\n".repeat(600_000));
+    let toml = format!("name = \"x\"\n[[tier]]\nindices = [{}]\n", "1,".repeat(3_000_000));
+    // each node holds the next one twice: 2^60 visits if one followed them all
+    let nodes: Vec<_> = (0..60).map(|i| format!("{{\"children\":[{0},{0}]}}", i + 1)).collect();
+    let gltf = format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{},{{}}]}}",
+        nodes.join(",")
+    );
+    for (text, said) in [
+        (wheel, "10001 facets, more than the 10000 that are read"),
+        (faces, "500001 faces: more than 500000 are not read"),
+        (toml, "is larger than 4194304 bytes"),
+        (gltf, "expected a tree of nodes, found a node twice"),
+    ] {
+        let error = formats::read_bytes("x", text.as_bytes(), None).map(|i| i.format).expect_err(said);
+        assert!(error.to_string().contains(said), "{error}");
+    }
+}
+
 /// Every small good file, and every writer's octahedron.
 fn samples() -> Vec<(String, Vec<u8>)> {
     let mut samples: Vec<_> = data("good")

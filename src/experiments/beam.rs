@@ -2,8 +2,8 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::points::Points;
 use super::{ExperimentError, check_index};
+use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::optics::{Material, dispersion::lines};
 use crate::walk::feed::{self, Rays};

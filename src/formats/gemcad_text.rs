@@ -8,6 +8,7 @@ use super::source::{Source, lines, number};
 use super::{Format, Reading};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
+use crate::solid::recover::MOST_FACETS;
 use crate::solid::{Plane, SolidError};
 
 /// GemCad text designs, of every version in circulation.
@@ -53,6 +54,7 @@ struct File {
     headers: Vec<String>,
     footers: Vec<String>,
     tiers: Vec<Entry>,
+    facet_count: usize,
     expecting_name: bool,
     warnings: Vec<String>,
 }
@@ -182,6 +184,11 @@ impl File {
                 let index =
                     number(word).ok_or_else(|| source.at_line(at, "an index, 'n NAME' or 'G'", word))?;
                 tier.indices.push((index, String::new()));
+                self.facet_count += 1;
+                if self.facet_count > MOST_FACETS {
+                    let (file, facets) = (source.name.into(), self.facet_count);
+                    return Err(FormatError::TooManyFacets { file, facets, most: MOST_FACETS });
+                }
             }
             rest = after.trim_start();
         }
@@ -205,9 +212,7 @@ impl File {
         design.refractive_index = self.refractive_index;
         design.tiers = self.tiers.iter().map(|t| t.tier(gear, t.looks_down(false))).collect();
         let by_token = self.tiers.iter().any(|t| t.looks_down(true) != t.looks_down(false));
-        let few =
-            self.tiers.iter().map(|t| t.indices.len()).sum::<usize>() <= crate::solid::recover::MOST_FACETS;
-        if by_token && few && matches!(design.solid(), Err(SolidError::Open { .. })) {
+        if by_token && matches!(design.solid(), Err(SolidError::Open { .. })) {
             let tiers = self.tiers.iter().map(|t| t.tier(gear, t.looks_down(true))).collect();
             let other = Design { tiers, ..design.clone() };
             if other.solid().is_ok() {

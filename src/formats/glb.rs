@@ -13,6 +13,8 @@ use ::gltf::mesh::Mode;
 use ::gltf::{Accessor, Gltf, Node, Primitive, Semantic, buffer};
 use base64::Engine;
 use glam::{DMat4, DVec3, DVec4};
+use std::collections::HashSet;
+use std::sync::Arc;
 
 /// glTF 2.0 meshes, written as GLB with one primitive a facet.
 pub static FORMAT: Format = Format {
@@ -57,14 +59,22 @@ struct Reader<'a> {
     vertices: Vec<DVec3>,
     polygons: Vec<Polygon>,
     left_out: usize,
+    /// Nodes that were visited: in a tree none is twice.
+    seen: Vec<bool>,
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
     let gltf = Gltf::from_slice(source.bytes)
         .map_err(|error| source.at_byte(0, "a glTF 2.0 file", shown(&error.to_string())))?;
     let mut blob = gltf.blob.clone();
-    let mut reader =
-        Reader { source, buffers: Vec::new(), vertices: Vec::new(), polygons: Vec::new(), left_out: 0 };
+    let mut reader = Reader {
+        source,
+        buffers: Vec::new(),
+        vertices: Vec::new(),
+        polygons: Vec::new(),
+        left_out: 0,
+        seen: vec![false; gltf.nodes().len()],
+    };
     for buffer in gltf.buffers() {
         let bytes = match buffer.source() {
             buffer::Source::Bin => blob.take().unwrap_or_default(),
@@ -75,7 +85,11 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     let upright = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
     let roots: Vec<Node> = match gltf.default_scene().or_else(|| gltf.scenes().next()) {
         Some(scene) => scene.nodes().collect(),
-        None => gltf.nodes().collect(),
+        None => {
+            let children: HashSet<usize> =
+                gltf.nodes().flat_map(|n| n.children()).map(|n| n.index()).collect();
+            gltf.nodes().filter(|n| !children.contains(&n.index())).collect()
+        }
     };
     for node in roots {
         reader.node(&node, upright, 0)?;
@@ -105,8 +119,10 @@ impl Reader<'_> {
     }
 
     fn node(&mut self, node: &Node, above: DMat4, depth: usize) -> Result<(), FormatError> {
-        if depth > DEEPEST {
-            return Err(self.bad("a tree of nodes", format!("more than {DEEPEST} levels")));
+        let again = self.seen.get_mut(node.index()).is_none_or(|seen| std::mem::replace(seen, true));
+        if again || depth > DEEPEST {
+            let found = if again { "a node twice".into() } else { format!("more than {DEEPEST} levels") };
+            return Err(self.bad("a tree of nodes", found));
         }
         let matrix = node.transform().matrix().map(|column| column.map(f64::from));
         let world = above * DMat4::from_cols_array_2d(&matrix);
@@ -164,12 +180,13 @@ impl Reader<'_> {
         }
         let extras = primitive.extras().as_ref().and_then(|e| serde_json::from_str(e.get()).ok());
         let FacetExtras { facet, normal } = extras.unwrap_or_default();
+        let name: Arc<str> = facet.into();
         // exact for our own turn of a right angle; a stated normal that does not fit is not used
         let normal = normal.map(|n| world.transform_vector3(DVec3::from_array(n)));
         self.vertices.extend(points);
         for i in 0..triangles {
             let corners = corner_sets(i).map(|k| first + order[k]).to_vec();
-            self.polygons.push(Polygon { name: facet.clone(), corners, normal });
+            self.polygons.push(Polygon { name: name.clone(), corners, normal });
         }
         Ok(())
     }

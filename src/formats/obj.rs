@@ -4,13 +4,14 @@
 //! must not be made up from its neighbour's. `mtllib` is never followed.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F64, design_of_mesh};
+use super::shell::{STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
 use super::{Format, Reading, facet_labels};
 use crate::cut::{Design, Unit};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// OBJ meshes; one group a facet comes back as that facet, by name and to the last bit or so.
 pub static FORMAT: Format = Format {
@@ -33,7 +34,7 @@ fn sniff(source: &Source) -> u8 {
 fn read(source: &Source) -> Result<Reading, FormatError> {
     let text = source.text();
     let (mut vertices, mut normals, mut polygons) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut texels, mut name) = (0usize, String::new());
+    let (mut texels, mut name) = (0usize, Arc::<str>::default());
     for (at, line) in joined(&text) {
         let said = line.split('#').next().unwrap_or_default();
         let mut words = said.split_whitespace();
@@ -41,7 +42,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
             Some("v") => vertices.push(point(source, at, words, "corner")?),
             Some("vn") => normals.push(point(source, at, words, "normal")?),
             Some("vt") => texels += 1,
-            Some("g" | "o") => name = words.collect::<Vec<_>>().join(" "),
+            Some("g" | "o") => name = words.collect::<Vec<_>>().join(" ").into(),
             Some("f") => {
                 let mut polygon = Polygon { name: name.clone(), ..Polygon::default() };
                 for (i, word) in words.enumerate() {
@@ -59,6 +60,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
                     return Err(source.at_line(at, "a face of at least 3 corners", said.trim()));
                 }
                 polygons.push(polygon);
+                few_enough(source, polygons.len())?;
             }
             _ => {}
         }

@@ -4,7 +4,7 @@ use super::Reading;
 use super::error::FormatError;
 use super::source::Source;
 use crate::cut::Design;
-use crate::solid::recover::{Polygon, RecoverError, facets_of_polygons};
+use crate::solid::recover::{MOST_POLYGONS, Polygon, RecoverError, facets_of_polygons};
 use glam::DVec3;
 
 /// Stated normals of text formats in full `f64` must fit their corners within this part of the
@@ -16,6 +16,14 @@ pub const STATED_IN_F32: f64 = 3e-7;
 
 /// A merge tolerance beyond this is worth telling: the mesh is coarser than `f32`.
 const COARSE: f64 = 2e-6;
+
+/// Refuses a mesh as soon as it has too many polygons, before more of them fill the memory.
+pub fn few_enough(source: &Source, polygons: usize) -> Result<(), FormatError> {
+    if polygons <= MOST_POLYGONS {
+        return Ok(());
+    }
+    Err(FormatError::Mesh { file: source.name.into(), cause: RecoverError::TooManyPolygons(polygons) })
+}
 
 /// The design of a mesh's facets. Facets keep their names; the design gets the file's.
 pub fn design_of_mesh(

@@ -3,7 +3,7 @@
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F32, design_of_mesh};
+use super::shell::{STATED_IN_F32, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
 use super::{Format, Reading};
 use crate::cut::Design;
@@ -47,7 +47,8 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     let mut corners = Vec::new();
     let mut normals = Vec::new();
     match count_of_binary(source.bytes) {
-        Some(_) => {
+        Some(count) => {
+            few_enough(source, count)?;
             for record in source.bytes[HEADER + 4..].chunks_exact(TRIANGLE) {
                 let float = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| record[4 * i + k])) as f64;
                 let point = |i: usize| DVec3::new(float(3 * i), float(3 * i + 1), float(3 * i + 2));

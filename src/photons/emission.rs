@@ -4,10 +4,11 @@
 //! through it sixteen at a time, then on. Each has its own random stream, so a batch is the same on
 //! any thread.
 
+use super::light::Light;
 use super::{Class, Photon, Settings, Shot};
+use crate::math::points::Points;
 use crate::math::random::Stream;
 use crate::math::sample;
-use crate::optics::colour::{self, BANDS};
 use crate::scene::{Scene, SquareLight};
 use crate::transport::Event;
 use crate::transport::crossing::{self, Arrival};
@@ -53,6 +54,13 @@ pub fn shoot(scene: &Scene, class: Class, settings: &Settings) -> Shot {
     Shot { photons, emitted }
 }
 
+/// Where a photon starts: light, wavelength, two for the place on it, three for the direction.
+/// Evenly spread over all photons, which makes maps smoother than independent draws do.
+type Place = [f64; 7];
+
+/// Number of the stream that shifts the places; photons have the numbers from 0.
+const PLACES: u64 = u64::MAX;
+
 /// What a photon met last.
 #[derive(Clone, Copy, PartialEq)]
 enum Last {
@@ -67,8 +75,9 @@ struct Flight {
     number: u64,
     point: Vec3,
     direction: Vec3,
-    power: f32,
-    nm: f32,
+    light: Light,
+    /// Uniform number by which the wavelength is chosen at the first meeting with the stone.
+    hue: f32,
     last: Last,
 }
 
@@ -76,8 +85,11 @@ struct Flight {
 fn batch(scene: &Scene, class: Class, seed: u64, from: u64, count: u64) -> Vec<(u64, Photon)> {
     let aimed = if class == Class::Caustic { AIMED } else { 0.0 };
     let mut landed = Vec::new();
-    let mut flights: Vec<Flight> =
-        (from..from + count).filter_map(|n| emit(scene, class, seed, n, aimed)).collect();
+    let places = Points::new(seed, class.purpose(), PLACES, from..from + count);
+    let mut flights: Vec<Flight> = (from..from + count)
+        .zip(places)
+        .filter_map(|(n, place)| emit(scene, class, seed, n, aimed, place))
+        .collect();
     let mut arrivals: Vec<(Flight, Arrival)> = Vec::new();
     while !flights.is_empty() {
         for flight in flights.drain(..) {
@@ -91,41 +103,37 @@ fn batch(scene: &Scene, class: Class, seed: u64, from: u64, count: u64) -> Vec<(
 }
 
 /// A photon leaving one of the lights, chosen by power.
-fn emit(scene: &Scene, class: Class, seed: u64, number: u64, aimed: f32) -> Option<Flight> {
-    let mut stream = Stream::new(seed, class.purpose(), number);
+///
+/// - `place`: its point of the cube of light, wavelength, place and direction
+fn emit(scene: &Scene, class: Class, seed: u64, number: u64, aimed: f32, place: Place) -> Option<Flight> {
+    let [which, hue, s, t, pick, u, v] = place.map(|x| x as f32);
     let total: f32 = scene.lights.iter().map(SquareLight::power).sum();
-    let mut pick = stream.unit() * total;
-    let light = scene.lights.iter().find(|l| {
-        pick -= l.power();
-        pick < 0.0
+    let mut rest = which * total;
+    let lamp = scene.lights.iter().find(|l| {
+        rest -= l.power();
+        rest < 0.0
     });
-    let light = light.or(scene.lights.last())?;
-    let nm = colour::wavelength(stream.unit());
-    let point = light.point(stream.pair());
-    let (direction, weight) = diffuse_direction(scene, &mut stream, point, light.normal(), aimed)?;
-    Some(Flight {
-        stream,
-        number,
-        point,
-        direction,
-        power: total * BANDS as f32 * weight,
-        nm,
-        last: Last::Light,
-    })
+    let lamp = lamp.or(scene.lights.last())?;
+    let point = lamp.point([s, t]);
+    let (direction, weight) = diffuse_direction(scene, point, lamp.normal(), aimed, pick, [u, v])?;
+    let mut stream = Stream::new(seed, class.purpose(), number);
+    let light = Light::white(total * weight, stream.unit());
+    Some(Flight { stream, number, point, direction, light, hue, last: Last::Light })
 }
 
 /// A direction from a diffuse surface or light, a share of them aimed at the sphere around the
 /// stone, and the weight that makes the mixture right (balance heuristic). None for a direction
 /// below the surface.
+///
+/// - `pick`, `u`: three uniforms
 fn diffuse_direction(
     scene: &Scene,
-    stream: &mut Stream,
     point: Vec3,
     normal: Vec3,
     aimed: f32,
+    pick: f32,
+    u: [f32; 2],
 ) -> Option<(Vec3, f32)> {
-    let pick = stream.unit();
-    let u = stream.pair();
     let to_stone = scene.stone.position - point;
     let sin2 = (scene.stone.radius / to_stone.length()).powi(2);
     if aimed == 0.0 || sin2 >= 1.0 {
@@ -158,7 +166,7 @@ fn fly(
     loop {
         match scene.first(flight.point, flight.direction, flight.last == Last::Stone) {
             Event::Stone { facet, point, direction } => {
-                let index = scene.stone.index(flight.nm);
+                let index = scene.stone.index(flight.light.single_wavelength(flight.hue));
                 let choice = flight.stream.unit64();
                 return Some((flight, Arrival { facet, point, direction, index, choice }));
             }
@@ -169,19 +177,17 @@ fn fly(
                     Last::Surface => class == Class::Indirect,
                 };
                 if wanted {
-                    let band = colour::band(flight.nm) as u8;
-                    let photon = Photon { point, power: flight.power, surface: number as u16, band };
-                    landed.push((flight.number, photon));
+                    landed.push((flight.number, Photon::new(point, number, flight.light.spectrum())));
                 }
                 let surface = &scene.surfaces[number];
-                if flight.stream.unit() >= surface.reflectance.at(flight.nm) {
+                if !flight.light.reflect(&surface.reflectance, flight.stream.unit()) {
                     return None;
                 }
-                let (direction, weight) =
-                    diffuse_direction(scene, &mut flight.stream, point, surface.normal(), aimed)?;
+                let (pick, u) = (flight.stream.unit(), flight.stream.pair());
+                let (direction, weight) = diffuse_direction(scene, point, surface.normal(), aimed, pick, u)?;
                 flight.point = point;
                 flight.direction = direction;
-                flight.power *= weight;
+                flight.light.weigh(weight);
                 flight.last = Last::Surface;
             }
             Event::Light(_) | Event::Nothing => return None,
@@ -197,7 +203,7 @@ fn cross_all(scene: &Scene, arrivals: &mut Vec<(Flight, Arrival)>) -> Vec<Flight
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
         flight.point = scene.stone.point_to_world(departure.point);
         flight.direction = scene.stone.direction_to_world(departure.direction);
-        flight.power *= departure.share;
+        flight.light.weigh(departure.share);
         flight.last = Last::Stone;
         out.push(flight);
     }

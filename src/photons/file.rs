@@ -1,8 +1,8 @@
 //! Photon maps on disk: kept for other views of the same scene, refused for any other.
 //!
 //! Layout, little-endian: the magic `CUTLABPM`, u32 version, u32 length of the header, the header
-//! as JSON ([`Origin`]), then the photons of both classes (19 bytes each: three f32 of place, f32
-//! power, u16 surface, u8 band), last a CRC-32 of everything before it.
+//! as JSON ([`Origin`]), then the photons of both classes (26 bytes each: three f32 of place, f32
+//! power, eight bytes of tint, u16 surface), last a CRC-32 of everything before it.
 
 use super::{Photon, Settings, Shot, Shots};
 use crate::optics::colour::BANDS;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 const MAGIC: &[u8; 8] = b"CUTLABPM";
 const VERSION: u32 = 1;
 /// Bytes of one stored photon.
-const PHOTON: usize = 19;
+const PHOTON: usize = 26;
 /// A header is a few hundred bytes; more is not one of ours.
 const HEADER_LIMIT: usize = 1 << 16;
 
@@ -153,8 +153,8 @@ fn encode(origin: &Origin, shots: &Shots) -> Vec<u8> {
     for p in shots.caustic.photons.iter().chain(&shots.indirect.photons) {
         p.point.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
         bytes.extend(p.power.to_le_bytes());
+        bytes.extend(p.tint);
         bytes.extend(p.surface.to_le_bytes());
-        bytes.push(p.band);
     }
     let crc = crc32fast::hash(&bytes);
     bytes.extend(crc.to_le_bytes());
@@ -198,14 +198,9 @@ fn photon(b: &[u8]) -> Option<Photon> {
     let float = |at: usize| b.get(at..at + 4)?.try_into().ok().map(f32::from_le_bytes);
     let point = Vec3::new(float(0)?, float(4)?, float(8)?);
     let power = float(12)?;
-    let surface = u16::from_le_bytes(b.get(16..18)?.try_into().ok()?);
-    let band = *b.get(18)?;
-    (point.is_finite() && power.is_finite() && usize::from(band) < BANDS).then_some(Photon {
-        point,
-        power,
-        surface,
-        band,
-    })
+    let tint: [u8; BANDS] = b.get(16..24)?.try_into().ok()?;
+    let surface = u16::from_le_bytes(b.get(24..26)?.try_into().ok()?);
+    (point.is_finite() && power.is_finite()).then_some(Photon { point, power, tint, surface })
 }
 
 #[cfg(test)]
@@ -217,7 +212,7 @@ mod tests {
             point: Vec3::new(i as f32, 0.5, -1.0),
             power: 0.25 * i as f32,
             surface: i as u16,
-            band: (i % BANDS) as u8,
+            tint: [i as u8; BANDS],
         };
         let shots = Shots {
             caustic: Shot { photons: (0..5).map(photon).collect(), emitted: 77 },

@@ -110,7 +110,8 @@ fn gather(
     }
     for f in &found {
         let photon = &photons[f.item as usize];
-        sum[usize::from(photon.band)] += photon.power * 2.0 * (1.0 - f.distance / radius2);
+        let weight = photon.power * 2.0 / 255.0 * (1.0 - f.distance / radius2);
+        (0..BANDS).for_each(|b| sum[b] += weight * f32::from(photon.tint[b]));
     }
     let share = kernel_share(scene, surface, point, radius2.sqrt());
     sum.map(|s| s / (PI * radius2 * share))

@@ -327,3 +327,36 @@ fn settle(p: DVec3, around: &[usize], planes: &[Plane]) -> DVec3 {
     }
     p + m.inverse() * rhs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Purpose, Stream};
+
+    /// Sixteen planes through one apex, sixteen through the rim, twice over: the worst that stones
+    /// recovered from rounded meshes have.
+    #[test]
+    fn planes_that_miss_their_common_corners_by_rounding_still_bound_a_solid() {
+        let mut planes = vec![Plane::new(DVec3::Z, 0.2)];
+        for i in 0..32 {
+            let (s, c) = (std::f64::consts::TAU * i as f64 / 32.0).sin_cos();
+            planes.push(Plane::new(DVec3::new(s, c, -0.9), 0.5));
+            planes.push(Plane::new(DVec3::new(s, c, 0.0), 0.7));
+            planes.push(Plane::new(DVec3::new(s, c, 1.1), 0.6));
+        }
+        let exact = Polyhedron::from_planes(&planes).expect("closed").volume();
+        let mut stream = Stream::new(1708, Purpose::Pixel, 0);
+        for noise in [1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7] {
+            for _ in 0..50 {
+                let mut draw = || (2.0 * stream.unit64() - 1.0) * noise;
+                let jolted = |p: &Plane| {
+                    Plane::new(p.normal + DVec3::new(draw(), draw(), draw()), p.distance + draw())
+                };
+                let moved: Vec<_> = planes.iter().map(jolted).collect();
+                let solid = Polyhedron::from_planes(&moved).unwrap_or_else(|e| panic!("{noise}: {e}"));
+                assert_eq!(solid.euler(), 2, "{noise}");
+                assert!((solid.volume() / exact - 1.0).abs() < 100.0 * noise, "{noise}");
+            }
+        }
+    }
+}

@@ -8,6 +8,7 @@ use super::plane::Plane;
 use super::polyhedron::{Polyhedron, SolidError};
 use super::surface::{Surface, welded};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Distances below which two corners are one, in parts of the mesh's diagonal, tried in turn until
 /// the surface closes: rounding of `f64` and of long decimals, then of `f32`, then of five and four
@@ -38,8 +39,8 @@ pub const MOST_FACETS: usize = 10_000;
 /// One polygon of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Polygon {
-    /// The facet it belongs to, or empty.
-    pub name: String,
+    /// The facet it belongs to, or empty; shared, as thousands of polygons may have the same.
+    pub name: Arc<str>,
     /// Numbers of its corners, in either winding.
     pub corners: Vec<usize>,
     /// The outward normal that the file states for the facet, if any; any length.
@@ -124,7 +125,8 @@ pub enum RecoverError {
 /// Corners are welded, faces without three different corners dropped, windings made consistent
 /// and outward, coplanar neighbours merged unless both have names and stated normals and differ in
 /// both. A mesh that is open or not convex comes back with its flags saying so;
-/// [`Recovered::stone`] turns those into errors. Checked below and in `tests/formats.rs`.
+/// [`Recovered::stone`] turns those into errors. Checked below, in `tests/formats.rs` and
+/// on real designs in `tests/corpus.rs`.
 pub fn facets_of_polygons(
     vertices: &[DVec3],
     polygons: &[Polygon],
@@ -200,7 +202,7 @@ fn judge(
         convex &= out <= tolerance * doubt;
         stands_out = stands_out.max(out);
         let name = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name).find(|n| !n.is_empty());
-        facets.push((name.cloned().unwrap_or_default(), plane));
+        facets.push((name.map_or_else(String::new, |n| n.to_string()), plane));
     }
     let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
     let verdict = match (surface.open_edges, surface.shells, convex) {
@@ -232,5 +234,60 @@ impl Recovered {
     /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.
     pub fn stone(self) -> Result<Vec<(String, Plane)>, RecoverError> {
         self.verdict.map(|()| self.facets)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit cube as twelve triangles, `wind` deciding which are turned round.
+    fn cube(wind: impl Fn(usize) -> bool) -> (Vec<DVec3>, Vec<Polygon>) {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.iter().flat_map(|s| [[s[0], s[1], s[2]], [s[0], s[2], s[3]]]);
+        let polygon = |(i, mut c): (usize, [usize; 3])| {
+            if wind(i) {
+                c.reverse();
+            }
+            Polygon { name: format!("side {}", i / 2).into(), corners: c.to_vec(), normal: None }
+        };
+        ((0..8).map(corner).collect(), triangles.enumerate().map(polygon).collect())
+    }
+
+    #[test]
+    fn triangles_of_any_winding_become_named_outward_facets() {
+        for wind in [|_: usize| false, |_| true, |i| i % 3 == 0] {
+            let (vertices, polygons) = cube(wind);
+            let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+            assert!(found.closed() && found.convex && (found.volume - 1.0).abs() < 1e-15);
+            let facets = found.stone().expect("a stone");
+            assert_eq!(facets.len(), 6);
+            for (i, (name, plane)) in facets.iter().enumerate() {
+                assert_eq!(*name, format!("side {i}"));
+                assert!(plane.height(DVec3::splat(0.5)) < -0.49);
+            }
+        }
+    }
+
+    #[test]
+    fn open_and_dented_meshes_say_so() {
+        let (mut vertices, mut polygons) = cube(|_| false);
+        polygons.pop();
+        let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+        assert!(!found.closed() && !found.convex);
+        assert_eq!(found.stone(), Err(RecoverError::Open(3)));
+        vertices[7] = DVec3::splat(0.4);
+        let found = facets_of_polygons(&vertices, &cube(|_| false).1, 1e-11).expect("a mesh");
+        assert!(found.closed() && !found.convex);
+        assert!(matches!(found.stone(), Err(RecoverError::NotConvex(_))));
+    }
+
+    #[test]
+    fn corners_that_are_not_there_are_errors() {
+        let (vertices, polygons) = cube(|_| false);
+        let error = facets_of_polygons(&vertices[..7], &polygons, 1e-11).expect_err("a corner is missing");
+        assert_eq!(error, RecoverError::NoCorner { polygon: 2, corner: 7, vertices: 7 });
+        assert_eq!(facets_of_polygons(&vertices, &[], 1e-11), Err(RecoverError::Empty));
     }
 }

@@ -4,6 +4,7 @@
 
 use super::Mesh;
 use crate::formats::error::FormatError;
+use crate::formats::shell::few_enough;
 use crate::formats::source::{Source, lines, number};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
@@ -71,7 +72,10 @@ pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
         let face = row.letter == Some('f') || (row.letter.is_none() && i >= first_face);
         match (face, row.numbers.len()) {
             (false, 3) => vertices.push(DVec3::from_slice(&row.numbers)),
-            (true, 3..) if row.whole => faces.push(row),
+            (true, 3..) if row.whole => {
+                faces.push(row);
+                few_enough(source, faces.len())?;
+            }
             (_, 0..=2) if row.whole && row.letter.is_none() => {} // counts
             (false, n) => return Err(source.at_line(row.line, "three coordinates", &format!("{n} numbers"))),
             (true, n) => {

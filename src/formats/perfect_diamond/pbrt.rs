@@ -6,6 +6,7 @@
 use super::Mesh;
 use super::words::{Word, words};
 use crate::formats::error::FormatError;
+use crate::formats::shell::few_enough;
 use crate::formats::source::Source;
 use crate::formats::{MOST_BYTES, beside};
 use crate::solid::recover::Polygon;
@@ -156,6 +157,7 @@ impl Scene {
             let expected = format!("corners from 0 to {}", count - 1);
             return Err(source.at_line(line, expected, &i.to_string()));
         }
+        few_enough(source, indices.len() / 3)?;
         let vertices = points.chunks_exact(3).map(|p| self.at.project_point3(DVec3::from_slice(p))).collect();
         let polygons = indices
             .chunks_exact(3)
