@@ -29,10 +29,7 @@ fn brilliant() -> Polyhedron {
 
 /// A cube of half side 1.
 fn cube() -> Polyhedron {
-    let planes: Vec<_> = [DVec3::X, DVec3::Y, DVec3::Z]
-        .into_iter()
-        .flat_map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)])
-        .collect();
+    let planes = DVec3::AXES.map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).concat();
     Polyhedron::from_planes(&planes).expect("closed")
 }
 
@@ -75,6 +72,16 @@ fn entering(stone: &Stone, s: &mut Stream, index: f32) -> (Packet, [f32; LANES])
         *reflected = entry.reflectance;
     }
     (packet, reflected)
+}
+
+/// The same ray for the `f64` twin.
+fn twin_of(packet: &Packet, lane: usize) -> scalar::Ray {
+    scalar::Ray {
+        point: packet.point(lane).as_dvec3(),
+        direction: packet.direction(lane).as_dvec3().normalize(),
+        power: packet.power[lane].into(),
+        index: packet.index[lane].into(),
+    }
 }
 
 /// One meeting from a given state.
@@ -124,7 +131,7 @@ fn assert_energy(stone: &Stone, mut packet: Packet, reflected: [f32; LANES], sto
         let radiance = f64::from(reflected[l]) + sum;
         assert!((radiance - 1.0).abs() < 1e-5, "lane {l} returns {radiance}");
     }
-    let total: f64 = left.iter().sum::<f64>() + f64::from(lost);
+    let total = left.iter().sum::<f64>() + f64::from(lost);
     let all: f64 = entered.iter().map(|p| f64::from(*p)).sum();
     assert!((total - all).abs() < 1e-5 * LANES as f64, "{all} became {total}");
     f64::from(lost) / LANES as f64
@@ -166,14 +173,8 @@ fn the_twin_keeps_energy_to_twelve_digits() {
         for _ in 0..10 {
             let (packet, _) = entering(&stone, &mut s, DIAMOND);
             for lane in 0..LANES {
-                let power = f64::from(packet.power[lane]);
-                let ray = scalar::Ray {
-                    point: packet.point(lane).as_dvec3(),
-                    direction: packet.direction(lane).as_dvec3().normalize(),
-                    power,
-                    index: f64::from(DIAMOND),
-                };
-                let mut left = 1.0 - power;
+                let ray = twin_of(&packet, lane);
+                let mut left = 1.0 - ray.power;
                 left += scalar::walk(&stone.planes, ray, 1e-14, |m| left += m.power);
                 assert!((left - 1.0).abs() < 1e-12, "{left}");
             }
@@ -207,12 +208,7 @@ fn lanes_walk_as_their_twin_does() {
             }
         });
         for (lane, met) in met.iter().enumerate() {
-            let ray = scalar::Ray {
-                point: start.point(lane).as_dvec3(),
-                direction: start.direction(lane).as_dvec3().normalize(),
-                power: f64::from(start.power[lane]),
-                index: f64::from(DIAMOND),
-            };
+            let ray = twin_of(&start, lane);
             walks += 1;
             parted += usize::from(!same_way(&planes, ray, met));
         }
@@ -398,12 +394,7 @@ fn a_trapped_ray_ends_and_is_lost() {
     let lost = stone.walk(&mut packet, 1e-4, |m, _| left += m.power.iter().sum::<f32>());
     assert_eq!((left, lost), (0.0, 0.7));
     assert!(packet.power.iter().all(|p| *p == 0.0));
-}
-
-#[test]
-fn a_direction_that_is_no_number_is_lost_at_once() {
-    let stone = Stone::new(brilliant());
-    let mut packet = Packet::default();
+    // and a direction that is no number, at once
     packet.set(0, Vec3::ZERO, Vec3::NAN, 1.0, DIAMOND);
     assert_eq!(stone.walk(&mut packet, 1e-4, |m, _| assert_eq!(m.power[0], 0.0)), 1.0);
 }
