@@ -1,6 +1,6 @@
 //! The command line: one subcommand a file.
 //!
-//! A new subcommand is one file in `cli/`, one line in [`Command`] and one in its `run`.
+//! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod console;
 mod generate;

@@ -136,8 +136,10 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         picture: Some((
             &files[2].1,
             format!(
-                "Lying on a grey table: {} photons in each of two maps, the {} nearest gathered, {} rays a pixel",
-                PHOTONS.0, PHOTONS.1, PICTURE.2
+                "Lying on a grey table: {},000 photons in each of two maps, the {} nearest gathered, {} rays a pixel",
+                PHOTONS.0 / 1000,
+                PHOTONS.1,
+                PICTURE.2
             ),
         )),
         aset: &aset,
