@@ -149,6 +149,8 @@ fn build(v: &Values) -> Result<Design, CutError> {
             &every(3.0, 6.0),
         ),
         Tier::cut("girdle", gear, 90.0, radius, &every(0.0, 96.0 / flats as f64)),
+        // before the rest of the crown: with a crown angle of 0 all its planes merge into this one
+        Tier::cut("table", gear, 0.0, table_height, &[0.0]),
         Tier::cut(
             "upper half",
             gear,
@@ -164,7 +166,6 @@ fn build(v: &Values) -> Result<Design, CutError> {
             through(angles.star, radius * table * cos(HALF_MAIN_DEG), table_height),
             &every(6.0, 12.0),
         ),
-        Tier::cut("table", gear, 0.0, table_height, &[0.0]),
     ];
     if culet > 0.0 {
         let depth = top + radius * (1.0 - culet) * pavilion.to_radians().tan();
