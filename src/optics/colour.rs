@@ -18,7 +18,6 @@ const STEP_NM: f32 = 5.0;
 /// CIE 1931 2° colour matching functions x̄ ȳ z̄ at 380, 385 … 730 nm.
 /// Source: CIE 018:2019, table 6. Checked by their sums, below.
 #[rustfmt::skip]
-#[allow(clippy::excessive_precision)] // the table as CIE prints it
 const MATCHING: [[f32; 3]; 71] = [
     [0.001368, 3.9e-05, 0.00645], // 380
     [0.002236, 6.4e-05, 0.01055], // 385
