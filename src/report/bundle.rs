@@ -19,7 +19,7 @@ use crate::walk::Stone;
 use std::path::Path;
 
 /// Pixels across and down of the picture on the table, and camera rays a pixel.
-const PICTURE: (u32, u32, u32) = (720, 540, 16);
+const PICTURE: (u32, u32, u32) = (640, 480, 16);
 
 /// Photons of each map, and how many an estimate gathers: the original project's numbers.
 const PHOTONS: (usize, usize) = (100_000, 500);
