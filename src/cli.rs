@@ -1,6 +1,6 @@
 //! The command line: one subcommand a file.
 //!
-//! A new subcommand is one file in `cli/`, one line in [`Command`] and one in its `run`.
+//! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod console;
 mod generate;
@@ -9,6 +9,8 @@ mod list;
 mod outcome;
 mod parameters;
 mod render;
+mod report;
+mod score;
 mod show;
 mod stones;
 
@@ -43,6 +45,10 @@ enum Command {
     Show(show::Args),
     /// Take a photon-mapped picture, or a turntable of pictures
     Render(render::Args),
+    /// Scores of brilliance and fire, one row a stone
+    Score(score::Args),
+    /// Everything about one stone: pictures, scores and a page
+    Report(report::Args),
     /// What there is to choose from
     List(list::Args),
 }
@@ -54,6 +60,8 @@ impl Command {
             Command::Import(args) => import::run(args, console),
             Command::Show(args) => show::run(args, console),
             Command::Render(args) => render::run(args, console),
+            Command::Score(args) => score::run(args, console),
+            Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),
         }
     }

@@ -1,5 +1,9 @@
-//! Reports: diagrams, the ASET picture, and the page that shows everything about one stone.
+//! Reports: everything about one stone, with drawings, the ASET picture and a page.
 
 pub mod aset;
+pub mod bundle;
 pub mod diagram;
 pub mod page;
+pub mod sections;
+
+pub use bundle::{Bundle, ReportError, Request, make};

@@ -85,6 +85,8 @@ pub struct Preset {
     pub default_stone: &'static str,
     /// How the stone stands unless `--pose` says otherwise.
     pub default_pose: Pose,
+    /// Width and height of the picture unless they are given.
+    pub default_size: (u32, u32),
     /// Puts a stone into the scene; the last argument is width over height of the picture.
     pub build: fn(Stone, Material, Pose, f32) -> Scene,
 }

@@ -47,7 +47,7 @@ fn every_material_loses_less_than_all_and_bends_what_it_says() {
             assert!((cos_back - cos_i).abs() < 1e-6);
             last = r;
         }
-        assert_eq!(last, 1.0, "grazing light is reflected whole");
+        assert!((last - 1.0).abs() < 1e-15, "grazing light is reflected whole: {last}");
     }
 }
 
@@ -64,5 +64,6 @@ fn equal_energy_light_is_white() {
     let xyz: Vec3 = (0..n).map(|i| colour::xyz_weight(colour::wavelength((i as f32 + 0.5) / n as f32))).sum();
     let rgb = colour::linear_srgb(xyz / n as f32);
     assert!((rgb - Vec3::ONE).abs().max_element() < 2e-3, "{rgb}");
-    assert_eq!((colour::srgb_encode(0.0), colour::srgb_encode(1.0)), (0.0, 1.0));
+    assert_eq!(colour::srgb_encode(0.0), 0.0);
+    assert!((colour::srgb_encode(1.0) - 1.0).abs() < 1e-6);
 }

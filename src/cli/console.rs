@@ -9,10 +9,10 @@ use std::io::Write;
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Console {
     /// No notes and no progress, errors only
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, display_order = 1000)]
     quiet: bool,
     /// Results as JSON
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 1000)]
     pub json: bool,
 }
 
@@ -22,6 +22,11 @@ impl Console {
         let mut out = std::io::stdout().lock();
         let newline = if text.ends_with('\n') { "" } else { "\n" };
         write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| Failure::output(&e))
+    }
+
+    /// A result that is a file's bytes: standard output.
+    pub fn print_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+        Ok(crate::store::replace::write("-".as_ref(), bytes)?)
     }
 
     /// A result as JSON: standard output.
@@ -52,10 +57,18 @@ impl Console {
         }
     }
 
-    /// A turning sign for work without a count.
+    /// A clock for work without a count.
     pub fn spinner(&self, what: &'static str) -> ProgressBar {
-        let bar = self.progress(0, what);
-        if let Ok(style) = ProgressStyle::with_template("{msg} … {elapsed}") {
+        self.clock(self.progress(0, what), "{msg} … {elapsed}")
+    }
+
+    /// A clock over a few steps of unequal length.
+    pub fn steps(&self, steps: usize) -> ProgressBar {
+        self.clock(self.progress(steps, ""), "{pos}/{len} {msg} … {elapsed}")
+    }
+
+    fn clock(&self, bar: ProgressBar, template: &str) -> ProgressBar {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         if !bar.is_hidden() {

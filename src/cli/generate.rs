@@ -27,6 +27,9 @@ pub struct Args {
     /// Where to write; the ending chooses the format; may be given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
+    /// Format for `-o -`: obj, stl, glb or toml
+    #[arg(long, value_name = "FORMAT", default_value = "obj")]
+    to: String,
     #[command(flatten)]
     parameters: Parameters,
 }
@@ -51,7 +54,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         parameters.0.insert("size".into(), mm);
     }
     let name = args.stone.split(':').next().unwrap_or_default();
-    if let (None, Some(flag)) = (library::document(name), parameters.0.keys().next())
+    let is_cut = library::names().any(|n| n == name) || families::family(name).is_ok();
+    if let (false, Some(flag)) = (is_cut, parameters.0.keys().next())
         && Path::new(&args.stone).exists()
     {
         return Err(Failure::input(format!(
@@ -69,6 +73,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone)).into());
     }
     for file in &files {
+        if file == Path::new("-") {
+            console.print_bytes(&formats::encode(&design, &args.to)?)?;
+            continue;
+        }
         formats::write(&design, file)?;
         console.note(&format!("wrote {}", file.display()));
     }
@@ -87,7 +95,6 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 fn takes_size(spec: &str) -> bool {
     let name = spec.split(':').next().unwrap_or_default();
     let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
-    family
-        .and_then(|f| families::family(&f).ok())
-        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"))
+    families::family(family.as_deref().unwrap_or(name))
+        .is_ok_and(|f| f.parameters.iter().any(|p| p.key == "size"))
 }

@@ -33,7 +33,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         )));
     }
     let target = |spec: &str| -> PathBuf {
-        if into_folder && (args.to.is_some() || !is_file_name(&args.output)) {
+        if args.output == Path::new("-") {
+            args.output.clone()
+        } else if into_folder && (args.to.is_some() || !is_file_name(&args.output)) {
             let format = args.to.as_deref().unwrap_or("toml");
             args.output.join(format!("{}.{format}", stones::file_stem(spec)))
         } else {
@@ -45,7 +47,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         let facets = imported.design.solid()?.faces.len();
         let design = stones::sized(imported.design, args.size)?;
         let path = target(spec);
-        formats::write(&design, &path)?;
+        if path == Path::new("-") {
+            console.print_bytes(&formats::encode(&design, args.to.as_deref().unwrap_or("toml"))?)?;
+        } else {
+            formats::write(&design, &path)?;
+        }
         Ok((path, imported.format, facets, imported.warnings))
     });
     for (spec, result) in args.files.iter().zip(&results) {

@@ -3,7 +3,10 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::library;
+use crate::formats::FORMATS;
+use crate::metrics::METRICS;
 use crate::optics::materials::MATERIALS;
+use crate::scene::SCENES;
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
@@ -18,6 +21,12 @@ enum Kind {
     Cuts,
     /// Materials
     Materials,
+    /// Scores
+    Metrics,
+    /// File formats
+    Formats,
+    /// Scenes for pictures
+    Scenes,
 }
 
 #[derive(Serialize)]
@@ -34,6 +43,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let weight = m.specific_gravity.map_or(String::new(), |sg| format!(", density {sg} g/cm³"));
             (m.name.to_string(), format!("{}, n_D {:.4}{weight}", m.about, m.index_d()))
         })),
+        Kind::Metrics => entries(METRICS.iter().map(|m| {
+            let unit = if m.unit.is_empty() { String::new() } else { format!(" [{}]", m.unit) };
+            (m.name.to_string(), format!("{}{unit}", m.definition))
+        })),
+        Kind::Formats => entries(FORMATS.iter().map(|f| {
+            let how = if f.write.is_some() { "read, written" } else { "read" };
+            (f.name.to_string(), format!("{} ({how}; .{})", f.about, f.extensions.join(", .")))
+        })),
+        Kind::Scenes => entries(SCENES.iter().map(|s| (s.name.to_string(), s.about.to_string()))),
     };
     if console.json {
         console.print_json(&entries)?;

@@ -4,6 +4,7 @@ use crate::cut::CutError;
 use crate::formats::FormatError;
 use crate::photons::file::MapFileError;
 use crate::solid::SolidError;
+use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
 use std::io::Write;
 use std::process::ExitCode;
@@ -35,20 +36,39 @@ impl From<Code> for ExitCode {
 pub struct Failure {
     code: Code,
     message: String,
+    shape: Option<Shape>,
+}
+
+/// What is known of a file that was understood but holds no convex stone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shape {
+    /// Whether its surface closes.
+    pub closed: bool,
+    /// Whether it is convex, if that can be said.
+    pub convex: Option<bool>,
 }
 
 impl Failure {
     /// A wrong argument or unusable input.
     pub fn input(message: impl Into<String>) -> Failure {
-        Failure { code: Code::NoGoodInput, message: message.into() }
+        Failure::new(Code::NoGoodInput, message)
+    }
+
+    fn new(code: Code, message: impl Into<String>) -> Failure {
+        Failure { code, message: message.into(), shape: None }
+    }
+
+    /// A file or folder that could not be read.
+    pub fn reading(path: &str, cause: &std::io::Error) -> Failure {
+        Failure::new(Code::Io, format!("cannot read {path}: {cause}"))
     }
 
     /// Standard output could not be written; a reader that went away is no error.
     pub fn output(cause: &std::io::Error) -> Failure {
         if cause.kind() == std::io::ErrorKind::BrokenPipe {
-            Failure { code: Code::Done, message: String::new() }
+            Failure::new(Code::Done, "")
         } else {
-            Failure { code: Code::Io, message: format!("cannot write to standard output: {cause}") }
+            Failure::new(Code::Io, format!("cannot write to standard output: {cause}"))
         }
     }
 
@@ -60,6 +80,11 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> Code {
         self.code
+    }
+
+    /// The shape of a file that holds no convex stone; none for every other failure.
+    pub fn shape(&self) -> Option<Shape> {
+        self.shape
     }
 
     /// Says it on standard error and gives the exit code.
@@ -76,13 +101,30 @@ impl From<WriteError> for Failure {
         if error.cause.kind() == std::io::ErrorKind::BrokenPipe {
             return Failure::output(&error.cause);
         }
-        Failure { code: Code::Io, message: error.to_string() }
+        Failure::new(Code::Io, error.to_string())
     }
 }
 
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
-        Failure::input(error.to_string())
+        match error {
+            FormatError::Write(error) => error.into(),
+            FormatError::Read { .. } => Failure::new(Code::Io, error.to_string()),
+            _ => Failure { shape: shape_of(&error), ..Failure::input(error.to_string()) },
+        }
+    }
+}
+
+fn shape_of(error: &FormatError) -> Option<Shape> {
+    match error {
+        FormatError::Solid { cause: SolidError::Open { .. }, .. } => {
+            Some(Shape { closed: false, convex: Some(true) })
+        }
+        FormatError::Mesh { cause: RecoverError::Open(_), .. } => Some(Shape { closed: false, convex: None }),
+        FormatError::Mesh { cause: RecoverError::NotConvex(_), .. } => {
+            Some(Shape { closed: true, convex: Some(false) })
+        }
+        _ => None,
     }
 }
 
@@ -90,7 +132,7 @@ impl From<MapFileError> for Failure {
     fn from(error: MapFileError) -> Failure {
         match error {
             MapFileError::Write(cause) => cause.into(),
-            MapFileError::Read { .. } => Failure { code: Code::Io, message: error.to_string() },
+            MapFileError::Read { .. } => Failure::new(Code::Io, error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }
@@ -137,7 +179,7 @@ pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
         .filter(|line| !line.is_empty())
         .collect();
-    let said = said.join(" ");
+    let said = said.join(" ").replace(" tip: ", "; ");
     let said = said.strip_prefix("error: ").unwrap_or(&said);
     complain(&format!("{said}; see {}", help_command(command)));
     Code::NoGoodInput.into()

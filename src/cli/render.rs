@@ -35,12 +35,12 @@ pub struct Args {
     /// Where to write the PNG; frames and passes add to the name
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Pixels across
-    #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u32).range(1..=16384))]
-    width: u32,
-    /// Pixels down
-    #[arg(long, default_value_t = 480, value_parser = clap::value_parser!(u32).range(1..=16384))]
-    height: u32,
+    /// Pixels across; the scene has a default
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    width: Option<u32>,
+    /// Pixels down; the scene has a default
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    height: Option<u32>,
     /// Camera rays a pixel; square numbers spread best
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     spp: u32,
@@ -99,17 +99,18 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let design = stones::sized(imported.design, args.size)?;
     let stone = Stone::new(design.solid()?);
     let pose = args.pose.unwrap_or(args.scene.default_pose);
-    let aspect = args.width as f32 / args.height as f32;
+    let (width, height) =
+        (args.width.unwrap_or(args.scene.default_size.0), args.height.unwrap_or(args.scene.default_size.1));
+    let aspect = width as f32 / height as f32;
     let scene = (args.scene.build)(stone, args.material.clone(), pose, aspect);
     let maps = maps(args, &scene, console)?;
 
     let frames = args.frames.unwrap_or(1);
-    let bar = console.progress((frames * args.height) as usize, "rendering");
+    let bar = console.progress((frames * height) as usize, "rendering");
     let mut files = Vec::new();
     for frame in 0..frames {
         let camera = scene.camera.turned(360.0 * frame as f32 / frames as f32);
-        let settings =
-            render::Settings { width: args.width, height: args.height, rays: args.spp, seed: args.seed };
+        let settings = render::Settings { width, height, rays: args.spp, seed: args.seed };
         let film = render::render(&scene, &camera, &maps, &settings, &|| bar.inc(1));
         let number = args.frames.map(|_| frame);
         let passes = Pass::ALL.iter().filter(|_| args.passes).map(|(pass, name)| (Some(*pass), Some(*name)));

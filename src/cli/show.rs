@@ -1,7 +1,7 @@
 //! `cutlab show`: what a cutter or a grader reads off a stone.
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::outcome::{Code, Failure, Shape};
 use super::stones;
 use crate::cut::proportions::{self, Proportions};
 use crate::cut::{Design, Unit};
@@ -33,15 +33,12 @@ struct Sheet {
     facets: usize,
     closed: bool,
     convex: bool,
-    /// Why it is not closed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-    /// In the file's own unit cubed; null for an open design.
-    volume: Option<f64>,
+    /// In the file's own unit cubed.
+    volume: f64,
     unit: &'static str,
     facets_by_kind: BTreeMap<&'static str, usize>,
     #[serde(flatten)]
-    measured: Option<Measured>,
+    measured: Measured,
     material: String,
     refractive_index: f64,
     critical_angle_deg: f64,
@@ -68,11 +65,43 @@ struct Measured {
     weighed_as: Option<String>,
 }
 
+/// A file that holds no stone, as JSON.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Bad {
+    /// Understood, but open or not convex.
+    NoStone {
+        file: String,
+        format: Option<String>,
+        facets: Option<usize>,
+        closed: bool,
+        convex: Option<bool>,
+        volume: Option<f64>,
+        reason: String,
+    },
+    Error {
+        file: String,
+        error: String,
+    },
+}
+
+impl Bad {
+    fn of(file: &str, failure: &Failure) -> Bad {
+        let (file, why) = (file.to_string(), failure.message());
+        match failure.shape() {
+            Some(Shape { closed, convex }) => {
+                Bad::NoStone { file, format: None, facets: None, closed, convex, volume: None, reason: why }
+            }
+            None => Bad::Error { file, error: why },
+        }
+    }
+}
+
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Entry<'a> {
     Good(&'a Sheet),
-    Bad { file: &'a str, error: String },
+    Bad(Bad),
 }
 
 /// Shows every stone.
@@ -83,7 +112,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         let entries: Vec<Entry> = pairs
             .map(|(file, result)| match result {
                 Ok(sheet) => Entry::Good(sheet),
-                Err(failure) => Entry::Bad { file, error: failure.message() },
+                Err(failure) => Entry::Bad(Bad::of(file, failure)),
             })
             .collect();
         console.print_json(&entries)?;
@@ -106,33 +135,24 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
     let imported = stones::open(spec)?;
     let design = imported.design;
-    let (material, index) = match (args.material, design.refractive_index) {
-        (Some(m), _) => (m.name.to_string(), m.index_d()),
-        (None, Some(n)) => ("the file's index".into(), n),
-        (None, None) => (materials::MATERIALS[0].name.to_string(), materials::MATERIALS[0].index_d()),
-    };
-    let proportions = match proportions::of(&design) {
-        Ok(p) => Ok(p),
-        Err(e @ crate::solid::SolidError::Open { .. }) => Err(e.to_string()),
-        Err(e) => return Err(Failure::input(format!("{spec}: {e}"))),
-    };
-    let closed = proportions.as_ref().ok();
+    let material = stones::material_of(&design, args.material, None);
+    let index = material.index_d();
+    let p = proportions::of(&design).map_err(|e| Failure::input(format!("{spec}: {e}")))?;
     Ok(Sheet {
         file: spec.into(),
         format: imported.format.to_string(),
         name: design.name.clone(),
-        facets: closed.map_or(design.facets().count(), |p| p.facets),
-        closed: closed.is_some(),
-        convex: true, // the planes are the truth, and half-spaces meet in a convex solid
-        reason: proportions.as_ref().err().cloned(),
-        volume: closed.map(|p| p.volume),
+        facets: p.facets,
+        closed: true,
+        convex: true, // what the readers let through is the solid of its planes
+        volume: p.volume,
         unit: match design.unit {
             Unit::Millimetre => "mm",
             Unit::Free => "file",
         },
-        facets_by_kind: closed.map(|p| p.by_zone.iter().copied().collect()).unwrap_or_default(),
-        measured: closed.map(|p| Measured::of(p, &design, args)),
-        material,
+        facets_by_kind: p.by_zone.iter().copied().collect(),
+        measured: Measured::of(&p, &design, args),
+        material: material.name.into_owned(),
         refractive_index: index,
         critical_angle_deg: critical_angle_deg(index),
         warnings: imported.warnings,
@@ -183,46 +203,35 @@ impl Sheet {
             .iter()
             .filter_map(|k| self.facets_by_kind.get(k).filter(|n| **n > 0).map(|n| format!("{n} {k}")))
             .collect();
+        line("facets", format!("{} = {}", self.facets, kinds.join(" + ")));
+        let m = &self.measured;
+        let angle = |a: Option<f64>| a.map_or("no facets".into(), |a| format!("{a:.2}°"));
+        let unit = if self.unit == "mm" { " mm" } else { "" };
+        line("table", m.table_percent.map_or("none".into(), |t| format!("{t:.2} %")));
+        line("crown", format!("{}, height {:.2} %", angle(m.crown_angle_deg), m.crown_height_percent));
+        line("pavilion", format!("{}, depth {:.2} %", angle(m.pavilion_angle_deg), m.pavilion_depth_percent));
+        line("girdle", format!("{:.2} % at its thick places", m.girdle_percent));
+        if m.culet_percent > 0.0 {
+            line("culet", format!("{:.2} %", m.culet_percent));
+        }
+        line("depth", format!("{:.2} %", m.depth_percent));
+        line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
         line(
-            "facets",
-            if kinds.is_empty() {
-                format!("{} planes", self.facets)
-            } else {
-                format!("{} = {}", self.facets, kinds.join(" + "))
+            "volume",
+            match self.unit {
+                "mm" => format!("{:.4} mm³", self.volume),
+                _ => format!("{:.6} in the file's own unit", self.volume),
             },
         );
-        if let (Some(m), Some(volume)) = (&self.measured, self.volume) {
-            let angle = |a: Option<f64>| a.map_or("no facets".into(), |a| format!("{a:.2}°"));
-            let unit = if self.unit == "mm" { " mm" } else { "" };
-            line("table", m.table_percent.map_or("none".into(), |t| format!("{t:.2} %")));
-            line("crown", format!("{}, height {:.2} %", angle(m.crown_angle_deg), m.crown_height_percent));
-            line(
-                "pavilion",
-                format!("{}, depth {:.2} %", angle(m.pavilion_angle_deg), m.pavilion_depth_percent),
-            );
-            line("girdle", format!("{:.2} % at its thick places", m.girdle_percent));
-            if m.culet_percent > 0.0 {
-                line("culet", format!("{:.2} %", m.culet_percent));
-            }
-            line("depth", format!("{:.2} %", m.depth_percent));
-            line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
-            line(
-                "volume",
-                match self.unit {
-                    "mm" => format!("{volume:.4} mm³"),
-                    _ => format!("{volume:.6} in the file's own unit"),
-                },
-            );
-            if let (Some(mm), Some(mm3)) = (m.width_mm, m.volume_mm3) {
-                let weight = match (m.carats, &m.weighed_as) {
-                    (Some(ct), Some(name)) => format!("{ct:.3} ct in {name}"),
-                    _ => "the material's density is not known".into(),
-                };
-                line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm} mm)"));
-            }
+        if let (Some(mm), Some(mm3)) = (m.width_mm, m.volume_mm3) {
+            let weight = match (m.carats, &m.weighed_as) {
+                (Some(ct), Some(name)) => format!("{ct:.3} ct in {name}"),
+                _ => "the material's density is not known".into(),
+            };
+            line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm:.3} mm)"));
         }
-        line("closed", self.reason.clone().map_or("yes".into(), |why| format!("no, {why}")));
-        line("convex", if self.convex { "yes" } else { "no" }.into());
+        line("closed", "yes".into());
+        line("convex", "yes".into());
         line(
             "critical angle",
             format!("{:.2}° ({}, n {:.4})", self.critical_angle_deg, self.material, self.refractive_index),

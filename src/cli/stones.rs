@@ -64,9 +64,27 @@ pub fn material(name: &str) -> Result<&'static Material, String> {
     })
 }
 
+/// Value parser of `--ri`.
+pub fn refractive_index(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(n) if (1.0..=10.0).contains(&n) => Ok(n),
+        _ => Err("a refractive index is a number from 1 to 10".into()),
+    }
+}
+
+/// What a stone is made of: the material asked for, or the bare index asked for, or the index that
+/// its file was drawn for, or diamond.
+pub fn material_of(design: &Design, material: Option<&Material>, ri: Option<f64>) -> Material {
+    match (material, ri.or(design.refractive_index)) {
+        (Some(material), _) => material.clone(),
+        (None, Some(n)) => Material::of_index(n),
+        (None, None) => MATERIALS[0].clone(),
+    }
+}
+
 /// The candidate most like `name`.
 pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
-    let likeness = |c: &&str| strsim::jaro_winkler(c, name);
+    let likeness = |c: &&str| strsim::normalized_damerau_levenshtein(c, name);
     candidates.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or_default()
 }
 

@@ -23,7 +23,7 @@ pub trait Experiment: Sync {
 ///
 /// A pure function of experiment, seed and the calls of [`Traced::extend_to`]: threads take whole
 /// batches, so neither their number nor their order shows in a single bit. Checked in
-/// `tests/scores.rs` with one, two and five threads.
+/// `tests/score_promises.rs` with one, two and five threads.
 #[derive(Debug, Clone)]
 pub struct Traced<E: Experiment> {
     experiment: E,

@@ -63,6 +63,7 @@ pub struct Origin {
     scene: String,
     stone: String,
     material: String,
+    surroundings: String,
     photons: usize,
     seed: u64,
     caustic_stored: usize,
@@ -74,9 +75,10 @@ pub struct Origin {
 impl Origin {
     fn of(scene: &Scene, settings: &Settings, shots: &Shots) -> Origin {
         Origin {
-            scene: format!("{} ({:08x})", scene.name, surroundings_checksum(scene)),
+            scene: scene.name.into(),
             stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
             material: format!("{} ({:08x})", scene.stone.material.name, material_checksum(scene)),
+            surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
             seed: settings.seed,
             caustic_stored: shots.caustic.photons.len(),
@@ -92,6 +94,7 @@ impl Origin {
             ("the scene", &self.scene, &wanted.scene),
             ("the stone", &self.stone, &wanted.stone),
             ("the material", &self.material, &wanted.material),
+            ("the surroundings", &self.surroundings, &wanted.surroundings),
             ("--photons", &self.photons.to_string(), &wanted.photons.to_string()),
             ("--seed", &self.seed.to_string(), &wanted.seed.to_string()),
         ];
@@ -222,6 +225,7 @@ mod tests {
             scene: "table".into(),
             stone: "s".into(),
             material: "m".into(),
+            surroundings: "r".into(),
             photons: 5,
             seed: 1,
             caustic_stored: 5,

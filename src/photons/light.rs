@@ -92,8 +92,8 @@ mod tests {
         let (n, mut mean, mut expected) = (200_000, [0f64; BANDS], [0f64; BANDS]);
         for _ in 0..n {
             let mut light = Light::white(1.0, stream.unit());
-            for band in 0..BANDS {
-                expected[band] += f64::from(red.at(light.nm(band))) / f64::from(n);
+            for (band, sum) in expected.iter_mut().enumerate() {
+                *sum += f64::from(red.at(light.nm(band))) / f64::from(n);
             }
             if light.reflect(&red, stream.unit()) {
                 light.single_wavelength(stream.unit());

@@ -30,7 +30,7 @@ pub struct PhotonMap {
 const KNOWN_EVERY: usize = 4;
 
 /// Places between which a smooth look-up interpolates: enough to lie around the point.
-const AROUND: NonZero<usize> = NonZero::new(9).unwrap();
+const AROUND: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(8);
 
 impl PhotonMap {
     /// Arranges photons for look-up.

@@ -76,14 +76,16 @@ fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
 }
 
-/// A number with as many digits as its error deserves.
+/// A number with two digits of its error, and the error; a small number in powers of ten.
 pub fn number(e: Estimate) -> (String, Option<String>) {
-    if e.error > 0.0 && e.error.is_finite() {
-        let digits = (1.0 - e.error.log10().floor()).clamp(0.0, 7.0) as usize;
-        (format!("{:.digits$}", e.value), Some(format!("{:.digits$}", e.error)))
-    } else {
-        (format!("{:.4}", e.value), None)
+    if e.error <= 0.0 || !e.error.is_finite() {
+        return (format!("{:.4}", e.value), None);
     }
+    let digits = (1.0 - e.error.log10().floor()).max(0.0) as usize;
+    if digits > 6 {
+        return (format!("{:.2e}", e.value), Some(format!("{:.0e}", e.error)));
+    }
+    (format!("{:.digits$}", e.value), Some(format!("{:.digits$}", e.error)))
 }
 
 impl Score {
@@ -253,6 +255,7 @@ mod tests {
         let shown = |value, error| number(Estimate { value, error });
         assert_eq!(shown(0.283_21, 0.000_43), ("0.28321".into(), Some("0.00043".into())));
         assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
+        assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));
         assert_eq!(shown(0.25, 0.0), ("0.2500".into(), None));
     }
 

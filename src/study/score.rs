@@ -19,8 +19,8 @@ const BEAM_COST: u64 = 4;
 /// something.
 const FIRST_SAMPLES: u64 = 1 << 14;
 
-/// No experiment is traced further than this in pursuit of an error: about a minute a stone on two
-/// cores. Where it ends an experiment, the row says so.
+/// Unless the plan says otherwise no experiment is traced further than this in pursuit of an error:
+/// about a minute a stone and experiment on two cores.
 pub const SAMPLES_CAP: u64 = 1 << 25;
 
 /// How far to trace.
@@ -48,12 +48,15 @@ pub struct Plan {
     pub effort: Effort,
     /// The user's seed.
     pub seed: u64,
+    /// No experiment is traced further than so many samples in pursuit of an error (the beam a
+    /// quarter of it); where this ends one, the row says so.
+    pub cap: u64,
 }
 
 impl Default for Plan {
-    /// Every metric, default effort, seed 1.
+    /// Every metric, default effort and cap, seed 1.
     fn default() -> Self {
-        Plan { metrics: METRICS.to_vec(), effort: Effort::default(), seed: 1 }
+        Plan { metrics: METRICS.to_vec(), effort: Effort::default(), seed: 1, cap: SAMPLES_CAP }
     }
 }
 
@@ -149,8 +152,8 @@ fn run<E: Experiment>(row: &mut Row, experiment: E, columns: &[Column<E::Tally>]
             let largest =
                 |t: &Traced<E>| columns.iter().map(|(_, f)| t.estimate(f).error).fold(0.0, f64::max);
             let mut error = largest(&traced);
-            while error > target && traced.samples() < SAMPLES_CAP / cost {
-                traced.extend_to((traced.samples() * 5 / 4).min(SAMPLES_CAP / cost));
+            while error > target && traced.samples() < plan.cap / cost {
+                traced.extend_to((traced.samples() * 5 / 4).min(plan.cap / cost));
                 error = largest(&traced);
             }
             if error > target {

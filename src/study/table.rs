@@ -30,7 +30,7 @@ pub struct TableError(String);
 /// - `metrics`: those that the rows were scored for, in the same order
 ///
 /// A score that does not apply leaves its two cells empty. Numbers have nine decimals at most.
-/// The caller writes the bytes with [`crate::store::replace::write`]. Checked in `tests/scores.rs`.
+/// The caller writes the bytes with [`crate::store::replace::write`]. Checked in `tests/score_promises.rs`.
 pub fn csv(metrics: &[&Metric], rows: &[Row]) -> Result<Vec<u8>, TableError> {
     let fail = |e: csv::Error| TableError(e.to_string());
     let mut writer = csv::Writer::from_writer(Vec::new());

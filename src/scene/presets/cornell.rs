@@ -12,6 +12,7 @@ pub static PRESET: Preset = Preset {
     about: "the original room: red left wall, blue right wall, square ceiling light, the stone on its point",
     default_stone: "octahedron",
     default_pose: Pose::TableUp,
+    default_size: (480, 480),
     build,
 };
 
@@ -52,7 +53,8 @@ fn build(stone: Stone, material: Material, pose: Pose, aspect: f32) -> Scene {
         camera: Camera {
             position: Vec3::new(0.0, -half - DISTANCE, half),
             target: Vec3::new(0.0, 0.0, half),
-            field_deg: 2.0 * (half / DISTANCE).atan().to_degrees(), // 38°: the front fills the width
+            // 38° over the shorter side, which the front fills
+            field_deg: 2.0 * (aspect.max(1.0) * half / DISTANCE).atan().to_degrees(),
             aspect,
         },
     }

@@ -13,6 +13,7 @@ pub static PRESET: Preset = Preset {
     about: "a loose stone on a grey table under one soft square light",
     default_stone: "round-brilliant",
     default_pose: Pose::Lying,
+    default_size: (640, 480),
     build,
 };
 
@@ -21,11 +22,11 @@ const TABLE_REFLECTANCE: f32 = 0.45;
 /// A large soft box above the viewer's left shoulder: the white in the stone.
 const BOX_AT: Vec3 = Vec3::new(1.8, -1.0, 8.0);
 const BOX_SIDE: f32 = 6.0;
-const BOX_RADIANCE: f32 = 2.0;
+const BOX_RADIANCE: f32 = 2.4;
 /// A small lamp behind the stone: caustics on the table, fire in the stone.
 const LAMP_AT: Vec3 = Vec3::new(-4.5, 3.0, 6.5);
-const LAMP_SIDE: f32 = 0.7;
-const LAMP_RADIANCE: f32 = 110.0;
+const LAMP_SIDE: f32 = 0.8;
+const LAMP_RADIANCE: f32 = 170.0;
 const CAMERA_AT: Vec3 = Vec3::new(3.4, -5.6, 4.6);
 const FIELD_DEG: f32 = 34.0;
 

@@ -1,0 +1,114 @@
+//! `cutlab report`: everything about one stone, on one page.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::stones::{self, DEFAULT_STONE};
+use crate::cut::Unit;
+use crate::math::stats::Estimate;
+use crate::optics::Material;
+use crate::report::bundle::STEPS;
+use crate::report::page::number;
+use crate::report::{self, ReportError, Request};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Girdle width of a stone whose file has no unit, in millimetres.
+const USUAL_SIZE: f64 = 6.5;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The stone: a name from `cutlab list cuts`, with parameters or not, or a file
+    #[arg(default_value = DEFAULT_STONE)]
+    stone: String,
+    /// The folder to write into; it is made
+    #[arg(long, short, value_name = "DIR")]
+    output: PathBuf,
+    /// Girdle width in millimetres [the stone's own, or 6.5]
+    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    size: Option<f64>,
+    /// Material [the file's own index, or diamond]
+    #[arg(long, value_name = "NAME", value_parser = stones::material)]
+    material: Option<&'static Material>,
+    /// One refractive index, without dispersion, in place of a material
+    #[arg(long, value_name = "N", value_parser = stones::refractive_index, conflicts_with = "material")]
+    ri: Option<f64>,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+/// The numbers that matter, for `--json`.
+#[derive(Serialize)]
+struct Summary {
+    folder: PathBuf,
+    files: Vec<PathBuf>,
+    scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
+}
+
+/// Makes the report and writes it.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let imported = stones::open(&args.stone)?;
+    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+    let material = stones::material_of(&imported.design, args.material, args.ri);
+    let size = args.size.or((imported.design.unit == Unit::Free).then_some(USUAL_SIZE));
+    let design = stones::sized(imported.design, size)?;
+    let request = Request { stone: args.stone.clone(), design, material, seed: args.seed, command: typed() };
+
+    let bar = console.steps(STEPS);
+    let bundle = report::make(&request, &|what| {
+        bar.set_message(what);
+        bar.inc(1);
+    });
+    bar.finish_and_clear();
+    let bundle = bundle?;
+    bundle.write(&args.output)?;
+
+    if console.json {
+        let scores = bundle
+            .sections
+            .iter()
+            .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
+        console.print_json(&Summary {
+            folder: args.output.clone(),
+            files: bundle.files.iter().map(|(name, _)| args.output.join(name)).collect(),
+            scores: scores.collect(),
+        })?;
+        return Ok(Code::Done);
+    }
+    let mut text = String::new();
+    for section in &bundle.sections {
+        text += &format!("{}\n", section.head);
+        for score in section.scores.iter().take(section.large) {
+            let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
+            let value = match score.value.map(number) {
+                Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
+                Some((value, None)) => format!("{value}{unit}"),
+                None => "does not apply: the material has no dispersion".into(),
+            };
+            text += &format!("  {:<16} {value}\n", score.name);
+        }
+    }
+    let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
+    text += &format!("{}: {}", args.output.display(), names.join(", "));
+    console.print(&text)?;
+    Ok(Code::Done)
+}
+
+/// The command as typed, for the page.
+fn typed() -> String {
+    let words = std::env::args().skip(1).map(|word| {
+        let plain = |c: char| c.is_alphanumeric() || "-_./:=,+%@".contains(c);
+        if !word.is_empty() && word.chars().all(plain) { word } else { format!("'{word}'") }
+    });
+    std::iter::once("cutlab".to_string()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Failure {
+        match error {
+            ReportError::Format(error) => error.into(),
+            _ => Failure::input(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Everything about one stone: the files of `cutlab report`.
+
+use super::page::{Page, Section};
+use super::{aset, sections};
+use crate::cut::proportions::{self, Proportions};
+use crate::cut::{CutError, Design, families};
+use crate::formats::{self, FormatError};
+use crate::math::stats::Estimate;
+use crate::metrics::Metric;
+use crate::optics::Material;
+use crate::photons::{self, Shots};
+use crate::render::{self, Maps, tone};
+use crate::scene::Preset;
+use crate::solid::SolidError;
+use crate::store::replace::{self, WriteError};
+use crate::study::score::{Plan, Subject, score};
+use crate::study::table::{self, TableError};
+use crate::walk::Stone;
+use std::path::Path;
+
+/// Pixels across and down of the picture on the table, and camera rays a pixel.
+const PICTURE: (u32, u32, u32) = (720, 540, 16);
+
+/// Photons of each map, and how many an estimate gathers: the original project's numbers.
+const PHOTONS: (usize, usize) = (100_000, 500);
+
+/// Pixels across and down of the ASET picture.
+const ASET_SIDE: u32 = 720;
+
+/// What to report on.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The stone as it was asked for: its name in the table of scores.
+    pub stone: String,
+    /// The design, in millimetres.
+    pub design: Design,
+    /// What it is made of.
+    pub material: Material,
+    /// Seed of the random streams.
+    pub seed: u64,
+    /// The command as typed, for the page.
+    pub command: String,
+}
+
+/// A report that could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The planes bound no stone.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// The planes bound no stone.
+    #[error(transparent)]
+    Cut(#[from] CutError),
+    /// The stone could not be put into a file format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// A picture could not be encoded.
+    #[error(transparent)]
+    Picture(#[from] tone::EncodeError),
+    /// The table could not be made.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// The stone cannot be lit.
+    #[error("{0}")]
+    Scores(String),
+}
+
+/// A finished report, in memory.
+#[derive(Debug)]
+pub struct Bundle {
+    /// File names with their bytes; the page last.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// The scores under their heads.
+    pub sections: Vec<Section>,
+    /// Proportions of the stone.
+    pub proportions: Proportions,
+}
+
+/// Steps that [`make`] reports.
+pub const STEPS: usize = 4;
+
+/// Makes the report.
+///
+/// - `step`: called with what comes next, [`STEPS`] times
+///
+/// The same request gives the same bytes on any number of threads. Checked in `tests/report.rs`
+/// and `tests/cli.rs`.
+pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, ReportError> {
+    let design = &request.design;
+    let solid = design.solid()?;
+    let proportions = proportions::measure(&solid);
+    let (made_up_of, _) = families::made_up_of(design)?;
+    let stone = Stone::new(solid.clone());
+
+    step("scoring");
+    let plan = Plan { metrics: sections::all_metrics(), seed: request.seed, ..Plan::default() };
+    let subject = Subject {
+        stone: request.stone.clone(),
+        material: request.material.clone(),
+        solid: Ok(solid.clone()),
+    };
+    let row = score(&subject, &plan);
+    if let Some(why) = row.error {
+        return Err(ReportError::Scores(why));
+    }
+    let scored: Vec<(&'static Metric, Option<Estimate>)> =
+        plan.metrics.iter().copied().zip(row.scores.iter().copied()).collect();
+    let sections = sections::sections(&scored);
+
+    step("ASET map");
+    let aset = aset::picture(&stone, request.material.index_d() as f32, ASET_SIDE)?;
+
+    let picture = table_picture(stone, request, step)?;
+
+    let files = vec![
+        ("stone.obj", formats::encode(design, "obj")?),
+        ("stone.toml", formats::encode(design, "toml")?),
+        ("table.png", picture),
+        ("aset.png", aset.png.clone()),
+        ("scores.csv", table::csv(&plan.metrics, std::slice::from_ref(&row))?),
+    ];
+    let names: Vec<String> = files.iter().map(|(name, _)| name.to_string()).collect();
+    let material = &request.material;
+    let weight = material.carats(proportions.volume).map_or_else(
+        || format!("{:.2} mm", proportions.width),
+        |ct| format!("{:.2} mm · {ct:.3} ct", proportions.width),
+    );
+    let page = Page {
+        name: if design.name.is_empty() { &request.stone } else { &design.name },
+        made_up_of: &made_up_of,
+        source: &design.source,
+        material: format!("{}, n {:.4} (D line)", material.name, material.index_d()),
+        weight,
+        solid: &solid,
+        proportions: &proportions,
+        picture: Some((
+            &files[2].1,
+            format!(
+                "Lying on a grey table: {},000 photons in each of two maps, the {} nearest gathered, {} rays a pixel",
+                PHOTONS.0 / 1000,
+                PHOTONS.1,
+                PICTURE.2
+            ),
+        )),
+        aset: &aset,
+        sections: &sections,
+        traced: format!("Light traced by photons, seed {}.", request.seed),
+        command: request.command.clone(),
+        files: &names,
+    }
+    .html();
+    let mut files = files;
+    files.push(("index.html", page.into_bytes()));
+    Ok(Bundle { files, sections, proportions })
+}
+
+/// The photon-mapped picture of the stone on the grey table, as PNG.
+fn table_picture(
+    stone: Stone,
+    request: &Request,
+    step: &dyn Fn(&'static str),
+) -> Result<Vec<u8>, ReportError> {
+    let (width, height, rays) = PICTURE;
+    let (photons, nearest) = PHOTONS;
+    let Some(preset) = Preset::named("table") else {
+        return Err(ReportError::Scores("the scene 'table' is not in the catalogue".into()));
+    };
+    step("photon maps");
+    let aspect = width as f32 / height as f32;
+    let scene = (preset.build)(stone, request.material.clone(), preset.default_pose, aspect);
+    let seed = request.seed;
+    let shots = Shots::shoot(&scene, &photons::Settings { photons, nearest, seed });
+    let maps = Maps::new(&scene, &shots, nearest);
+    step("picture");
+    let settings = render::Settings { width, height, rays, seed };
+    let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
+    Ok(tone::png(&film, None, 0.0)?)
+}
+
+impl Bundle {
+    /// Writes every file into `folder`, which is made; the page last, so that it never shows what
+    /// is not there.
+    pub fn write(&self, folder: &Path) -> Result<(), WriteError> {
+        self.files.iter().try_for_each(|(name, bytes)| replace::write(&folder.join(name), bytes))
+    }
+}

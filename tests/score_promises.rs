@@ -1,0 +1,128 @@
+//! What scores promise whatever the stone: honest errors, the same bytes from any number of
+//! threads, rows that say what failed.
+
+mod brilliants;
+
+use brilliants::{SEED, diamond, n2417, named, plan, stone, subject};
+use cutlab::experiments::{Beam, Hemisphere, Traced, View};
+use cutlab::math::stats::Estimate;
+use cutlab::metrics::METRICS;
+use cutlab::optics::Material;
+use cutlab::study::score::{Effort, Plan, Row, Subject, score, score_all};
+use cutlab::study::table;
+use glam::DMat3;
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let subjects = [subject("a", &named("reference"), diamond()), subject("b", &named("nailhead"), n2417())];
+    let plans = [
+        Plan { effort: Effort::Samples(5000), seed: SEED, ..Plan::default() },
+        Plan { effort: Effort::Error(0.01), seed: SEED, ..Plan::default() },
+    ];
+    let bytes = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            plans.clone().map(|p| table::csv(&p.metrics, &score_all(&subjects, &p)).expect("csv"))
+        })
+    };
+    let one = bytes(1);
+    assert_eq!(one, bytes(2));
+    assert_eq!(one, bytes(5));
+}
+
+/// [D] every metric keeps its value when the stone turns about its axis, and its stated range.
+/// Sixteen comparisons: 4.2 standard errors.
+#[test]
+fn turning_a_stone_about_its_axis_changes_no_score() {
+    let still = named("steep-deep");
+    let turned = still.clone().turned(DMat3::from_rotation_z(0.3));
+    let plan = Plan { effort: Effort::Samples(1 << 15), seed: SEED, ..Plan::default() };
+    let [a, b] = [still, turned].map(|d| score(&subject("stone", &d, diamond()), &plan));
+    for ((metric, a), b) in METRICS.iter().zip(a.scores).zip(b.scores) {
+        let (a, b) = (a.expect("applies"), b.expect("applies"));
+        let off = (a.value - b.value).abs();
+        assert!(off <= 4.2 * a.error.hypot(b.error) + 1e-6, "{}: {a:?} and {b:?}", metric.name);
+        assert!((metric.range.0..=metric.range.1).contains(&a.value), "{}: {a:?}", metric.name);
+    }
+}
+
+/// ± 1.96 standard errors hold the truth 94.5 times in 100 (64 batches); of 400 runs, 3.3 standard
+/// deviations of that share are 3.8 points. The truth is a run of a thousand times the samples.
+#[test]
+fn errors_cover_the_truth_as_often_as_they_say() {
+    let stone = stone(&named("reference"));
+    let material = n2417();
+    let dome = |seed, samples| {
+        let mut traced = Traced::new(Hemisphere::new(&stone, &material).expect("lit"), seed);
+        traced.extend_to(samples);
+        traced.estimate(|t| (t.returned_cos2, t.arrived))
+    };
+    let look = |seed, samples| {
+        let mut traced = Traced::new(View::new(&stone, &material).expect("lit"), seed);
+        traced.extend_to(samples);
+        traced.estimate(|t| (t.bands[1], t.rays))
+    };
+    let runs = 400;
+    let share = |name: &str, truth: f64, run: &dyn Fn(u64) -> Estimate| {
+        let inside =
+            (0..runs).map(|i| run(SEED + 1 + i)).filter(|e| (e.value - truth).abs() < 1.96 * e.error);
+        let share = inside.count() as f64 / runs as f64;
+        println!("{name}: {share}");
+        assert!((0.907..0.983).contains(&share), "{name}: {share}");
+    };
+    share("wlr", dome(SEED, 1 << 19).value, &|seed| dome(seed, 512));
+    share("aset_red", look(SEED, 1 << 19).value, &|seed| look(seed, 512));
+}
+
+#[test]
+fn an_error_asked_for_is_reached_or_the_row_says_so() {
+    let subject = subject("reference", &named("reference"), n2417());
+    let asked = |target, cap| {
+        let metrics = plan(&["wlr", "aset_red"], 0).metrics;
+        score(&subject, &Plan { metrics, effort: Effort::Error(target), seed: SEED, cap })
+    };
+    let reached = asked(0.001, 1 << 20);
+    assert_eq!(reached.error, None);
+    assert!(reached.scores.iter().all(|s| s.is_some_and(|e| e.error <= 0.001)));
+    let short = asked(1e-6, 1 << 15);
+    let message = short.error.expect("says so");
+    assert!(message.contains("not reached") && message.contains("32768 samples"), "{message}");
+    assert!(short.scores.iter().all(Option::is_some), "the scores stand");
+}
+
+#[test]
+fn rows_hold_what_applies_and_say_what_failed() {
+    let mut subjects = vec![
+        subject("plain, with a comma", &named("reference"), n2417()),
+        subject("sparkling", &named("reference"), diamond()),
+        subject("impossible", &named("reference"), Material::of_index(0.5)),
+    ];
+    subjects[1].material = diamond();
+    subjects.push(Subject { stone: "open".into(), material: diamond(), solid: Err("open: no table".into()) });
+    let plan = plan(&["wlr", "fire_streak"], 1000);
+    let rows: Vec<Row> = score_all(&subjects, &plan);
+    let text = String::from_utf8(table::csv(&plan.metrics, &rows).expect("csv")).expect("text");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().expect("a header").iter().collect::<Vec<_>>().join(",");
+    assert_eq!(header, "stone,material,facets,wlr,wlr_se,fire_streak,fire_streak_se,error");
+    let cells: Vec<csv::StringRecord> = reader.records().collect::<Result<_, _>>().expect("records");
+    assert_eq!(
+        (cells.len(), &cells[0][0], &cells[0][1], &cells[0][2]),
+        (4, "plain, with a comma", "n=2.417", "153")
+    );
+    assert!(cells[0][3].parse::<f64>().is_ok_and(|x| (0.2..0.4).contains(&x)));
+    assert_eq!((&cells[0][5], &cells[0][6], &cells[0][7]), ("", "", ""), "no dispersion, no fire");
+    assert!(cells[1][5].parse::<f64>().is_ok_and(|x| x > 0.5) && cells[1][7].is_empty());
+    assert!(cells[2][3].is_empty() && cells[2][7].contains("0.5"), "{:?}", cells[2]);
+    assert_eq!((&cells[3][2], &cells[3][3], &cells[3][7]), ("", "", "open: no table"));
+}
+
+/// A material without dispersion lights no colours.
+#[test]
+fn a_constant_index_separates_nothing() {
+    let stone = stone(&named("reference"));
+    let mut beam = Traced::new(Beam::new(&stone, &n2417()).expect("lit"), SEED);
+    beam.extend_to(1000);
+    assert_eq!(beam.estimate(|t| (t.power_angle_deg, t.paired_power)).value, 0.0);
+    assert_eq!(beam.estimate(|t| (t.streak_deg, t.points)).value, 0.0);
+}
