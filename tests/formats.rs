@@ -191,6 +191,19 @@ fn meshes_come_back_as_facets() {
     assert!(good("two-shapes.pbrt").warnings[0].contains("one of 2 shapes"));
 }
 
+#[test]
+fn an_obj_keeps_its_groups_and_only_the_normals_it_states() {
+    let odd = good("octahedron-odd.obj");
+    assert_eq!(odd.design.facets().count(), 8);
+    assert!((odd.design.solid().expect("closed").volume() * 0.75 - 1.0).abs() < 1e-12);
+    let mut names: Vec<_> = odd.design.facets().map(|f| f.name.as_str()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["", "", "", "a b", "a b", "a b", "c", "c"]);
+    // a normal that the file states for one corner of a facet is none of the facet's
+    let off = |p: &Plane| (p.normal.abs() - DVec3::splat(3f64.sqrt().recip())).abs().max_element();
+    assert!(standing(&odd.design).iter().all(|(_, p)| off(p) < 1e-12));
+}
+
 /// The tilted stone as The Perfect Diamond is known to store it: each facet fanned into
 /// quadrilaterals whose triangular ones are degenerate, wound inward, to six decimals.
 fn perfect_diamond(design: &Design) -> (String, String) {
@@ -271,6 +284,8 @@ fn a_folder_and_a_missing_file_are_errors_of_one_line() {
 fn what_would_fill_the_memory_or_the_day_is_refused() {
     let wheel = format!("GemCad 5.0\ng 96 0\na 42 1{}\n", " 3".repeat(20_000));
     let faces = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}", "f 1 2 3\n".repeat(600_000));
+    let corners = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{}", " 1 2 3".repeat(1_400_000));
+    let continued = format!("o x\nv 0 0 0\nf 1 1 {}2", "\\\n".repeat(1_000_000));
     let toml = format!("name = \"x\"\n[[tier]]\nindices = [{}]\n", "1,".repeat(3_000_000));
     // each node holds the next one twice: 2^60 visits if one followed them all
     let nodes: Vec<_> = (0..60).map(|i| format!("{{\"children\":[{0},{0}]}}", i + 1)).collect();
@@ -281,6 +296,8 @@ fn what_would_fill_the_memory_or_the_day_is_refused() {
     for (text, said) in [
         (wheel, "10001 facets, more than the 10000 that are read"),
         (faces, "500001 faces: more than 500000 are not read"),
+        (corners, "line 4: expected at most 4000000 corners of all faces, found 'f 1 2 3"),
+        (continued, "line 3: expected a corner from 1 to 1 as in 3, 3/1 or 3//2, found '2'"),
         (toml, "is larger than 4194304 bytes"),
         (gltf, "expected a tree of nodes, found a node twice"),
     ] {

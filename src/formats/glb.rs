@@ -10,7 +10,7 @@ use super::{Format, Reading, beside, glb_write};
 use crate::solid::recover::{MOST_POLYGONS, Polygon};
 use ::gltf::accessor::{DataType, Dimensions};
 use ::gltf::mesh::Mode;
-use ::gltf::{Accessor, Gltf, Node, Primitive, Semantic, buffer};
+use ::gltf::{Accessor, Document, Gltf, Node, Primitive, Semantic, buffer};
 use base64::Engine;
 use glam::{DMat4, DVec3, DVec4};
 use std::collections::HashSet;
@@ -64,9 +64,7 @@ struct Reader<'a> {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    let gltf = Gltf::from_slice(source.bytes)
-        .map_err(|error| source.at_byte(0, "a glTF 2.0 file", shown(&error.to_string())))?;
-    let mut blob = gltf.blob.clone();
+    let (gltf, mut blob) = document(source)?;
     let mut reader = Reader {
         source,
         buffers: Vec::new(),
@@ -100,6 +98,26 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         reading.warnings.push(format!("{} primitives of points or lines left out", reader.left_out));
     }
     Ok(reading)
+}
+
+/// The document and its binary part. What makes `gltf` panic instead of refusing is refused first:
+/// a GLB shorter than its header, positions in an accessor that is not there.
+fn document(source: &Source) -> Result<(Document, Option<Vec<u8>>), FormatError> {
+    /// Bytes of magic, version and length.
+    const HEADER: u32 = 12;
+    let length = source.bytes.strip_prefix(b"glTF").and_then(|b| b.get(4..8)?.try_into().ok());
+    if let Some(length) = length.map(u32::from_le_bytes).filter(|&n| n < HEADER) {
+        return Err(source.at_byte(8, format!("a length of at least {HEADER}"), length.to_string()));
+    }
+    let bad = |error: ::gltf::Error| source.at_byte(0, "a glTF 2.0 file", shown(&error.to_string()));
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(source.bytes).map_err(bad)?;
+    let root = document.into_json();
+    let mut used = root.meshes.iter().flat_map(|m| &m.primitives).flat_map(|p| p.attributes.values());
+    if let Some(index) = used.find(|index| index.value() >= root.accessors.len()) {
+        let expected = format!("an accessor below {}", root.accessors.len());
+        return Err(source.at_byte(0, expected, index.value().to_string()));
+    }
+    Ok((Document::from_json(root).map_err(bad)?, blob))
 }
 
 impl Reader<'_> {

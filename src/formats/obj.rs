@@ -1,17 +1,25 @@
 //! Wavefront OBJ: polygons, with a group for each facet.
 //!
-//! Read here and not by a library, because errors must name the line and a facet's stated normal
-//! must not be made up from its neighbour's. `mtllib` is never followed.
+//! Read by `tobj`, which names no lines, makes up normals where a face states none, adds indices
+//! unchecked and knows neither continued lines nor comments after a statement. So the text is
+//! checked line by line first, and only what a stone is made of is handed on. `mtllib` is never
+//! followed.
 
 use super::error::FormatError;
 use super::shell::{STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
 use super::{Format, Reading, facet_labels};
 use crate::cut::{Design, Unit};
-use crate::solid::recover::Polygon;
+use crate::solid::recover::{MOST_POLYGONS, Polygon};
 use glam::DVec3;
 use std::fmt::Write;
 use std::sync::Arc;
+
+/// What `tobj` calls the group of faces that have none.
+const NO_GROUP: &str = "unnamed_object";
+
+/// Most corners of all faces; a closed surface has under six a face. It bounds memory.
+const MOST_CORNERS: usize = 8 * MOST_POLYGONS;
 
 /// OBJ meshes; one group a facet comes back as that facet, by name and to the last bit or so.
 pub static FORMAT: Format = Format {
@@ -32,71 +40,126 @@ fn sniff(source: &Source) -> u8 {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    let text = source.text();
-    let (mut vertices, mut normals, mut polygons) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut texels, mut name) = (0usize, Arc::<str>::default());
-    for (at, line) in joined(&text) {
-        let said = line.split('#').next().unwrap_or_default();
-        let mut words = said.split_whitespace();
-        match words.next() {
-            Some("v") => vertices.push(point(source, at, words, "corner")?),
-            Some("vn") => normals.push(point(source, at, words, "normal")?),
-            Some("vt") => texels += 1,
-            Some("g" | "o") => name = words.collect::<Vec<_>>().join(" ").into(),
-            Some("f") => {
-                let mut polygon = Polygon { name: name.clone(), ..Polygon::default() };
-                for (i, word) in words.enumerate() {
-                    let counts = [vertices.len(), texels, normals.len()];
-                    let (corner, normal) = reference(word, counts).ok_or_else(|| {
-                        let expected = format!("a corner from 1 to {} as in 3, 3/1 or 3//2", vertices.len());
-                        source.at_line(at, expected, word)
-                    })?;
-                    polygon.corners.push(corner);
-                    let normal = normal.map(|n| normals[n]);
-                    // normals that differ from corner to corner are for shading, not the facet's
-                    polygon.normal = if i == 0 || polygon.normal == normal { normal } else { None };
-                }
-                if polygon.corners.len() < 3 {
-                    return Err(source.at_line(at, "a face of at least 3 corners", said.trim()));
-                }
-                polygons.push(polygon);
-                few_enough(source, polygons.len())?;
-            }
-            _ => {}
+    let Checked { text, stated } = checked(source)?;
+    let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..Default::default() };
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default()))
+        .map_err(|cause| source.at_byte(0, "an OBJ mesh", cause.to_string()))?;
+    let (mut vertices, mut polygons) = (Vec::new(), Vec::with_capacity(stated.len()));
+    for tobj::Model { mesh, name } in models {
+        let name: Arc<str> = if name == NO_GROUP { Arc::default() } else { name.into() };
+        let (base, mut end) = (vertices.len(), 0);
+        vertices.extend(mesh.positions.chunks_exact(3).map(DVec3::from_slice));
+        // no arities: all are triangles
+        let triangles = if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 };
+        for arity in mesh.face_arities.iter().copied().chain(std::iter::repeat_n(3, triangles)) {
+            let its = end..end + arity as usize;
+            end = its.end;
+            let corners = mesh.indices[its.clone()].iter().map(|&i| base + i as usize).collect();
+            let normals = if stated[polygons.len()] { &mesh.normal_indices[its] } else { &[] };
+            let mut normals = normals.iter().map(|&n| DVec3::from_slice(&mesh.normals[3 * n as usize..]));
+            // normals that differ from corner to corner are for shading, not the facet's
+            let normal = normals.next().filter(|first| normals.all(|n| n == *first));
+            polygons.push(Polygon { name: name.clone(), corners, normal });
         }
     }
     design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)
 }
 
-/// Lines, those that end in a backslash joined with the next.
+/// An OBJ text that holds only sound `v`, `vn`, `g` and `f` statements, points first.
+#[derive(Default)]
+struct Checked {
+    text: String,
+    /// Whether every corner of a face states a normal, in the order of the faces.
+    stated: Vec<bool>,
+}
+
+/// Checks every statement that matters and leaves out the others. Of `v` only the place is kept:
+/// a fourth number is a weight for curves, three more are a colour. Indices become positive ones.
+fn checked(source: &Source) -> Result<Checked, FormatError> {
+    let text = source.text();
+    let slot = |kind: &str| ["v", "vt", "vn"].iter().position(|&k| k == kind);
+    let (mut seen, mut total) = ([0usize; 3], [0usize; 3]);
+    joined(&text)
+        .filter_map(|(_, line)| slot(line.split_whitespace().next()?))
+        .for_each(|kind| total[kind] += 1);
+    let (mut out, mut faces, mut corners) = (Checked::default(), String::new(), 0);
+    for (at, line) in joined(&text) {
+        let mut words = line.split_whitespace();
+        let Some(kind) = words.next() else { continue };
+        if let Some(kind) = slot(kind) {
+            seen[kind] += 1;
+        }
+        match kind {
+            "v" | "vn" => {
+                out.text += kind;
+                for _ in 0..3 {
+                    let word = words.next().unwrap_or_default();
+                    let what = if kind == "v" { "corner" } else { "normal" };
+                    number(word)
+                        .ok_or_else(|| source.at_line(at, format!("three numbers of a {what}"), word))?;
+                    out.text.push(' ');
+                    out.text += &word.replace('\u{2212}', "-");
+                }
+                out.text.push('\n');
+            }
+            "g" | "o" => {
+                faces.push('g');
+                words.for_each(|word| faces.extend([" ", word]));
+                faces.push('\n');
+            }
+            "f" => {
+                let before = corners;
+                let mut stated = true;
+                faces.push('f');
+                for word in words {
+                    let (corner, normal) = reference(word, seen, total).ok_or_else(|| {
+                        let expected = format!("a corner from 1 to {} as in 3, 3/1 or 3//2", total[0]);
+                        source.at_line(at, expected, word)
+                    })?;
+                    let _ = write!(faces, " {corner}"); // a String takes every write
+                    if let Some(normal) = normal {
+                        let _ = write!(faces, "//{normal}");
+                    }
+                    stated &= normal.is_some();
+                    corners += 1;
+                }
+                faces.push('\n');
+                out.stated.push(stated);
+                few_enough(source, out.stated.len())?;
+                if corners - before < 3 {
+                    return Err(source.at_line(at, "a face of at least 3 corners", line.trim()));
+                }
+                if corners > MOST_CORNERS {
+                    let expected = format!("at most {MOST_CORNERS} corners of all faces");
+                    return Err(source.at_line(at, expected, line.trim()));
+                }
+            }
+            _ => {}
+        }
+    }
+    out.text += &faces;
+    Ok(out)
+}
+
+/// Lines without comments, those that end in a backslash joined with the next.
 fn joined(text: &str) -> impl Iterator<Item = (usize, String)> {
     let mut all = lines(text);
     std::iter::from_fn(move || {
         let (at, line) = all.next()?;
         let mut whole = line.to_owned();
-        while let Some(head) = whole.strip_suffix('\\') {
-            whole = format!("{head} {}", all.next()?.1);
+        while whole.ends_with('\\') {
+            whole.pop();
+            whole.push(' ');
+            whole += all.next()?.1;
         }
+        whole.truncate(whole.find('#').unwrap_or(whole.len()));
         Some((at, whole))
     })
 }
 
-fn point<'a>(
-    source: &Source,
-    at: usize,
-    mut words: impl Iterator<Item = &'a str>,
-    what: &str,
-) -> Result<DVec3, FormatError> {
-    let mut p = DVec3::ZERO;
-    for k in 0..3 {
-        let word = words.next().unwrap_or_default();
-        p[k] = number(word).ok_or_else(|| source.at_line(at, format!("three numbers of a {what}"), word))?;
-    }
-    Ok(p)
-}
-
-/// Corner and normal, from 0, of `v`, `v/t`, `v//n` or `v/t/n`; negative ones count from the end.
-fn reference(word: &str, counts: [usize; 3]) -> Option<(usize, Option<usize>)> {
+/// Corner and normal, from 1, of `v`, `v/t`, `v//n` or `v/t/n`; negative ones count back from the
+/// last one seen.
+fn reference(word: &str, seen: [usize; 3], total: [usize; 3]) -> Option<(usize, Option<usize>)> {
     let mut found = [None; 3];
     for (k, part) in word.split('/').enumerate() {
         let slot = found.get_mut(k)?;
@@ -104,9 +167,8 @@ fn reference(word: &str, counts: [usize; 3]) -> Option<(usize, Option<usize>)> {
             continue;
         }
         let n: i64 = part.parse().ok()?;
-        let count = counts[k] as i64;
-        let index = if n < 0 { count.checked_add(n)? } else { n - 1 };
-        *slot = Some((0..count).contains(&index).then_some(index as usize)?);
+        let index = if n < 0 { n.checked_add(seen[k] as i64 + 1)? } else { n };
+        *slot = Some((1..=total[k] as i64).contains(&index).then_some(index as usize)?);
     }
     Some((found[0]?, found[2]))
 }

@@ -259,12 +259,15 @@ impl Surface {
         broad: bool,
     ) -> Option<Plane> {
         let area: DVec3 = region.iter().map(|&f| self.faces[f].area).sum();
+        // corners as the file has them: welding moves some by more than `stated_within`
+        let own = || region.iter().flat_map(|&f| &polygons[self.faces[f].polygon].corners);
         let levelled = |normal: DVec3| {
             let plane = Plane { normal, distance: 0.0 };
-            let (sum, n) = self.points(region).fold((0.0, 0usize), |(s, n), p| (s + plane.height(p), n + 1));
+            let (sum, n) =
+                own().fold((0.0, 0usize), |(s, n), &c| (s + plane.height(self.vertices[c]), n + 1));
             Plane { normal, distance: sum / n as f64 }
         };
-        let fits = |plane: &Plane| self.points(region).all(|p| plane.height(p).abs() <= stated_within);
+        let fits = |plane: &Plane| own().all(|&c| plane.height(self.vertices[c]).abs() <= stated_within);
         let stated = region.iter().find_map(|&f| polygons[self.faces[f].polygon].normal);
         stated
             .filter(|n| n.is_finite() && n.length() > 0.0)
