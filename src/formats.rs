@@ -124,8 +124,10 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imp
     if sure < GUESS && refused::by_name(&source).is_some() {
         return Err(refused::why(&source));
     }
-    let Reading { design, mut warnings } = (format.read)(&source)?;
-    warnings.extend(closed(name, &design)?);
+    let Reading { design, mut warnings } =
+        (format.read)(&source).map_err(|e| e.in_format(format.name, None))?;
+    let facets = design.facets().count();
+    warnings.extend(closed(name, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
     Ok(Imported { design, format: format.name, warnings })
 }
 

@@ -42,6 +42,10 @@ pub struct Failure {
 /// What is known of a file that was understood but holds no convex stone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shape {
+    /// The file's format.
+    pub format: &'static str,
+    /// How many facets it lists, if it lists facets.
+    pub facets: Option<usize>,
     /// Whether its surface closes.
     pub closed: bool,
     /// Whether it is convex, if that can be said.
@@ -116,16 +120,14 @@ impl From<FormatError> for Failure {
 }
 
 fn shape_of(error: &FormatError) -> Option<Shape> {
-    match error {
-        FormatError::Solid { cause: SolidError::Open { .. }, .. } => {
-            Some(Shape { closed: false, convex: Some(true) })
-        }
-        FormatError::Mesh { cause: RecoverError::Open(_), .. } => Some(Shape { closed: false, convex: None }),
-        FormatError::Mesh { cause: RecoverError::NotConvex(_), .. } => {
-            Some(Shape { closed: true, convex: Some(false) })
-        }
-        _ => None,
-    }
+    let FormatError::NoStone { format, facets, cause } = error else { return None };
+    let (closed, convex) = match &**cause {
+        FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
+        FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
+        FormatError::Mesh { cause: RecoverError::NotConvex(_), .. } => (true, Some(false)),
+        _ => return None,
+    };
+    Some(Shape { format, facets: *facets, closed, convex })
 }
 
 impl From<MapFileError> for Failure {

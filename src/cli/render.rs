@@ -23,9 +23,12 @@ pub struct Args {
     /// What is around it: see `cutlab list scenes`
     #[arg(long, default_value = "table", value_parser = preset)]
     scene: &'static Preset,
-    /// What it is made of: see `cutlab list materials`
-    #[arg(long, default_value = "diamond", value_parser = stones::material)]
-    material: &'static Material,
+    /// What it is made of, see `cutlab list materials` [the file's own index, or diamond]
+    #[arg(long, value_name = "NAME", value_parser = stones::material)]
+    material: Option<&'static Material>,
+    /// One refractive index, without dispersion, in place of a material
+    #[arg(long, value_name = "N", value_parser = stones::refractive_index, conflicts_with = "material")]
+    ri: Option<f64>,
     /// Girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -96,13 +99,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     check_name(&output, args)?;
     let imported = stones::open(spec)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+    let material = stones::material_of(&imported.design, args.material, args.ri);
     let design = stones::sized(imported.design, args.size)?;
     let stone = Stone::new(design.solid()?);
     let pose = args.pose.unwrap_or(args.scene.default_pose);
     let (width, height) =
         (args.width.unwrap_or(args.scene.default_size.0), args.height.unwrap_or(args.scene.default_size.1));
     let aspect = width as f32 / height as f32;
-    let scene = (args.scene.build)(stone, args.material.clone(), pose, aspect);
+    let scene = (args.scene.build)(stone, material, pose, aspect);
     let maps = maps(args, &scene, console)?;
 
     let frames = args.frames.unwrap_or(1);

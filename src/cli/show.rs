@@ -72,7 +72,7 @@ enum Bad {
     /// Understood, but open or not convex.
     NoStone {
         file: String,
-        format: Option<String>,
+        format: &'static str,
         facets: Option<usize>,
         closed: bool,
         convex: Option<bool>,
@@ -89,8 +89,8 @@ impl Bad {
     fn of(file: &str, failure: &Failure) -> Bad {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(Shape { closed, convex }) => {
-                Bad::NoStone { file, format: None, facets: None, closed, convex, volume: None, reason: why }
+            Some(Shape { format, facets, closed, convex }) => {
+                Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
             None => Bad::Error { file, error: why },
         }

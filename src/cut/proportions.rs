@@ -8,7 +8,7 @@ use serde::Serialize;
 /// the stone does not have (a table height without a table) is none.
 #[derive(Debug, Clone, Serialize)]
 pub struct Proportions {
-    /// Number of facets that bound the stone.
+    /// Number of facets that bound the stone, slivers of rounding left out.
     pub facets: usize,
     /// Facets by zone: table, crown, girdle, pavilion, culet.
     pub by_zone: Vec<(&'static str, usize)>,
@@ -38,12 +38,17 @@ pub struct Proportions {
     pub surface: f64,
 }
 
+/// A facet smaller than this share of the squared width (0.2 µm square on a stone of 6 mm) is what
+/// the rounding of a design file leaves between planes that are meant to meet in a point.
+const SLIVER: f64 = 1e-9;
+
 /// Measures a design whose solid is already known.
 pub fn measure(solid: &Polyhedron) -> Proportions {
     let zones: Vec<Zone> =
         (0..solid.faces.len()).map(|f| Zone::of(solid.area_vector(f).normalize_or_zero())).collect();
     let (lo, hi) = solid.bounds();
     let width = solid.width();
+    let seen: Vec<bool> = (0..zones.len()).map(|f| solid.area(f) > SLIVER * width * width).collect();
     let percent = |x: f64| 100.0 * x / width;
     let girdle_z: Vec<f64> =
         zone_faces(&zones, Zone::Girdle).flat_map(|f| solid.polygon(f).map(|v| v.z)).collect();
@@ -57,9 +62,9 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
     };
     let flat_size = |zone| zone_faces(&zones, zone).map(|f| diameter(solid, f)).reduce(f64::max);
     let by_zone = [Zone::Table, Zone::Crown, Zone::Girdle, Zone::Pavilion, Zone::Culet]
-        .map(|zone| (zone.name(), zone_faces(&zones, zone).count()));
+        .map(|zone| (zone.name(), zone_faces(&zones, zone).filter(|f| seen[*f]).count()));
     Proportions {
-        facets: solid.faces.len(),
+        facets: seen.iter().filter(|s| **s).count(),
         by_zone: by_zone.to_vec(),
         width,
         length: solid.length(),

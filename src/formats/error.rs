@@ -69,6 +69,16 @@ pub enum FormatError {
         /// What to do instead.
         instead: &'static str,
     },
+    /// Understood, but its planes or its mesh are no convex stone.
+    #[error("{cause}")]
+    NoStone {
+        /// Name of the format.
+        format: &'static str,
+        /// How many facets it lists, if it lists facets.
+        facets: Option<usize>,
+        /// What is wrong with it: [`FormatError::Solid`] or [`FormatError::Mesh`].
+        cause: Box<FormatError>,
+    },
     /// A mesh that is no convex stone.
     #[error("{file}: {cause}")]
     Mesh {
@@ -153,4 +163,16 @@ pub(super) fn shown(text: &str) -> String {
     }
     let more = if text.chars().nth(40).is_some() { "…" } else { "" };
     format!("'{start}{more}'")
+}
+
+impl FormatError {
+    /// Adds to a stone that is none what is known of its file; leaves other errors as they are.
+    pub(super) fn in_format(self, format: &'static str, facets: Option<usize>) -> FormatError {
+        match self {
+            FormatError::Mesh { .. } | FormatError::Solid { .. } => {
+                FormatError::NoStone { format, facets, cause: Box::new(self) }
+            }
+            other => other,
+        }
+    }
 }
