@@ -20,7 +20,15 @@ pub struct Stone {
     pub centre: DVec3,
     /// Length of one walking unit, in the design's unit.
     pub unit: f64,
-    /// Planes for the kernel, padded to a multiple of [`LANES`] with planes that nothing meets.
+    /// Planes (normal, distance) for the packet kernel: sloping facets, then the girdle's flats.
+    pub(super) rows: Vec<[f32; 4]>,
+    /// How many of the rows are sloping facets.
+    pub(super) slopes: usize,
+    /// For each row, the facet's number.
+    pub(super) facet_of: Vec<u32>,
+    /// Square of the radius about the frame's axis within which no girdle flat is met.
+    pub(super) belt_radius2: f32,
+    /// Planes by facet for the single-ray kernel, padded to a multiple of [`LANES`] with planes that nothing meets.
     pub(super) nx: Vec<f32>,
     pub(super) ny: Vec<f32>,
     pub(super) nz: Vec<f32>,
@@ -73,7 +81,18 @@ impl Stone {
             column.resize(padded, pad);
             column
         };
+        let (order, slopes) = belt_last(&planes);
+        let row = |f: &usize| {
+            let n = planes[*f].normal.as_vec3();
+            [n.x, n.y, n.z, planes[*f].distance as f32]
+        };
+        // a hair less than the nearest flat, for the rounding of a ray's end
+        let belt = order[slopes..].iter().map(|f| planes[*f].distance).fold(f64::INFINITY, f64::min) - 1e-5;
         Stone {
+            rows: order.iter().map(row).collect(),
+            facet_of: order.iter().map(|f| *f as u32).collect(),
+            slopes,
+            belt_radius2: (belt.max(0.0).powi(2)) as f32,
             nx: column(&|p| p.normal.x, 0.0),
             ny: column(&|p| p.normal.y, 0.0),
             nz: column(&|p| p.normal.z, 0.0),
@@ -139,5 +158,25 @@ impl Stone {
                 distance: self.d[i].into(),
             })
             .collect()
+    }
+}
+
+/// The facets with the vertical ones last, and how many come before them.
+///
+/// The belt is left out (all facets come before it) if it is too small to be worth a look of its
+/// own.
+fn belt_last(planes: &[Plane]) -> (Vec<usize>, usize) {
+    /// Fewer flats cost less than finding out whether they are needed.
+    const FLATS_WORTH_SKIPPING: usize = 8;
+    /// Flats of a design are vertical to rounding; the cylinder inside them needs no more slack.
+    const VERTICAL: f64 = 1e-9;
+    let is_flat = |f: &usize| planes[*f].normal.z.abs() < VERTICAL;
+    let (flats, mut order): (Vec<usize>, Vec<usize>) = (0..planes.len()).partition(is_flat);
+    let slopes = order.len();
+    order.extend(&flats);
+    if flats.len() < FLATS_WORTH_SKIPPING {
+        ((0..planes.len()).collect(), planes.len())
+    } else {
+        (order, slopes)
     }
 }
