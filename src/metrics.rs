@@ -24,6 +24,8 @@ use crate::experiments::{beam, hemisphere, view};
 pub struct Metric {
     /// Its name on the command line and in tables.
     pub name: &'static str,
+    /// What it tells, in one line for people.
+    pub about: &'static str,
     /// Its unit; empty for a fraction.
     pub unit: &'static str,
     /// Least and greatest value it can take.
@@ -98,7 +100,7 @@ mod tests {
     #[test]
     fn every_metric_says_what_it_is_and_has_a_name_of_its_own() {
         for (i, m) in METRICS.iter().enumerate() {
-            assert!(!m.source.is_empty() && m.range.0 < m.range.1, "{}", m.name);
+            assert!(!m.source.is_empty() && !m.about.is_empty() && m.range.0 < m.range.1, "{}", m.name);
             for word in ["npolarised", "Fresnel", "line"] {
                 assert!(m.definition.contains(word), "{} does not state: {word}", m.name);
             }

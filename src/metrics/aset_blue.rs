@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// ASET by energy: light from 75 to 90° above the girdle plane.
 pub static ASET_BLUE: Metric = Metric {
     name: "aset_blue",
+    about: "share from 75–90°, where the viewer's head is: contrast",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

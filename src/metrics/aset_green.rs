@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// ASET by energy: light from 0 to 45° above the girdle plane.
 pub static ASET_GREEN: Metric = Metric {
     name: "aset_green",
+    about: "share of what one sees face-up that comes from low light, 0–45°",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

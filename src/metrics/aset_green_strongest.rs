@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// ASET by the strongest path: light from 0 to 45° above the girdle plane.
 pub static ASET_GREEN_STRONGEST: Metric = Metric {
     name: "aset_green_strongest",
+    about: "share of the outline whose strongest path is green, as in the picture",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

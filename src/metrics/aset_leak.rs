@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// ASET by energy: light from below the horizon.
 pub static ASET_LEAK: Metric = Metric {
     name: "aset_leak",
+    about: "share from below: windows",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

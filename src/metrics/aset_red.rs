@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// ASET by energy: light from 45 to 75° above the girdle plane.
 pub static ASET_RED: Metric = Metric {
     name: "aset_red",
+    about: "share from 45–75°, the light that matters most",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Mean separation of the colours.
 pub static DISPERSION_MEAN: Metric = Metric {
     name: "dispersion_mean",
+    about: "mean angle between lines B and G of one exit, by power; read it beside light return",
     unit: "°",
     range: (0.0, 180.0),
     definition: "Vertical collimated beam on the whole outline, unpolarised, scalar Fresnel; exits upward through \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Fire: what is lit.
 pub static FIRE_LIT: Metric = Metric {
     name: "fire_lit",
+    about: "area of the beams that a point light sends out of the crown, per area of the stone (surrogate of GIA's DCLR)",
     unit: "",
     range: (0.0, 1e3),
     definition: "Vertical collimated beam on the whole outline, unpolarised, scalar Fresnel; exits upward through \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Fire: length of the streaks.
 pub static FIRE_STREAK: Metric = Metric {
     name: "fire_streak",
+    about: "length of the colour streaks, line B to G, summed over the beams that a point light sends out of the crown (surrogate of GIA's DCLR)",
     unit: "°",
     range: (0.0, 1e3),
     definition: "Vertical collimated beam on the whole outline, unpolarised, scalar Fresnel; exits upward through \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Glare.
 pub static GLARE: Metric = Metric {
     name: "glare",
+    about: "share mirrored by the crown's surface without entering",
     unit: "",
     range: (0.0, 1.0),
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Leakage.
 pub static LEAKAGE: Metric = Metric {
     name: "leakage",
+    about: "share that leaves otherwise: through the pavilion, or downward through the crown",
     unit: "",
     range: (0.0, 1.0),
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \

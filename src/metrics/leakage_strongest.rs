@@ -6,6 +6,7 @@ use crate::experiments::view::Band;
 /// Leakage by the strongest path: the outline that looks down through the stone.
 pub static LEAKAGE_STRONGEST: Metric = Metric {
     name: "leakage_strongest",
+    about: "share of the outline whose strongest path comes from below",
     unit: "",
     range: (0.0, 1.0),
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; unpolarised \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Light return.
 pub static LIGHT_RETURN: Metric = Metric {
     name: "light_return",
+    about: "share of a dome's light that comes back up through the crown, from inside",
     unit: "",
     range: (0.0, 1.0),
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \

@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Light given up.
 pub static LOST: Metric = Metric {
     name: "lost",
+    about: "share no longer followed: the error of the figures above",
     unit: "",
     range: (0.0, 1.0),
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \

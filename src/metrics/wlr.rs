@@ -5,6 +5,7 @@ use super::{Metric, Reading};
 /// Weighted light return.
 pub static WLR: Metric = Metric {
     name: "wlr",
+    about: "weighted light return: white light from a dome, returned through the crown, most weight face-up",
     unit: "",
     range: (0.0, 1.0),
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, scalar \

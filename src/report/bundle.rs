@@ -93,7 +93,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     let stone = Stone::new(solid.clone());
 
     step("scoring");
-    let plan = Plan { metrics: sections::all_metrics(), seed: request.seed, ..Plan::default() };
+    let plan = Plan { seed: request.seed, ..Plan::default() };
     let subject = Subject {
         stone: request.stone.clone(),
         material: request.material.clone(),
