@@ -4,5 +4,6 @@ pub mod colour;
 pub mod dispersion;
 pub mod fresnel;
 pub mod materials;
+pub mod stokes;
 
 pub use materials::Material;

@@ -53,12 +53,12 @@ fn errors_cover_the_truth_as_often_as_they_say() {
     let stone = stone(&named("reference"));
     let material = n2417();
     let dome = |seed, samples| {
-        let mut traced = Traced::new(Hemisphere::new(&stone, &material).expect("lit"), seed);
+        let mut traced = Traced::new(Hemisphere::new(&stone, &material, false).expect("lit"), seed);
         traced.extend_to(samples);
         traced.estimate(|t| (t.returned_cos2, t.arrived))
     };
     let look = |seed, samples| {
-        let mut traced = Traced::new(View::new(&stone, &material).expect("lit"), seed);
+        let mut traced = Traced::new(View::new(&stone, &material, false).expect("lit"), seed);
         traced.extend_to(samples);
         traced.estimate(|t| (t.bands[1], t.rays))
     };
@@ -79,7 +79,7 @@ fn an_error_asked_for_is_reached_or_the_row_says_so() {
     let subject = subject("reference", &named("reference"), n2417());
     let asked = |target, cap| {
         let metrics = plan(&["wlr", "aset_red"], 0).metrics;
-        score(&subject, &Plan { metrics, effort: Effort::Error(target), seed: SEED, cap })
+        score(&subject, &Plan { metrics, effort: Effort::Error(target), polarised: false, seed: SEED, cap })
     };
     let reached = asked(0.001, 1 << 20);
     assert_eq!(reached.error, None);
@@ -121,7 +121,7 @@ fn rows_hold_what_applies_and_say_what_failed() {
 #[test]
 fn a_constant_index_separates_nothing() {
     let stone = stone(&named("reference"));
-    let mut beam = Traced::new(Beam::new(&stone, &n2417()).expect("lit"), SEED);
+    let mut beam = Traced::new(Beam::new(&stone, &n2417(), false).expect("lit"), SEED);
     beam.extend_to(1000);
     assert_eq!(beam.estimate(|t| (t.power_angle_deg, t.paired_power)).value, 0.0);
     assert_eq!(beam.estimate(|t| (t.streak_deg, t.points)).value, 0.0);

@@ -51,7 +51,7 @@ fn wlr_of_the_other_stones() {
 #[test]
 fn wlr_by_other_normalisations() {
     let stone = stone(&named("reference"));
-    let mut dome = Traced::new(Hemisphere::new(&stone, &n2417()).expect("lit"), SEED);
+    let mut dome = Traced::new(Hemisphere::new(&stone, &n2417(), false).expect("lit"), SEED);
     dome.extend_to(1 << 18);
     let drawn = dome.estimate(|t: &hemisphere::Tally| (t.returned_cos2, t.drawn));
     assert_near("rejected counted", drawn, 0.264, 0.001);
@@ -141,6 +141,7 @@ fn wlr_against_a_plain_tracer() {
             direction: (-sky / n + normal * (sky.dot(normal) / n - cos_t)).normalize(),
             power: 1.0 - reflectance,
             index: n,
+            stokes: None,
         };
         let mut returned = 0.0;
         scalar::walk(&stone.planes, ray, 1e-4, |m| {
@@ -233,7 +234,7 @@ fn fire_of_the_reference_stone_and_the_nailhead_s_separation() {
 #[test]
 fn vertical_view_splits_as_the_reference_tracer_says() {
     let stone = stone(&named("reference"));
-    let view = View::new(&stone, &Material::of_index(2.417298)).expect("lit");
+    let view = View::new(&stone, &Material::of_index(2.417298), false).expect("lit");
     let mut seen = Traced::new(view, SEED);
     seen.extend_to(1 << 18);
     let share = |of: fn(&view::Tally) -> f64| seen.estimate(|t| (of(t), t.rays));

@@ -1,5 +1,4 @@
-//! The walk: energy, the `f64` twin, brute force, instruction sets, and rays that are hard on
-//! rounding.
+//! The walk: energy, the `f64` twin, brute force, instruction sets, rays that are hard on rounding.
 
 use cutlab::cut::families;
 use cutlab::math::{
@@ -81,6 +80,7 @@ fn twin_of(packet: &Packet, lane: usize) -> scalar::Ray {
         direction: packet.direction(lane).as_dvec3().normalize(),
         power: packet.power[lane].into(),
         index: packet.index[lane].into(),
+        stokes: None,
     }
 }
 

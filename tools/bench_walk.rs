@@ -23,10 +23,15 @@ struct Shower<'a> {
     stream: Stream,
     left: u64,
     meetings: u64,
+    polarised: bool,
 }
 
 impl Rays for Shower<'_> {
     const WIDTH: usize = 1;
+
+    fn polarised(&self) -> bool {
+        self.polarised
+    }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         while self.left > 0 {
@@ -36,7 +41,7 @@ impl Rays for Shower<'_> {
             if let Some(hit) = self.stone.hit(target - 3.0 * toward, toward) {
                 let entry = self.stone.enter(hit.facet, toward, INDEX);
                 let point = target + (hit.distance - 3.0) * toward;
-                packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, INDEX);
+                packet.enter(lane, point, &entry, INDEX);
                 return true;
             }
         }
@@ -63,19 +68,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("round brilliant, {} facets", solid.faces.len());
         for isa in Isa::all() {
             let stone = Stone::with_isa(solid.clone(), isa);
-            let stream = Stream::new(SEED, Purpose::Test, 0);
-            let mut shower = Shower { stone: &stone, stream, left: rays, meetings: 0 };
-            let start = Instant::now();
-            feed::walk_all(&stone, STOP_POWER, &mut shower);
-            let seconds = start.elapsed().as_secs_f64();
-            let meetings = shower.meetings as f64 * LANES as f64;
-            report(isa.name(), meetings, rays as f64, stone.facet_count(), seconds);
+            for polarised in [false, true] {
+                let stream = Stream::new(SEED, Purpose::Test, 0);
+                let mut shower = Shower { stone: &stone, stream, left: rays, meetings: 0, polarised };
+                let start = Instant::now();
+                feed::walk_all(&stone, STOP_POWER, &mut shower);
+                let seconds = start.elapsed().as_secs_f64();
+                let meetings = shower.meetings as f64 * LANES as f64;
+                let name = format!("{}{}", isa.name(), if polarised { ", Stokes" } else { "" });
+                report(&name, meetings, rays as f64, stone.facet_count(), seconds);
+            }
         }
         let stone = Stone::new(solid);
         let start = Instant::now();
         let (few, mut meetings) = (rays / 50, 0.0);
-        let mut shower =
-            Shower { stone: &stone, stream: Stream::new(SEED, Purpose::Test, 0), left: few, meetings: 0 };
+        let mut shower = Shower {
+            stone: &stone,
+            stream: Stream::new(SEED, Purpose::Test, 0),
+            left: few,
+            meetings: 0,
+            polarised: false,
+        };
         let mut packet = Packet::default();
         while shower.next(&mut packet, 0) {
             let ray = scalar::Ray {
@@ -83,6 +96,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 direction: packet.direction(0).as_dvec3(),
                 power: packet.power[0].into(),
                 index: INDEX.into(),
+                stokes: None,
             };
             scalar::walk(&stone.planes, ray, STOP_POWER.into(), |_| meetings += 1.0);
         }
@@ -94,7 +108,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn report(name: &str, meetings: f64, rays: f64, facets: usize, seconds: f64) {
     println!(
-        "  {name:>9}: {:7.2} million meetings/s, {:5.2}e9 facet tests/s, {:7.1} thousand rays/s",
+        "  {name:>16}: {:7.2} million meetings/s, {:5.2}e9 facet tests/s, {:7.1} thousand rays/s",
         meetings / seconds / 1e6,
         meetings * facets as f64 / seconds / 1e9,
         rays / seconds / 1e3

@@ -31,6 +31,9 @@ pub struct Args {
     /// Trace until every standard error is below this, in the metric's unit
     #[arg(long, value_name = "E", value_parser = error)]
     error: Option<f64>,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -45,9 +48,18 @@ pub struct Args {
     size: Option<f64>,
 }
 
+/// Value parser of `--polarisation`.
+fn on_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("polarisation is on or off".into()),
+    }
+}
+
 /// Scores every stone and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let mut plan = Plan { seed: args.seed, ..Plan::default() };
+    let mut plan = Plan { seed: args.seed, polarised: args.polarisation, ..Plan::default() };
     if !args.metrics.is_empty() {
         plan.metrics.clone_from(&args.metrics);
     }

@@ -26,13 +26,14 @@ const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
 /// The other three of the six.
 const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
 
-/// A vertical beam on one stone: points uniform over the outline, unpolarised, scalar Fresnel.
+/// A vertical beam on one stone: points uniform over the outline, unpolarised outside.
 ///
 /// The exiting beam is m = (cos t / cos i) at entry × (cos out / cos in) at exit times as wide as
 /// the entering one; its irradiance is power / m. Crown exits above the horizon count.
 #[derive(Debug, Clone)]
 pub struct Beam<'a> {
     stone: &'a Stone,
+    polarised: bool,
     indices: [[f32; LINES]; 2],
     outline: Outline,
     crown: Vec<f32>,
@@ -57,7 +58,7 @@ pub struct Tally {
 
 impl<'a> Beam<'a> {
     /// Lights a stone; a material without dispersion gives no angles.
-    pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
+    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
         let mut indices = [[0.0; LINES]; 2];
         for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
             for (n, um) in into.iter_mut().zip(lines) {
@@ -65,7 +66,7 @@ impl<'a> Beam<'a> {
             }
         }
         let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
-        Ok(Self { stone, indices, outline, crown })
+        Ok(Self { stone, polarised, indices, outline, crown })
     }
 }
 
@@ -93,13 +94,17 @@ struct Shine<'a> {
 impl Rays for Shine<'_> {
     const WIDTH: usize = LINES;
 
+    fn polarised(&self) -> bool {
+        self.experiment.polarised
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Beam { stone, outline, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
         for (lane, index) in (lane..).zip(self.indices) {
             let entry = stone.enter(facet, -Vec3::Z, index);
-            packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, index);
+            packet.enter(lane, point, &entry, index);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         self.together[lane] = self.paired;

@@ -17,10 +17,11 @@ const STOP_POWER: f32 = 1e-4;
 /// The dome over one stone.
 ///
 /// Points of the crown uniform by area, directions cosine-distributed about the facet's normal;
-/// directions from below the horizon are drawn but not lit. D line, unpolarised, scalar Fresnel.
+/// directions from below the horizon are drawn but not lit. D line, unpolarised outside.
 #[derive(Debug, Clone)]
 pub struct Hemisphere<'a> {
     stone: &'a Stone,
+    polarised: bool,
     index: f32,
     entrance: Crown,
     crown: Vec<f32>,
@@ -51,10 +52,11 @@ pub struct Tally {
 
 impl<'a> Hemisphere<'a> {
     /// Lights a stone at the material's D line.
-    pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
+    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
         let entrance = Crown::new(stone)?;
         Ok(Self {
             stone,
+            polarised,
             index: check_index(material.index_d())?,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone)?.area(),
@@ -77,6 +79,10 @@ struct Dome<'a> {
 impl Rays for Dome<'_> {
     const WIDTH: usize = 1;
 
+    fn polarised(&self) -> bool {
+        self.experiment.polarised
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Hemisphere { stone, index, entrance, .. } = self.experiment;
         for [a, b, c, d] in &mut self.points {
@@ -87,7 +93,7 @@ impl Rays for Dome<'_> {
                 let entry = stone.enter(facet, -sky, *index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
-                packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, *index);
+                packet.enter(lane, point, &entry, *index);
                 return true;
             }
         }

@@ -33,10 +33,11 @@ pub enum Band {
 }
 
 /// The face-up view of one stone: points uniform over the outline, vertical rays, every facet that
-/// faces up. D line, unpolarised, scalar Fresnel, no observer's head.
+/// faces up. D line, unpolarised outside, no observer's head.
 #[derive(Debug, Clone)]
 pub struct View<'a> {
     stone: &'a Stone,
+    polarised: bool,
     index: f32,
     outline: Outline,
 }
@@ -67,8 +68,8 @@ impl Tally {
 
 impl<'a> View<'a> {
     /// Looks at a stone at the material's D line.
-    pub fn new(stone: &'a Stone, material: &Material) -> Result<Self, ExperimentError> {
-        Ok(Self { stone, index: check_index(material.index_d())?, outline: Outline::new(stone)? })
+    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
+        Ok(Self { stone, polarised, index: check_index(material.index_d())?, outline: Outline::new(stone)? })
     }
 }
 
@@ -99,14 +100,18 @@ struct Gaze<'a> {
 impl Rays for Gaze<'_> {
     const WIDTH: usize = 1;
 
+    fn polarised(&self) -> bool {
+        self.experiment.polarised
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let View { stone, index, outline } = self.experiment;
+        let View { stone, index, outline, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
         let entry = stone.enter(facet, -Vec3::Z, *index);
         self.tally.rays += 1.0;
         self.tally.reflected += f64::from(entry.reflectance);
-        packet.set(lane, point, entry.direction, 1.0 - entry.reflectance, *index);
+        packet.enter(lane, point, &entry, *index);
         true
     }
 

@@ -19,12 +19,6 @@ pub fn unpolarised(cos_i: f64, eta: f64) -> (f64, f64) {
     (0.5 * (s * s + p * p), cos_t)
 }
 
-/// [`unpolarised`] in `f32`, for camera rays and photons that meet a stone from outside.
-pub fn unpolarised_f32(cos_i: f32, eta: f32) -> (f32, f32) {
-    let (r, c) = unpolarised(f64::from(cos_i), f64::from(eta));
-    (r as f32, c as f32)
-}
-
 /// The critical angle in degrees of a stone of index `n` in air: beyond it light is reflected
 /// totally.
 pub fn critical_angle_deg(n: f64) -> f64 {

@@ -46,6 +46,9 @@ pub struct Plan {
     pub metrics: Vec<&'static Metric>,
     /// How far to trace.
     pub effort: Effort,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
+    /// each (scalar Fresnel).
+    pub polarised: bool,
     /// The user's seed.
     pub seed: u64,
     /// No experiment is traced further than so many samples in pursuit of an error (the beam a
@@ -54,9 +57,15 @@ pub struct Plan {
 }
 
 impl Default for Plan {
-    /// Every metric, default effort and cap, seed 1.
+    /// Every metric, default effort and cap, polarisation followed, seed 1.
     fn default() -> Self {
-        Plan { metrics: METRICS.to_vec(), effort: Effort::default(), seed: 1, cap: SAMPLES_CAP }
+        Plan {
+            metrics: METRICS.to_vec(),
+            effort: Effort::default(),
+            polarised: true,
+            seed: 1,
+            cap: SAMPLES_CAP,
+        }
     }
 }
 
@@ -123,13 +132,13 @@ fn fill(row: &mut Row, stone: &Stone, material: &Material, plan: &Plan) -> Resul
     let view = readings(plan, |r| if let Reading::View(f) = r { Some(f) } else { None });
     let beam = readings(plan, |r| if let Reading::Beam(f) = r { Some(f) } else { None });
     if !hemisphere.is_empty() {
-        run(row, Hemisphere::new(stone, material)?, &hemisphere, plan, 1);
+        run(row, Hemisphere::new(stone, material, plan.polarised)?, &hemisphere, plan, 1);
     }
     if !view.is_empty() {
-        run(row, View::new(stone, material)?, &view, plan, 1);
+        run(row, View::new(stone, material, plan.polarised)?, &view, plan, 1);
     }
     if !beam.is_empty() && material.is_dispersive() {
-        run(row, Beam::new(stone, material)?, &beam, plan, BEAM_COST);
+        run(row, Beam::new(stone, material, plan.polarised)?, &beam, plan, BEAM_COST);
     }
     Ok(())
 }

@@ -70,13 +70,21 @@ impl Isa {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
 fn meet_avx512(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
-    kernel::meet::<true, 16, 4>(stone, packet, out);
+    if packet.polarised {
+        kernel::meet::<true, 16, 4, true>(stone, packet, out);
+    } else {
+        kernel::meet::<true, 16, 4, false>(stone, packet, out);
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn meet_avx2(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
-    kernel::meet::<true, 8, 2>(stone, packet, out);
+    if packet.polarised {
+        kernel::meet::<true, 8, 2, true>(stone, packet, out);
+    } else {
+        kernel::meet::<true, 8, 2, false>(stone, packet, out);
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -94,7 +102,8 @@ fn first_hit_avx2(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
 /// [`kernel::meet`] with the stone's instruction set.
 pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
     match stone.isa.0 {
-        Level::Portable => kernel::meet::<false, 4, 2>(stone, packet, out),
+        Level::Portable if packet.polarised => kernel::meet::<false, 4, 2, true>(stone, packet, out),
+        Level::Portable => kernel::meet::<false, 4, 2, false>(stone, packet, out),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { meet_avx2(stone, packet, out) },

@@ -131,9 +131,10 @@ impl<const W: usize> Best<W> {
 /// wins. The girdle's flats are tried only if some ray would pass the cylinder inside them: a third
 /// of the packets in a round brilliant.
 ///
-/// - `W`: lanes that fill a register; `B`: running bests that fit into the registers
+/// - `W`: lanes that fill a register; `B`: running bests that fit into the registers;
+///   `POLARISED`: whether the Stokes vector is followed
 #[inline(always)]
-pub(super) fn meet<const FUSED: bool, const W: usize, const B: usize>(
+pub(super) fn meet<const FUSED: bool, const W: usize, const B: usize, const POLARISED: bool>(
     stone: &Stone,
     p: &mut Packet,
     out: &mut Meeting,
@@ -182,14 +183,29 @@ pub(super) fn meet<const FUSED: bool, const W: usize, const B: usize>(
         // Fresnel from inside: eta = 1/n, multiplied through by n
         let s = (n * cos_i - cos_t) / (n * cos_i + cos_t);
         let q = (cos_i - n * cos_t) / (cos_i + n * cos_t);
-        let reflectance = if passes { 0.5 * (s * s + q * q) } else { 1.0 };
+        let (r_s, r_p) = if passes { (s * s, q * q) } else { (1.0, 1.0) };
+        let mean = 0.5 * (r_s + r_p);
         let bend = cos_t - n * cos_i;
         out.dx[l] = n * dx + bend * nx;
         out.dy[l] = n * dy + bend * ny;
         out.dz[l] = n * dz + bend * nz;
         out.cos_inside[l] = cos_i;
         out.cos_outside[l] = if passes { cos_t } else { 0.0 };
-        let kept = p.power[l] * reflectance;
+        let mut kept = p.power[l] * mean;
+        if POLARISED {
+            let half = 0.5 * (r_s - r_p);
+            let turned = about_incidence(p, l, [nx, ny, nz]);
+            kept += half * turned.q;
+            p.q[l] = half * p.power[l] + mean * turned.q;
+            // r_s r_p*: real where light passes, of size 1 at total reflection
+            let kappa = (sin2_t - 1.0).max(0.0).sqrt();
+            let (a, b) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
+            let size = (a * a + b * b).max(f32::MIN_POSITIVE);
+            let (re, im) = if passes { (s * q, 0.0) } else { ((a * a - b * b) / size, 2.0 * a * b / size) };
+            p.u[l] = re * turned.u - im * p.v[l];
+            p.v[l] = im * turned.u + re * p.v[l];
+            [p.ax[l], p.ay[l], p.az[l]] = turned.axis;
+        }
         out.power[l] = p.power[l] - kept;
         p.power[l] = kept;
         (p.x[l], p.y[l], p.z[l]) = (x, y, z);
@@ -199,6 +215,30 @@ pub(super) fn meet<const FUSED: bool, const W: usize, const B: usize>(
         (p.dx[l], p.dy[l], p.dz[l]) = (k * rx, k * ry, k * rz);
         p.path[l] += distance;
     }
+}
+
+/// Linear polarisation about the plane of incidence.
+struct Turned {
+    q: f32,
+    u: f32,
+    axis: [f32; 3],
+}
+
+/// The twin of [`crate::optics::stokes::Stokes::about_incidence`] for one lane.
+#[inline(always)]
+fn about_incidence(p: &Packet, l: usize, [nx, ny, nz]: [f32; 3]) -> Turned {
+    let (dx, dy, dz) = (p.dx[l], p.dy[l], p.dz[l]);
+    let (ax, ay, az) = (p.ax[l], p.ay[l], p.az[l]);
+    let (sx, sy, sz) = (dy * nz - dz * ny, dz * nx - dx * nz, dx * ny - dy * nx);
+    let size2 = sx * sx + sy * sy + sz * sz;
+    let slanting = size2 > 1e-12;
+    let k = 1.0 / size2.max(1e-12).sqrt();
+    let (sx, sy, sz) = if slanting { (k * sx, k * sy, k * sz) } else { (ax, ay, az) };
+    let cos = ax * sx + ay * sy + az * sz;
+    let (px, py, pz) = (dy * az - dz * ay, dz * ax - dx * az, dx * ay - dy * ax);
+    let sin = px * sx + py * sy + pz * sz;
+    let (cos2, sin2) = (cos * cos - sin * sin, 2.0 * cos * sin);
+    Turned { q: cos2 * p.q[l] + sin2 * p.u[l], u: cos2 * p.u[l] - sin2 * p.q[l], axis: [sx, sy, sz] }
 }
 
 /// First facet that a ray from outside meets: the latest entry into a half-space, if it comes

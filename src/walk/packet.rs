@@ -1,5 +1,6 @@
 //! Sixteen rays that walk together, and what they leave at a meeting with a facet.
 
+use super::stone::Entry;
 use glam::Vec3;
 
 /// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
@@ -30,6 +31,20 @@ pub struct Packet {
     pub index: Lanes,
     /// Path length since entry, in units of the stone's frame.
     pub path: Lanes,
+    /// Whether the walk follows polarisation; if not, light is taken as unpolarised at every facet.
+    pub polarised: bool,
+    /// Stokes vector besides the power, about the axis (see [`crate::optics::stokes`]).
+    pub q: Lanes,
+    /// Stokes vector.
+    pub u: Lanes,
+    /// Stokes vector.
+    pub v: Lanes,
+    /// Axis of the Stokes vector: unit, across the ray.
+    pub ax: Lanes,
+    /// Axis of the Stokes vector.
+    pub ay: Lanes,
+    /// Axis of the Stokes vector.
+    pub az: Lanes,
 }
 
 impl Default for Packet {
@@ -45,11 +60,33 @@ impl Default for Packet {
             power: zero,
             index: [1.5; LANES],
             path: zero,
+            polarised: false,
+            q: zero,
+            u: zero,
+            v: zero,
+            ax: [1.0; LANES],
+            ay: zero,
+            az: zero,
         }
     }
 }
 
 impl Packet {
+    /// An empty packet that follows polarisation, or not.
+    pub fn new(polarised: bool) -> Packet {
+        Packet { polarised, ..Packet::default() }
+    }
+
+    /// Sets a lane on its way with light that was unpolarised outside.
+    ///
+    /// - `point`: in the stone's frame; `entry`: its refraction there; `index`: of the stone at the
+    ///   lane's wavelength. The power is what enters of 1.
+    pub fn enter(&mut self, lane: usize, point: Vec3, entry: &Entry, index: f32) {
+        self.set(lane, point, entry.direction, 1.0 - entry.reflectance, index);
+        self.q[lane] = entry.polarisation;
+        (self.ax[lane], self.ay[lane], self.az[lane]) = entry.axis.into();
+    }
+
     /// Sets a lane on its way.
     ///
     /// - `point`, `direction` (unit): in the stone's frame, just inside
@@ -60,6 +97,8 @@ impl Packet {
         self.power[lane] = power;
         self.index[lane] = index;
         self.path[lane] = 0.0;
+        (self.q[lane], self.u[lane], self.v[lane]) = (0.0, 0.0, 0.0);
+        (self.ax[lane], self.ay[lane], self.az[lane]) = direction.any_orthonormal_vector().into();
     }
 
     /// Position of a lane: the point of its last meeting.

@@ -1,6 +1,6 @@
 //! The walk in `f64`, one ray at a time, written for reading: the oracle of the lanes.
 
-use crate::optics::fresnel;
+use crate::optics::stokes::{Facing, Stokes};
 use crate::solid::Plane;
 use glam::DVec3;
 
@@ -15,6 +15,8 @@ pub struct Ray {
     pub power: f64,
     /// Refractive index of the stone at the ray's wavelength.
     pub index: f64,
+    /// Stokes vector (its power is `power`); none to take light as unpolarised at every facet.
+    pub stokes: Option<Stokes>,
 }
 
 /// What a ray leaves at a meeting with a facet.
@@ -62,15 +64,18 @@ pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnM
         ray.point += ray.direction * distance;
         ray.point -= normal * planes[facet].height(ray.point);
         let cos_inside = ray.direction.dot(normal).clamp(0.0, 1.0);
-        let (reflectance, cos_outside) = fresnel::unpolarised(cos_inside, 1.0 / ray.index);
-        let direction = if reflectance < 1.0 {
+        let facing = Facing::new(cos_inside, 1.0 / ray.index);
+        let cos_outside = facing.cos_t;
+        ray.stokes = ray.stokes.map(|light| light.about_incidence(ray.direction, normal).reflected(&facing));
+        let kept = ray.stokes.map_or(ray.power * 0.5 * (facing.r_s + facing.r_p), |light| light.i);
+        let direction = if cos_outside > 0.0 {
             ray.direction * ray.index + normal * (cos_outside - ray.index * cos_inside)
         } else {
             DVec3::ZERO
         };
-        let power = ray.power * (1.0 - reflectance);
+        let power = ray.power - kept;
         visit(&Meeting { facet, point: ray.point, direction, power, cos_inside, cos_outside });
-        ray.power *= reflectance;
+        ray.power = kept;
         ray.direction = (ray.direction - 2.0 * cos_inside * normal).normalize();
     }
     ray.power

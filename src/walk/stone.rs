@@ -2,7 +2,7 @@
 
 use super::dispatch::{self, Isa};
 use super::packet::LANES;
-use crate::optics::fresnel;
+use crate::optics::stokes::Facing;
 use crate::solid::{Plane, Polyhedron};
 use glam::{DVec3, Vec3};
 
@@ -56,6 +56,10 @@ pub struct Entry {
     pub cos_outside: f32,
     /// Cosine of refraction inside.
     pub cos_inside: f32,
+    /// Q of the light that enters of unpolarised light of power 1.
+    pub polarisation: f32,
+    /// Axis of Q: unit, across the plane of incidence.
+    pub axis: Vec3,
 }
 
 impl Stone {
@@ -138,10 +142,18 @@ impl Stone {
     pub fn enter(&self, facet: usize, direction: Vec3, index: f32) -> Entry {
         let normal = self.normals[facet];
         let cos_outside = (-direction.dot(normal)).clamp(0.0, 1.0);
-        let (reflectance, cos_inside) = fresnel::unpolarised_f32(cos_outside, index);
+        let facing = Facing::new(cos_outside.into(), index.into());
+        let (reflectance, cos_inside) = ((0.5 * (facing.r_s + facing.r_p)) as f32, facing.cos_t as f32);
+        let polarisation = (0.5 * (facing.r_p - facing.r_s)) as f32; // T_s − T_p over 2
+        let across = direction.cross(normal);
+        let axis = if across.length_squared() < 1e-12 {
+            direction.any_orthonormal_vector()
+        } else {
+            across.normalize()
+        };
         let eta = 1.0 / index;
         let inside = direction * eta + normal * (eta * cos_outside - cos_inside);
-        Entry { direction: inside.normalize(), reflectance, cos_outside, cos_inside }
+        Entry { direction: inside.normalize(), reflectance, cos_outside, cos_inside, polarisation, axis }
     }
 
     /// Direction of a ray mirrored at facet `facet`.

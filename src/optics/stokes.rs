@@ -1,0 +1,91 @@
+//! Polarised light at a facet: Stokes vectors and the Mueller matrices of Fresnel's equations.
+//!
+//! A Stokes vector is given about an axis across the ray: with (s, p = d × s, d) right-handed and
+//! field components E_s, E_p, I = |E_s|² + |E_p|², Q = |E_s|² − |E_p|², U + iV = 2 E_s E_p*.
+//! Source: Born & Wolf, *Principles of Optics*, §1.4–1.5. Checked in `tests/polarisation.rs`
+//! against field components carried in complex numbers.
+
+use glam::DVec3;
+
+/// A Stokes vector and the axis it is given about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stokes {
+    /// Power.
+    pub i: f64,
+    /// Excess along the axis over across it.
+    pub q: f64,
+    /// Excess at +45° from the axis.
+    pub u: f64,
+    /// Circular part.
+    pub v: f64,
+    /// Unit vector across the ray.
+    pub axis: DVec3,
+}
+
+/// What happens at a smooth facet to the components across (s) and in (p) the plane of incidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facing {
+    /// Reflectance of the s component.
+    pub r_s: f64,
+    /// Reflectance of the p component.
+    pub r_p: f64,
+    /// Real part of r_s r_p*, the product of the amplitude coefficients.
+    pub re: f64,
+    /// Imaginary part of it; not 0 at total reflection only.
+    pub im: f64,
+    /// Cosine of refraction; 0 at total reflection.
+    pub cos_t: f64,
+}
+
+impl Facing {
+    /// Fresnel's coefficients.
+    ///
+    /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
+    pub fn new(cos_i: f64, eta: f64) -> Facing {
+        let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
+        if sin2_t < 1.0 {
+            let cos_t = (1.0 - sin2_t).sqrt();
+            let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+            let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+            return Facing { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
+        }
+        // cos t = iκ: r_s r_p* = A²/|A|² with A = (cos²i + κ²)/η + i κ cos i (1/η² − 1)
+        let n = 1.0 / eta;
+        let kappa = (sin2_t - 1.0).sqrt();
+        let (x, y) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
+        let size = x * x + y * y;
+        Facing { r_s: 1.0, r_p: 1.0, re: (x * x - y * y) / size, im: 2.0 * x * y / size, cos_t: 0.0 }
+    }
+}
+
+impl Stokes {
+    /// Unpolarised light of power `i`.
+    pub fn unpolarised(i: f64, axis: DVec3) -> Stokes {
+        Stokes { i, q: 0.0, u: 0.0, v: 0.0, axis }
+    }
+
+    /// The same light about the axis across the plane of incidence of a ray `direction` on a facet
+    /// with unit normal `normal`; at normal incidence any axis is one and the old one stays.
+    pub fn about_incidence(self, direction: DVec3, normal: DVec3) -> Stokes {
+        let across = direction.cross(normal);
+        if across.length_squared() < 1e-12 {
+            return self;
+        }
+        let axis = across.normalize();
+        let (cos, sin) = (self.axis.dot(axis), direction.cross(self.axis).dot(axis));
+        let (cos2, sin2) = (cos * cos - sin * sin, 2.0 * cos * sin);
+        Stokes { q: cos2 * self.q + sin2 * self.u, u: cos2 * self.u - sin2 * self.q, axis, ..self }
+    }
+
+    /// What a facet reflects of light given about its plane of incidence.
+    pub fn reflected(self, f: &Facing) -> Stokes {
+        let (mean, half) = (0.5 * (f.r_s + f.r_p), 0.5 * (f.r_s - f.r_p));
+        Stokes {
+            i: mean * self.i + half * self.q,
+            q: half * self.i + mean * self.q,
+            u: f.re * self.u - f.im * self.v,
+            v: f.im * self.u + f.re * self.v,
+            ..self
+        }
+    }
+}
