@@ -37,7 +37,7 @@ Exit codes: 0 done, 1 some stones failed, 2 usage or no input was good,
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make a stone from its parameters and write it as OBJ, STL, GLB or TOML
+    /// Make a stone from its parameters and write it as a design or a mesh
     Generate(generate::Args),
     /// Read designs and meshes and write them in another format
     Import(import::Args),

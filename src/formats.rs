@@ -4,13 +4,20 @@
 
 mod beside;
 mod cs580;
+mod cutting_table;
 pub mod error;
+mod gcs;
+mod gcs_write;
+mod gem;
+mod gem_write;
 mod gemcad_text;
+mod gemcad_text_write;
 mod glb;
 mod glb_write;
 mod obj;
 mod own;
 mod perfect_diamond;
+mod ply;
 mod refused;
 mod sc_tracer;
 mod shell;
@@ -18,6 +25,7 @@ pub mod source;
 mod stl;
 pub mod stone;
 mod triangle_words;
+mod windows_1252;
 
 pub use error::FormatError;
 pub use source::Source;
@@ -26,6 +34,7 @@ use crate::cut::Design;
 use crate::solid::polyhedron::Fate;
 use crate::solid::recover::MOST_FACETS;
 use crate::store::replace;
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::Path;
 
@@ -56,8 +65,11 @@ pub struct Format {
 pub static FORMATS: &[&Format] = &[
     &own::FORMAT,
     &gemcad_text::FORMAT,
+    &gem::FORMAT,
+    &gcs::FORMAT,
     &obj::FORMAT,
     &stl::FORMAT,
+    &ply::FORMAT,
     &glb::FORMAT,
     &sc_tracer::FORMAT,
     &cs580::FORMAT,
@@ -168,7 +180,9 @@ pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
 fn encoded(design: &Design, asked: &str, wanted: impl Fn(&Format) -> bool) -> Result<Vec<u8>, FormatError> {
     let writers = || FORMATS.iter().filter_map(|f| f.write.map(|write| (*f, write)));
     let Some((_, write)) = writers().find(|(f, _)| wanted(f)) else {
-        let known = writers().filter_map(|(f, _)| f.extensions.first().copied()).collect();
+        let mut known: Vec<_> = writers().filter_map(|(f, _)| f.extensions.first().copied()).collect();
+        let mut seen = BTreeSet::new();
+        known.retain(|ending| seen.insert(*ending));
         return Err(FormatError::NoWriter { asked: asked.into(), known });
     };
     write(design)

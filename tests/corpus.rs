@@ -1,10 +1,11 @@
-//! Real files: every GemCad text design and mesh of the corpus has the volume that an independent
-//! program found.
+//! Real files: every design and mesh of the corpus has the volume that an independent program found,
+//! and every design comes back from every format it is written in.
 //!
 //! The corpus is in `$CUTLAB_CORPUS`, or in `../shared/corpus` beside the package; where there is
 //! none, the tests say so and pass.
 
-use cutlab::formats::{self, Imported};
+use cutlab::cut::Design;
+use cutlab::formats::{self, FORMATS, Imported};
 use std::path::{Path, PathBuf};
 
 fn corpus() -> Option<PathBuf> {
@@ -40,12 +41,11 @@ fn known(corpus: &Path) -> Vec<Known> {
     let heads = table.headers().expect("with a first row").clone();
     let column = |name: &str| heads.iter().position(|h| h == name).expect("and the columns it promises");
     let names = ["xmin", "ymin", "zmin", "xmax", "ymax", "zmax"].map(column);
-    let (file, format, facets) = (column("file"), column("format"), column("faces_area_gt_1e-9"));
+    let (file, facets) = (column("file"), column("faces_area_gt_1e-9"));
     let (closed, volume) = (column("closed"), column("volume"));
     table
         .records()
         .map(|row| row.expect("rows are CSV"))
-        .filter(|row| &row[format] == "asc")
         .map(|row| {
             let number = |i: usize| row.get(i).and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
             Known {
@@ -61,7 +61,7 @@ fn known(corpus: &Path) -> Vec<Known> {
 }
 
 #[test]
-fn gemcad_designs_have_the_volume_box_and_facets_known_for_them() {
+fn designs_have_the_volume_box_and_facets_known_for_them() {
     let Some(corpus) = corpus() else { return };
     let (mut closed, mut open) = (0, 0);
     let mut wrong = Vec::new();
@@ -80,7 +80,9 @@ fn gemcad_designs_have_the_volume_box_and_facets_known_for_them() {
                 continue;
             }
         };
-        assert_eq!(stone.format, "gemcad", "{}", k.file);
+        let ending = k.file.rsplit('.').next().map(str::to_lowercase);
+        let wanted = FORMATS.iter().find(|f| ending.as_deref().is_some_and(|e| f.extensions.contains(&e)));
+        assert_eq!(Some(stone.format), wanted.map(|f| f.name), "{}", k.file);
         if !k.closed {
             wrong.push(format!("{}: known to be open, but was read", k.file));
             continue;
@@ -105,7 +107,7 @@ fn gemcad_designs_have_the_volume_box_and_facets_known_for_them() {
             wrong.push(format!("{}: V - E + F = {}", k.file, solid.euler()));
         }
     }
-    println!("{} GemCad text designs: {closed} closed, {open} refused as open", known.len());
+    println!("{} designs: {closed} closed, {open} refused as open", known.len());
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -118,7 +120,7 @@ fn meshes_have_the_volume_and_facets_of_the_designs_they_were_made_from() {
         let cells: Vec<_> = row.split('\t').collect();
         let (name, faces) = (cells[0], cells[3].parse::<usize>().expect("a count"));
         let known: f64 = cells[5].parse().expect("a volume");
-        for ending in [".obj", "_tri.obj", ".stl", "_ascii.stl"] {
+        for ending in [".obj", "_tri.obj", ".stl", "_ascii.stl", ".ply", "_le.ply"] {
             let file = corpus.join("meshes").join(format!("{name}{ending}"));
             match formats::read(&file) {
                 Err(error) => wrong.push(error.to_string()),
@@ -150,6 +152,20 @@ fn meshes_have_the_volume_and_facets_of_the_designs_they_were_made_from() {
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+/// The formats that hold facets as planes, and so give them back.
+const DESIGN_FORMATS: [&str; 4] = ["cutlab", "gemcad", "gemcad-binary", "gem-cut-studio"];
+
+/// The largest difference of a normal, or of a distance in parts of the size, facet by facet.
+fn off(a: &Design, b: &Design, size: f64) -> f64 {
+    if a.facets().count() != b.facets().count() {
+        return f64::INFINITY;
+    }
+    let gap = |(p, q): (cutlab::solid::Plane, cutlab::solid::Plane)| {
+        p.normal.distance(q.normal).max((p.distance - q.distance).abs() / size)
+    };
+    a.planes().into_iter().zip(b.planes()).map(gap).fold(0.0, f64::max)
+}
+
 #[test]
 fn real_designs_survive_being_written_and_read_back() {
     let Some(corpus) = corpus() else { return };
@@ -158,23 +174,68 @@ fn real_designs_survive_being_written_and_read_back() {
     for k in known(&corpus).iter().filter(|k| k.closed) {
         let stone = formats::read(&corpus.join(&k.file)).expect("is read, see above");
         let solid = stone.design.solid().expect("what is read is closed");
-        for format in formats::FORMATS.iter().filter(|f| f.write.is_some()) {
+        for format in FORMATS.iter().filter(|f| f.write.is_some()) {
             let bytes = formats::encode(&stone.design, format.name).expect("can be written");
-            match formats::read_bytes(&k.file, &bytes, None) {
-                Err(error) => wrong.push(format!("{}: {error}", format.name)),
-                Ok(back) => {
-                    let again = back.design.solid().expect("what is read is closed");
-                    let off = (again.volume() / solid.volume() - 1.0).abs();
-                    let lost = solid.faces.len().abs_diff(again.faces.len());
-                    let entry = worst.entry(format.name).or_insert((0.0f64, 0usize, 0usize));
-                    *entry = (entry.0.max(off), entry.1.max(lost), entry.2 + usize::from(lost > 0));
-                    if off > 1e-6 {
-                        wrong.push(format!("{} as {}: volume off by {off:.1e}", k.file, format.name));
-                    }
+            let back = match formats::read_bytes(&k.file, &bytes, None) {
+                Ok(back) => back,
+                Err(error) => {
+                    wrong.push(format!("{}: {error}", format.name));
+                    continue;
                 }
+            };
+            let again = back.design.solid().expect("what is read is closed");
+            let volume = (again.volume() / solid.volume() - 1.0).abs();
+            let lost = solid.faces.len().abs_diff(again.faces.len());
+            let is_design = DESIGN_FORMATS.contains(&format.name);
+            let planes =
+                if is_design { off(&stone.design, &back.design, solid.bounding_sphere().1) } else { 0.0 };
+            let entry = worst.entry(format.name).or_insert((0.0f64, 0.0f64, 0usize, 0usize));
+            *entry = (
+                entry.0.max(volume),
+                entry.1.max(planes),
+                entry.2.max(lost),
+                entry.3 + usize::from(lost > 0),
+            );
+            if volume > 1e-6 || planes > 1e-12 || (is_design && lost > 0) {
+                wrong.push(format!(
+                    "{} as {}: volume off by {volume:.1e}, planes by {planes:.1e}, {lost} facets lost",
+                    k.file, format.name
+                ));
+            }
+            let texts = |d: &Design| {
+                (d.name.clone(), d.gear, d.tiers.iter().map(|t| t.name.clone()).collect::<Vec<_>>())
+            };
+            if is_design && texts(&stone.design) != texts(&back.design) {
+                wrong.push(format!("{} as {}: names or gear differ", k.file, format.name));
             }
         }
     }
-    println!("largest difference of volume, most facets lost, designs that lost any: {worst:?}");
+    println!("largest difference of volume, of planes, most facets lost, designs that lost any:");
+    worst.iter().for_each(|(format, w)| println!("{format}: {w:?}"));
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn both_forms_of_a_gemcad_design_agree() {
+    let Some(corpus) = corpus() else { return };
+    for name in ["SRB", "Compear125", "CubeIllusionTri", "Turkey"] {
+        let read = |ending: &str| {
+            let path = corpus.join("pairs").join(name).with_extension(ending);
+            formats::read(&path).unwrap_or_else(|e| panic!("{e}")).design
+        };
+        let (text, binary) = (read("asc"), read("gem"));
+        let size = text.solid().expect("closed").bounding_sphere().1;
+        let planes = off(&text, &binary, size);
+        println!("{name}: planes off by {planes:.1e}");
+        // the text has six decimals of angles in degrees and eight of distances
+        assert!(planes < 2e-8, "{name}: {planes:e}");
+        let said = |d: &Design| (d.name.clone(), d.headers.clone(), d.footers.clone(), d.symmetry, d.gear);
+        assert_eq!(said(&text), said(&binary));
+        for (a, b) in text.tiers.iter().zip(&binary.tiers) {
+            assert_eq!((&a.name, &a.instructions), (&b.name, &b.instructions));
+            assert!(a.angle_deg.zip(b.angle_deg).is_some_and(|(a, b)| (a - b).abs() < 1e-6));
+            let names = |t: &cutlab::cut::Tier| t.facets.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
+            assert_eq!(names(a), names(b), "{name}");
+        }
+    }
 }

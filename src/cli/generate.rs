@@ -27,7 +27,7 @@ pub struct Args {
     /// Where to write; the ending chooses the format; may be given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: obj, stl, glb or toml
+    /// Format for `-o -`: a name or ending from `cutlab list formats`
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
     #[command(flatten)]

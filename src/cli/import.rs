@@ -14,7 +14,7 @@ pub struct Args {
     /// Where to write: a file whose ending chooses the format, or a folder
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
-    /// Format when OUT is a folder: obj, stl, glb or toml
+    /// Format when OUT is a folder: a name or ending from `cutlab list formats`
     #[arg(long, value_name = "FORMAT")]
     to: Option<String>,
     /// Scale to this girdle width in millimetres

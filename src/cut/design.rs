@@ -132,7 +132,8 @@ pub fn facet_normal(gear: Gear, angle_deg: f64, index: f64) -> DVec3 {
     let (sin_az, cos_az) = turn_sin_cos((index - gear.offset) / gear.teeth);
     let (sin_a, cos_a) = turn_sin_cos(angle_deg.abs() / 360.0);
     let up = if angle_deg.is_sign_negative() { -1.0 } else { 1.0 };
-    DVec3::new(sin_az * sin_a, -cos_az * sin_a, up * cos_a)
+    // the cosine of 90° comes as −0.0, and the sign of the girdle's 0 says on which side it is cut
+    DVec3::new(sin_az * sin_a, -cos_az * sin_a, up * cos_a.abs())
 }
 
 /// Sine and cosine of a number of full turns, exact at quarter turns.

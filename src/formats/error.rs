@@ -49,6 +49,12 @@ pub enum FormatError {
         /// What stands there.
         found: String,
     },
+    /// A file of no bytes, or of NUL only.
+    #[error("{file}: the file is empty")]
+    Empty {
+        /// The file.
+        file: String,
+    },
     /// Bytes of no format that cutlab knows.
     #[error("{file}, byte 0: expected one of {}, found {found}", .known.join(", "))]
     Unrecognised {

@@ -4,6 +4,7 @@
 //! comes out the right way round. Distances have no unit and the origin is free.
 
 use super::error::{FormatError, shown};
+use super::gemcad_text_write::write;
 use super::source::{Source, lines, number};
 use super::{Format, Reading};
 use crate::cut::design::facet_normal;
@@ -18,7 +19,7 @@ pub static FORMAT: Format = Format {
     about: "GemCad text design: tiers by angle, distance and index",
     sniff,
     read,
-    write: None,
+    write: Some(write),
 };
 
 fn sniff(source: &Source) -> u8 {
@@ -221,8 +222,11 @@ impl File {
                 design = other;
             }
         }
-        design.headers = self.headers;
-        design.footers = self.footers;
+        for (kept, lines) in [(&mut design.headers, self.headers), (&mut design.footers, self.footers)] {
+            *kept = lines;
+            // blank lines after the last say nothing, and the binary form cannot tell them from none
+            kept.truncate(kept.iter().rposition(|l| !l.is_empty()).map_or(0, |last| last + 1));
+        }
         Ok(Reading { design, warnings: self.warnings })
     }
 }

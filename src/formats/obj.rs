@@ -6,20 +6,17 @@
 //! followed.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F64, design_of_mesh, few_enough};
+use super::shell::{MOST_CORNERS, STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
 use super::{Format, Reading, facet_labels};
 use crate::cut::{Design, Unit};
-use crate::solid::recover::{MOST_POLYGONS, Polygon};
+use crate::solid::recover::Polygon;
 use glam::DVec3;
 use std::fmt::Write;
 use std::sync::Arc;
 
 /// What `tobj` calls the group of faces that have none.
 const NO_GROUP: &str = "unnamed_object";
-
-/// Most corners of all faces; a closed surface has under six a face. It bounds memory.
-const MOST_CORNERS: usize = 8 * MOST_POLYGONS;
 
 /// OBJ meshes; one group a facet comes back as that facet, by name and to the last bit or so.
 pub static FORMAT: Format = Format {

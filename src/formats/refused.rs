@@ -13,9 +13,7 @@ struct Refused {
 }
 
 const SECRET: &str = "the format is not public; export the stone as STL or OBJ, or the design as GemCad .asc";
-const LATER: &str = "a later version will; export the design as GemCad .asc, or the stone as STL or OBJ";
 const SCAN: &str = "a later version will; export the scan as STL or OBJ";
-const MESH: &str = "a later version will; convert it to OBJ, STL or GLB";
 
 static REFUSED: &[Refused] = &[
     Refused { extension: "dmc", magic: "", format: ".dmc", instead: SECRET },
@@ -23,9 +21,6 @@ static REFUSED: &[Refused] = &[
     Refused { extension: "oxgz", magic: "", format: ".oxgz", instead: SECRET },
     Refused { extension: "cap", magic: "", format: ".cap", instead: SECRET },
     Refused { extension: "ssp", magic: "", format: ".ssp", instead: SECRET },
-    Refused { extension: "gem", magic: "", format: "GemCad binary .gem", instead: LATER },
-    Refused { extension: "gcs", magic: "<GemCutStudio", format: "Gem Cut Studio .gcs", instead: LATER },
-    Refused { extension: "ply", magic: "ply", format: "PLY", instead: MESH },
     Refused { extension: "srn", magic: "SPF ", format: "Sarine .srn", instead: SCAN },
 ];
 
@@ -37,6 +32,9 @@ pub fn by_name(source: &Source) -> Option<&'static str> {
 
 /// Why a file that no reader claims is not read.
 pub fn why(source: &Source) -> FormatError {
+    if source.bytes.iter().all(|b| *b == 0) {
+        return FormatError::Empty { file: source.name.into() };
+    }
     let (ending, start) = (source.extension(), source.beginning());
     let known = |r: &&Refused| {
         r.extension == ending || (!r.magic.is_empty() && start.trim_start().starts_with(r.magic))

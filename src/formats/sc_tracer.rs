@@ -10,22 +10,24 @@ use super::shell::{STATED_IN_F64, design_of_mesh};
 use super::source::Source;
 use super::triangle_words::{first_count, records};
 use super::{Format, Reading};
+use crate::cut::Design;
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 /// Triangle lists with 15 numbers a triangle, or 12.
 pub static FORMAT: Format = Format {
     name: "sc-tracer",
     extensions: &["asc"],
-    about: "SC_Tracer scene: the transparent triangles are the stone",
+    about: "SC_Tracer scene: the transparent triangles are the stone; written for `--to sc-tracer`",
     sniff: |source| match first_count(source) {
         Some(15 | 12) => 90,
         Some(24) | None => 0,
         Some(_) => 70,
     },
     read,
-    write: None,
+    write: Some(write),
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
@@ -65,4 +67,20 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         reading.warnings.push(format!("{others} triangles of room and lights left out"));
     }
     Ok(reading)
+}
+
+/// The stone as transparent triangles of the original renderer's colour, in the full form.
+fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    let mesh = solid.triangulate();
+    let mut text = String::new();
+    for triangle in &mesh.triangles {
+        let mut start = "triangle ";
+        for v in triangle.map(|corner| mesh.vertices[corner]) {
+            let _ = writeln!(text, "{start}{} {} {}", v.x, v.y, v.z); // a String takes every write
+            start = "";
+        }
+        text += "0.900000 0.900000 0.900000\n0.000000 0.000000 0.000000\nT\n";
+    }
+    Ok(text.into_bytes())
 }

@@ -14,6 +14,9 @@ pub const STATED_IN_F64: f64 = 1e-11;
 /// The same for normals and corners in `f32`: a few roundings of the largest coordinate.
 pub const STATED_IN_F32: f64 = 3e-7;
 
+/// Most corners of all faces; a closed surface has under six a face. It bounds memory.
+pub const MOST_CORNERS: usize = 8 * MOST_POLYGONS;
+
 /// A merge tolerance beyond this is worth telling: the mesh is coarser than `f32`.
 const COARSE: f64 = 2e-6;
 

@@ -1,6 +1,7 @@
 //! What a reader is given: a file's bytes, its name for errors, and the text in it.
 
 use super::error::{FormatError, shown};
+use super::windows_1252;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -15,24 +16,13 @@ pub struct Source<'a> {
     pub folder: Option<&'a Path>,
 }
 
-/// Windows-1252 from 0x80 to 0x9F; the rest is Latin-1. The five that it leaves undefined stay
-/// control characters. Source: the table of the WHATWG Encoding Standard.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}',
-    '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
-
 impl<'a> Source<'a> {
     /// The text: UTF-8 if it is that, else Windows-1252; without byte-order mark and NUL padding.
     pub fn text(&self) -> Cow<'a, str> {
         let bytes = self.bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(self.bytes);
         let text = match std::str::from_utf8(bytes) {
             Ok(text) => Cow::Borrowed(text),
-            Err(_) => bytes
-                .iter()
-                .map(|&b| if (0x80..0xA0).contains(&b) { WINDOWS_1252[b as usize - 0x80] } else { b as char })
-                .collect::<String>()
-                .into(),
+            Err(_) => windows_1252::decoded(bytes).into(),
         };
         if text.contains('\0') { text.replace('\0', "").into() } else { text }
     }

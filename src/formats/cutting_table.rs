@@ -1,0 +1,213 @@
+//! Facets as a cutter reads them, by angle, distance and index: for the formats that store planes,
+//! and for writing designs whose facets were never cut by index.
+
+use super::error::FormatError;
+use crate::cut::design::facet_normal;
+use crate::cut::{Design, Facet, Gear, Tier};
+use crate::solid::Plane;
+use glam::DVec3;
+use std::borrow::Cow;
+
+/// Angles in degrees and indices in teeth nearer than this to six decimals are meant so: above the
+/// rounding of `f64` in a stored normal, far below what a faceter can set.
+const MEANT: f64 = 1e-11;
+
+/// A normal and a distance (in parts of itself) that differ by less than this are the same.
+const SAME: f64 = 1e-13;
+
+/// Facets of one tier at one angle and distance.
+#[derive(Debug)]
+pub struct Row<'d> {
+    /// The tier they are part of.
+    pub tier: &'d Tier,
+    /// Angle from the girdle plane in degrees; its sign (also of 0) tells crown from pavilion.
+    pub angle_deg: f64,
+    /// Distance from the origin.
+    pub distance: f64,
+    /// The facets, in cutting order.
+    pub cuts: Vec<Cut<'d>>,
+}
+
+/// One facet of a [`Row`].
+#[derive(Debug)]
+pub struct Cut<'d> {
+    /// Its number in [`Design::facets`].
+    pub number: usize,
+    /// Its index, whole or not, from above 0 to the number of teeth unless the design says other.
+    pub index: f64,
+    /// Its name; of a tier's facets `main 1`, `main 2` … the first is called `main`, the rest not.
+    pub name: &'d str,
+    /// Its plane.
+    pub plane: Plane,
+}
+
+/// The cutting table: every tier as one row, or as several if its facets differ.
+///
+/// A facet keeps the angle and index it is stated with if they give its very plane (1e-13);
+/// otherwise both are computed from its normal. Checked in `tests/formats.rs`.
+pub fn rows(design: &Design) -> Vec<Row<'_>> {
+    let mut rows: Vec<Row> = Vec::new();
+    let mut number = 0;
+    for tier in &design.tiers {
+        let first = rows.len();
+        for (i, facet) in tier.facets.iter().enumerate() {
+            let (angle_deg, index) = cut_of(design.gear, tier, facet);
+            let name = match facet.name.strip_prefix(&*tier.name).and_then(|n| n.strip_prefix(' ')) {
+                Some(n) if n.parse() == Ok(i + 1) => {
+                    if i == 0 {
+                        &*tier.name
+                    } else {
+                        ""
+                    }
+                }
+                _ if i == 0 && facet.name.is_empty() => &*tier.name,
+                _ => &*facet.name,
+            };
+            let cut = Cut { number, index, name, plane: facet.plane };
+            number += 1;
+            let distance = facet.plane.distance;
+            let same = |r: &&mut Row| {
+                (r.angle_deg == angle_deg && r.angle_deg.is_sign_negative() == angle_deg.is_sign_negative())
+                    && (r.distance - distance).abs() <= SAME * distance.abs()
+            };
+            match rows[first..].last_mut().filter(same) {
+                Some(row) => row.cuts.push(cut),
+                None => rows.push(Row { tier, angle_deg, distance, cuts: vec![cut] }),
+            }
+        }
+    }
+    rows
+}
+
+/// Angle and index that give the facet's plane: as stated, to six decimals, or as computed.
+fn cut_of(gear: Gear, tier: &Tier, facet: &Facet) -> (f64, f64) {
+    let normal = facet.plane.normal;
+    let (angle, index) = (exact_angle(normal), exact_index(gear, normal));
+    let stated = (tier.angle_deg.unwrap_or_else(|| angle_of_mesh(normal)), facet.index.unwrap_or(index));
+    let gives = |(angle, index): (f64, f64)| {
+        let made = facet_normal(gear, angle, index);
+        made.distance(normal) <= SAME && (normal.z == 0.0 || made.z != 0.0 || angle.abs() == 90.0)
+    };
+    [stated, (angle_deg(normal), index_of(gear, normal)), (angle, index_of(gear, normal))]
+        .into_iter()
+        .find(|c| gives(*c))
+        .unwrap_or((angle, index))
+}
+
+/// The angle of a facet from the girdle plane in degrees, with the sign (also of 0) of the normal's
+/// z, to six decimals if that is meant.
+pub fn angle_deg(normal: DVec3) -> f64 {
+    meant(exact_angle(normal))
+}
+
+/// As [`angle_deg`], but always -90 for the girdle, as most faceters have it.
+pub fn angle_of_mesh(normal: DVec3) -> f64 {
+    match angle_deg(normal) {
+        90.0 => -90.0,
+        angle => angle,
+    }
+}
+
+/// The index of a facet on the wheel, above 0 and up to the number of teeth, to six decimals if
+/// that is meant.
+pub fn index_of(gear: Gear, normal: DVec3) -> f64 {
+    let teeth = gear.teeth.abs();
+    match meant(exact_index(gear, normal)).rem_euclid(teeth) {
+        0.0 => teeth,
+        index => index,
+    }
+}
+
+fn exact_angle(normal: DVec3) -> f64 {
+    let angle = normal.truncate().length().atan2(normal.z.abs()).to_degrees();
+    if normal.z.is_sign_negative() { -angle } else { angle }
+}
+
+/// The inverse of [`facet_normal`]; for a horizontal facet the index at −y.
+fn exact_index(gear: Gear, normal: DVec3) -> f64 {
+    let turns = if normal.x == 0.0 && normal.y == 0.0 {
+        0.0
+    } else {
+        normal.x.atan2(-normal.y) / std::f64::consts::TAU
+    };
+    let index = (turns * gear.teeth + gear.offset).rem_euclid(gear.teeth.abs());
+    if index == 0.0 { gear.teeth.abs() } else { index }
+}
+
+fn meant(x: f64) -> f64 {
+    let rounded = (x * 1e6).round() / 1e6;
+    if (x - rounded).abs() < MEANT { rounded } else { x }
+}
+
+/// The design with its origin where every plane has a distance of at least `least` times the
+/// largest: the design itself, or else moved so that its middle is the origin.
+pub fn around_origin(design: &Design, least: f64) -> Result<Cow<'_, Design>, FormatError> {
+    let largest = design.facets().map(|f| f.plane.distance.abs()).fold(0.0, f64::max);
+    if design.facets().all(|f| f.plane.distance >= least * largest) {
+        return Ok(Cow::Borrowed(design));
+    }
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    let (_, centre) = solid.volume_and_centre();
+    let mut moved = design.clone();
+    for facet in moved.tiers.iter_mut().flat_map(|t| &mut t.facets) {
+        facet.plane = facet.plane.moved(-centre);
+    }
+    Ok(Cow::Owned(moved))
+}
+
+/// The header or footer lines as at most `most`: what is over is joined to the last.
+pub fn at_most(most: usize, lines: &[String]) -> Vec<String> {
+    let last = lines.iter().rposition(|l| !l.trim().is_empty()).map_or(0, |i| i + 1);
+    let mut kept: Vec<String> = lines[..last.min(most)].iter().map(|l| one_line(l)).collect();
+    if let Some(end) = kept.last_mut() {
+        lines[last.min(most)..last].iter().for_each(|l| *end = format!("{end} {}", one_line(l)));
+    }
+    kept
+}
+
+/// The header lines, or the design's name if it has none.
+pub fn headers(design: &Design) -> Vec<String> {
+    if design.headers.iter().any(|h| !h.trim().is_empty()) {
+        design.headers.clone()
+    } else {
+        vec![design.name.clone()]
+    }
+}
+
+/// The footnotes, or the source of the proportions if there are none.
+pub fn footers(design: &Design) -> Vec<String> {
+    if design.footers.is_empty() { vec![design.source.clone()] } else { design.footers.clone() }
+}
+
+/// The text with control characters as spaces.
+pub fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angle_and_index_are_the_inverse_of_the_normal() {
+        for gear in [(96.0, 0.0), (-96.0, 48.0), (80.0, 40.0), (77.0, 0.5)] {
+            let gear = Gear { teeth: gear.0, offset: gear.1 };
+            for (angle, index) in [(34.5, 3.0), (-41.25, 12.345), (-90.0, 77.0), (89.9, 0.25), (-0.01, 50.0)]
+            {
+                let normal = facet_normal(gear, angle, index);
+                assert!((angle_deg(normal) - angle).abs() < 1e-11, "{gear:?} {angle}");
+                assert_eq!(index_of(gear, normal), index, "{gear:?} {angle}");
+            }
+        }
+        assert!(angle_deg(DVec3::NEG_Z).is_sign_negative() && angle_deg(DVec3::Z).is_sign_positive());
+        assert_eq!((angle_deg(DVec3::X), angle_of_mesh(DVec3::X)), (90.0, -90.0));
+    }
+
+    #[test]
+    fn headers_over_the_limit_are_joined() {
+        let lines = ["a", "b", "c\n", "d", "e", ""].map(String::from);
+        assert_eq!(at_most(4, &lines), ["a", "b", "c ", "d e"]);
+        assert_eq!(at_most(4, &lines[..1]), ["a"]);
+        assert!(at_most(4, &["".into()]).is_empty());
+    }
+}

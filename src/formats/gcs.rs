@@ -1,0 +1,275 @@
+//! Gem Cut Studio, `.gcs`: XML with tiers of facets by normal, depth and index angle.
+//!
+//! Normals are the truth; where one is missing it follows from the index angle or the corners. The
+//! handedness of the program's frame and the meaning of its index `base` are unverified. No
+//! document type is accepted, so no entity can expand.
+
+use super::cutting_table::{angle_of_mesh, index_of, one_line};
+use super::error::{FormatError, shown};
+use super::gcs_write::write;
+use super::source::{Source, number};
+use super::{Format, Reading};
+use crate::cut::design::facet_normal;
+use crate::cut::{Design, Facet, Gear, Tier};
+use crate::solid::Plane;
+use crate::solid::recover::MOST_FACETS;
+use glam::DVec3;
+use roxmltree::{Document, Node, ParsingOptions};
+
+/// Gem Cut Studio designs.
+pub static FORMAT: Format = Format {
+    name: "gem-cut-studio",
+    extensions: &["gcs"],
+    about: "Gem Cut Studio design: tiers by angle, depth and index; its handedness is unverified",
+    sniff: |source| if source.beginning().contains("<GemCutStudio") { 99 } else { 0 },
+    read,
+    write: Some(write),
+};
+
+/// Largest file: as much as the most facets need. A parsed one takes several times that.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// Most elements and texts: what a file of [`MOST_BYTES`] holds of vertices.
+const MOST_NODES: u32 = 500_000;
+
+/// Most attributes of an element and most namespaces, several times what the program writes: the
+/// time that the XML reader takes grows with the square of either.
+const MOST_ATTRIBUTES: usize = 100;
+
+/// A stored depth that differs by more than this, in parts of the corners' distance from the
+/// origin, from the corners' own is worth a remark.
+const DEPTH_OFF: f64 = 1e-3;
+
+/// Attributes of `info` that are headers and footers, in their order.
+pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"];
+/// As [`HEADERS`].
+pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];
+
+fn read(source: &Source) -> Result<Reading, FormatError> {
+    if source.bytes.len() as u64 > MOST_BYTES {
+        return Err(FormatError::TooLarge { file: source.name.into(), limit: MOST_BYTES });
+    }
+    let text = source.text();
+    few_attributes(source, &text)?;
+    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(&text, options).map_err(|cause| FormatError::Line {
+        file: source.name.into(),
+        line: cause.pos().row as usize,
+        expected: "Gem Cut Studio's XML".into(),
+        found: one_line(&cause.to_string()),
+    })?;
+    let file = File { source, document: &document };
+    let root = document.root_element();
+    if root.tag_name().name() != "GemCutStudio" {
+        return Err(file.wrong(root, "an element GemCutStudio", root.tag_name().name()));
+    }
+    file.design(root)
+}
+
+/// Refuses elements with attributes, or namespaces, without end.
+fn few_attributes(source: &Source, text: &str) -> Result<(), FormatError> {
+    let mut line = 1;
+    let mut namespaces = 0;
+    for tag in text.split('<') {
+        namespaces += tag.matches("xmlns").count();
+        let attributes = if tag.starts_with(['!', '?']) { 0 } else { tag.matches('=').count() };
+        if attributes.max(namespaces) > MOST_ATTRIBUTES {
+            return Err(source.at_line(line, "fewer attributes of an element, fewer namespaces", tag));
+        }
+        line += tag.matches('\n').count();
+    }
+    Ok(())
+}
+
+/// The file that is read, for errors that name its lines.
+struct File<'a> {
+    source: &'a Source<'a>,
+    document: &'a Document<'a>,
+}
+
+/// A facet's entries, none where missing.
+struct Entries {
+    normal: Option<DVec3>,
+    index_angle: Option<f64>,
+    corners: Vec<DVec3>,
+}
+
+impl File<'_> {
+    fn wrong(&self, node: Node, expected: &str, found: &str) -> FormatError {
+        self.source.at_line(self.document.text_pos_at(node.range().start).row as usize, expected, found)
+    }
+
+    /// A number; an attribute that is missing or empty is none.
+    fn number(&self, node: Node, key: &str) -> Result<Option<f64>, FormatError> {
+        match node.attribute(key).map(str::trim) {
+            None | Some("") => Ok(None),
+            Some(said) => match number(said) {
+                Some(value) => Ok(Some(value)),
+                None => Err(self.wrong(node, &format!("a number as {key}"), said)),
+            },
+        }
+    }
+
+    fn point(&self, node: Node, keys: [&str; 3]) -> Result<Option<DVec3>, FormatError> {
+        let mut p = [0.0; 3];
+        for (value, key) in p.iter_mut().zip(keys) {
+            let Some(given) = self.number(node, key)? else { return Ok(None) };
+            *value = given;
+        }
+        Ok(Some(DVec3::from_array(p)))
+    }
+
+    fn design(&self, root: Node) -> Result<Reading, FormatError> {
+        let child = |name: &str| root.children().find(|n| n.has_tag_name(name));
+        let mut design = Design::named(self.source.stem());
+        let mut warnings = Vec::new();
+        if let Some(index) = child("index") {
+            self.wheel(index, &mut design, &mut warnings)?;
+        } else {
+            warnings.push("no gear is given: 96 teeth assumed".into());
+        }
+        if let Some(render) = child("render") {
+            design.refractive_index = self.number(render, "refractive_index")?.filter(|n| *n >= 1.0);
+        }
+        if let Some(info) = child("info") {
+            let lines = |keys: &[&str]| {
+                let mut lines: Vec<String> =
+                    keys.iter().map(|k| info.attribute(*k).unwrap_or_default().trim().into()).collect();
+                lines.truncate(lines.iter().rposition(|l| !l.is_empty()).map_or(0, |i| i + 1));
+                lines
+            };
+            (design.headers, design.footers) = (lines(&HEADERS), lines(&FOOTERS));
+            if let Some(title) = design.headers.first().filter(|h| !h.is_empty()) {
+                design.name.clone_from(title);
+            }
+        }
+        let mut count = 0;
+        for node in root.children().filter(|n| n.has_tag_name("tier")) {
+            let tier = self.tier(node, design.gear, &mut warnings)?;
+            count += tier.facets.len();
+            if count > MOST_FACETS {
+                let (file, facets) = (self.source.name.into(), count);
+                return Err(FormatError::TooManyFacets { file, facets, most: MOST_FACETS });
+            }
+            if !tier.facets.is_empty() {
+                design.tiers.push(tier);
+            }
+        }
+        if design.tiers.is_empty() {
+            return Err(self.wrong(root, "tiers with facets", "none"));
+        }
+        if design.symmetry.is_none_or(|(_, mirror)| !mirror) {
+            warnings.push("the format's handedness is unverified: the stone may be its mirror image".into());
+        }
+        Ok(Reading { design, warnings })
+    }
+
+    fn wheel(&self, node: Node, design: &mut Design, warnings: &mut Vec<String>) -> Result<(), FormatError> {
+        if let Some(teeth) = self.number(node, "gear")? {
+            if teeth == 0.0 {
+                return Err(self.wrong(node, "the number of gear teeth, not 0", "0"));
+            }
+            design.gear.teeth = teeth;
+        }
+        design.gear.offset = self.number(node, "base")?.unwrap_or(0.0);
+        if design.gear.offset != 0.0 {
+            warnings.push("the meaning of the index base is unverified: indices may be off by it".into());
+        }
+        let mirror = node.attribute("mirror").is_some_and(|m| matches!(m.trim(), "1" | "true"));
+        let order = self.number(node, "symmetry")?.filter(|n| *n >= 1.0);
+        design.symmetry = order.map(|n| (n as u32, mirror));
+        Ok(())
+    }
+
+    fn tier(&self, node: Node, gear: Gear, warnings: &mut Vec<String>) -> Result<Tier, FormatError> {
+        let text = |key: &str| node.attribute(key).unwrap_or_default().trim().to_owned();
+        let mut tier = Tier {
+            name: text("name"),
+            angle_deg: None,
+            instructions: text("instructions"),
+            facets: Vec::new(),
+        };
+        let polar = self.number(node, "angle")?;
+        if let Some(angle) = polar.filter(|a| !(0.0..=180.0).contains(a)) {
+            return Err(self.wrong(node, "an angle from 0 (table) to 180 (culet)", &angle.to_string()));
+        }
+        let depth = self.number(node, "depth")?;
+        let facets: Vec<_> = node.children().filter(|n| n.has_tag_name("facet")).collect();
+        let entries: Vec<Entries> = facets.iter().map(|f| self.entries(*f)).collect::<Result<_, _>>()?;
+        // one writer sets every index angle to 0
+        let all_0 = facets.len() > 1 && entries.iter().all(|e| e.index_angle.is_none_or(|a| a == 0.0));
+        let is = |key: &str, what: &str| node.attribute(key).is_some_and(|v| v.eq_ignore_ascii_case(what));
+        let aside = is("guide", "true") || is("visible", "false");
+        let mut off = 0.0f64;
+        for (facet, entries) in facets.iter().zip(&entries) {
+            // what was not cut has left no polygon
+            if aside && entries.corners.len() < 3 {
+                continue;
+            }
+            let normal = self.normal(*facet, entries, polar, all_0)?;
+            let corners = || entries.corners.iter();
+            let level = corners().map(|c| c.dot(normal)).sum::<f64>() / corners().count() as f64;
+            let distance = depth.or(Some(level).filter(|l| l.is_finite())).ok_or_else(|| {
+                self.wrong(*facet, "a depth in the tier, or the facet's corners", "neither")
+            })?;
+            let size = corners().map(|c| c.length()).fold(0.0, f64::max);
+            off = off.max((distance - level).abs() / size);
+            let index = Some(index_of(gear, normal));
+            tier.facets.push(Facet { name: String::new(), index, plane: Plane { normal, distance } });
+        }
+        tier.angle_deg = tier.facets.first().map(|f| angle_of_mesh(f.plane.normal));
+        if off > DEPTH_OFF {
+            warnings.push(format!("tier {}: its depth is not that of its corners; kept", shown(&tier.name)));
+        }
+        if tier.facets.len() < facets.len() {
+            warnings.push(format!("tier {}: a guide or hidden, left out", shown(&tier.name)));
+        }
+        Ok(tier)
+    }
+
+    fn entries(&self, facet: Node) -> Result<Entries, FormatError> {
+        let mut corners = Vec::new();
+        for vertex in facet.children().filter(|n| n.has_tag_name("vertex")) {
+            let corner = self.point(vertex, ["x", "y", "z"])?;
+            corners.push(corner.ok_or_else(|| self.wrong(vertex, "x, y and z of a corner", "less"))?);
+        }
+        let normal = self.point(facet, ["nx", "ny", "nz"])?.filter(|n| n.length().is_normal());
+        Ok(Entries { normal, index_angle: self.number(facet, "index_angle")?, corners })
+    }
+
+    /// The facet's outward unit normal: as stated, from angle and index angle, or from the corners.
+    fn normal(
+        &self,
+        facet: Node,
+        entries: &Entries,
+        polar: Option<f64>,
+        no_index: bool,
+    ) -> Result<DVec3, FormatError> {
+        if let Some(n) = entries.normal {
+            // a unit vector to rounding is kept to the bit
+            return Ok(if (n.length_squared() - 1.0).abs() < 1e-15 { n } else { n.normalize() });
+        }
+        let by_index = polar.zip(entries.index_angle.filter(|_| !no_index)).map(|(polar, index)| {
+            // counted from −y: counter-clockwise on the crown, clockwise on pavilion and girdle
+            let (teeth, angle) = if polar < 90.0 { (360.0, polar) } else { (-360.0, polar - 180.0) };
+            facet_normal(Gear { teeth, offset: 0.0 }, angle, index)
+        });
+        let up = polar.map(|p| p.to_radians().cos());
+        by_index.or_else(|| outward(&entries.corners, up)).ok_or_else(|| {
+            self.wrong(facet, "a normal, an index angle in a tier with an angle, or corners", "none")
+        })
+    }
+}
+
+/// The unit normal of a polygon of either winding: upward or downward as the cosine `up` of the
+/// tier's angle says, and for a girdle facet away from the stone's axis.
+fn outward(corners: &[DVec3], up: Option<f64>) -> Option<DVec3> {
+    let next = |i: usize| corners[(i + 1) % corners.len()];
+    let area: DVec3 = corners.iter().enumerate().map(|(i, c)| c.cross(next(i))).sum();
+    let normal = area.try_normalize()?;
+    let outside = match up {
+        Some(up) if up.abs() > 1e-3 => normal.z * up,
+        _ => normal.dot(corners.iter().sum()),
+    };
+    Some(if outside < 0.0 { -normal } else { normal })
+}

@@ -1,0 +1,83 @@
+//! Writing Gem Cut Studio files. All but ASCII is written as character references, so that no
+//! reader can take the encoding wrong.
+
+use super::cutting_table::{at_most, footers, headers, one_line, rows};
+use super::error::FormatError;
+use super::gcs::{FOOTERS, HEADERS};
+use crate::cut::Design;
+use crate::solid::polyhedron::Fate;
+use std::fmt::Write;
+
+/// The design as Gem Cut Studio holds it: normals, depths and corners to the last bit; facets by
+/// tier, without names of their own.
+pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    let (order, mirror) = design.symmetry.unwrap_or((1, false));
+    let mut text = format!(
+        "<GemCutStudio version=\"1000\">\n  <index gear=\"{}\" base=\"{}\" symmetry=\"{order}\" mirror=\"{}\" />\n",
+        design.gear.teeth,
+        design.gear.offset,
+        u8::from(mirror),
+    );
+    for row in rows(design) {
+        let polar = if row.angle_deg.is_sign_negative() { 180.0 + row.angle_deg } else { row.angle_deg };
+        let name = row.cuts.iter().map(|c| c.name).find(|n| !n.is_empty()).unwrap_or(&row.tier.name);
+        // a String takes every write, here and below
+        let _ = writeln!(
+            text,
+            "  <tier angle=\"{polar}\" depth=\"{}\" name=\"{}\" instructions=\"{}\" visible=\"true\" guide=\"false\">",
+            row.distance,
+            quoted(name),
+            quoted(&row.tier.instructions),
+        );
+        for cut in &row.cuts {
+            let n = cut.plane.normal;
+            let around = n.y.atan2(n.x).to_degrees();
+            let index_angle = if polar < 90.0 { 90.0 + around } else { 270.0 - around }.rem_euclid(360.0);
+            let _ = writeln!(
+                text,
+                "    <facet nx=\"{}\" ny=\"{}\" nz=\"{}\" index_angle=\"{index_angle}\">",
+                n.x, n.y, n.z
+            );
+            if let Fate::Facet(face) = solid.fates[cut.number] {
+                for &corner in solid.faces[face].corners.iter().rev() {
+                    let v = solid.vertices[corner];
+                    let _ = writeln!(text, "      <vertex x=\"{}\" y=\"{}\" z=\"{}\" />", v.x, v.y, v.z);
+                }
+            }
+            text += "    </facet>\n";
+        }
+        text += "  </tier>\n";
+    }
+    if let Some(index) = design.refractive_index {
+        let _ = writeln!(text, "  <render refractive_index=\"{index}\" />");
+    }
+    text += "  <info";
+    for (keys, lines) in [(&HEADERS[..], headers(design)), (&FOOTERS[..], footers(design))] {
+        for (key, line) in keys.iter().zip(at_most(keys.len(), &lines)) {
+            let _ = write!(text, " {key}=\"{}\"", quoted(&line));
+        }
+    }
+    text += " />\n</GemCutStudio>\n";
+    Ok(text.into_bytes())
+}
+
+/// The text as an attribute's value.
+fn quoted(text: &str) -> String {
+    let mut out = String::new();
+    for c in one_line(text).chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            ' '..='~' => out.push(c),
+            // XML has no place for these two
+            '\u{FFFE}' | '\u{FFFF}' => out.push('?'),
+            _ => {
+                let _ = write!(out, "&#{};", u32::from(c)); // a String takes every write
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,145 @@
+//! PLY: polygons as text or binary in either byte order; written in binary with `f64` corners and
+//! the facets' normals.
+//!
+//! Own reader: the crates for it read a whole file into maps of values, several times its size.
+
+mod header;
+mod values;
+
+use super::error::FormatError;
+use super::shell::{MOST_CORNERS, STATED_IN_F32, STATED_IN_F64, design_of_mesh, few_enough};
+use super::source::Source;
+use super::{Format, Reading};
+use crate::cut::Design;
+use crate::solid::recover::Polygon;
+use glam::DVec3;
+use header::{Element, Header, Kind, Property};
+use values::Values;
+
+/// PLY meshes of every kind; written in binary, little-endian.
+pub static FORMAT: Format = Format {
+    name: "ply",
+    extensions: &["ply"],
+    about: "PLY mesh, text or binary: written in binary with f64 corners, one polygon a facet",
+    sniff: |source| if header::begins(source.bytes) { 98 } else { 0 },
+    read,
+    write: Some(write),
+};
+
+fn read(source: &Source) -> Result<Reading, FormatError> {
+    let header = Header::of(source)?;
+    let mut values = Values::new(source, &header);
+    let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
+    let (mut exact, mut total) = (true, 0);
+    let fits = |n: usize, element: &Element| {
+        let expected = || format!("at most {MOST_CORNERS} corners");
+        if n <= MOST_CORNERS { Ok(()) } else { Err(source.at_line(element.line, expected(), "more")) }
+    };
+    for element in &header.elements {
+        match &*element.name {
+            "vertex" => {
+                let places = places(source, element, ["x", "y", "z"])?;
+                exact = places.iter().all(|p| element.properties[*p].kind == Kind::F64) || header.is_text();
+                each(element, &mut values, |row, _| {
+                    vertices.push(DVec3::from_array(places.map(|p| row[p])));
+                    fits(vertices.len(), element)
+                })?;
+            }
+            "face" => {
+                let list = list_of_corners(source, element)?;
+                let normal = places(source, element, ["nx", "ny", "nz"]).ok();
+                each(element, &mut values, |row, corners| {
+                    let normal = normal.map(|at| DVec3::from_array(at.map(|p| row[p])));
+                    let corners: Vec<_> = corners[list].iter().map(|&c| c as usize).collect();
+                    total += corners.len();
+                    polygons.push(Polygon { corners, normal, ..Polygon::default() });
+                    few_enough(source, polygons.len())?;
+                    fits(total, element)
+                })?;
+            }
+            _ => each(element, &mut values, |_, _| Ok(()))?,
+        }
+    }
+    design_of_mesh(source, &vertices, &polygons, if exact { STATED_IN_F64 } else { STATED_IN_F32 })
+}
+
+/// Reads every row of an element: single values, and the values of lists, by property.
+fn each(
+    element: &Element,
+    values: &mut Values,
+    mut row: impl FnMut(&[f64], &[Vec<f64>]) -> Result<(), FormatError>,
+) -> Result<(), FormatError> {
+    // an element without properties has rows without bytes
+    if element.properties.is_empty() {
+        return Ok(());
+    }
+    let mut single = vec![0.0; element.properties.len()];
+    let mut lists = vec![Vec::new(); element.properties.len()];
+    for _ in 0..element.count {
+        for (i, property) in element.properties.iter().enumerate() {
+            match property.length {
+                None => single[i] = values.next(property.kind, &property.name)?,
+                Some(length) => {
+                    let count = values.count(length, &property.name)?;
+                    lists[i].clear();
+                    for _ in 0..count {
+                        lists[i].push(values.next(property.kind, &property.name)?);
+                    }
+                    if is_corners(property) {
+                        values.check_corners(&lists[i])?;
+                    }
+                }
+            }
+        }
+        row(&single, &lists)?;
+    }
+    Ok(())
+}
+
+/// Where three properties stand in their element.
+fn places(source: &Source, element: &Element, names: [&str; 3]) -> Result<[usize; 3], FormatError> {
+    let at = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
+    match names.map(at) {
+        [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+        _ => Err(source.at_line(
+            element.line,
+            format!("properties {} of {}", names.join(", "), element.name),
+            "others",
+        )),
+    }
+}
+
+fn is_corners(property: &Property) -> bool {
+    property.length.is_some() && matches!(&*property.name, "vertex_indices" | "vertex_index")
+}
+
+fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatError> {
+    element
+        .properties
+        .iter()
+        .position(is_corners)
+        .ok_or_else(|| source.at_line(element.line, "property list … vertex_indices of face", "none"))
+}
+
+fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    let planes = design.planes();
+    let name: String = design.name.chars().map(|c| if (' '..='~').contains(&c) { c } else { '?' }).collect();
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment cutlab: {name}\nelement vertex {}\n\
+         property double x\nproperty double y\nproperty double z\nelement face {}\n\
+         property list uint int vertex_indices\n\
+         property double nx\nproperty double ny\nproperty double nz\nend_header\n",
+        solid.vertices.len(),
+        solid.faces.len()
+    )
+    .into_bytes();
+    let put = |p: DVec3| p.to_array().into_iter().flat_map(f64::to_le_bytes);
+    solid.vertices.iter().for_each(|&v| bytes.extend(put(v)));
+    for face in &solid.faces {
+        bytes.extend((face.corners.len() as u32).to_le_bytes());
+        face.corners.iter().for_each(|&c| bytes.extend((c as i32).to_le_bytes()));
+        bytes.extend(put(planes[face.plane].normal));
+    }
+    Ok(bytes)
+}

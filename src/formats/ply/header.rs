@@ -1,0 +1,166 @@
+//! The header of a PLY file: its kind, and its elements with their properties.
+
+use crate::formats::error::FormatError;
+use crate::formats::source::Source;
+
+/// Most elements, and most properties of one: many times what any program writes.
+const MOST: usize = 100;
+
+/// Longest list: ten times the facets of any stone that is read.
+pub const LONGEST_LIST: f64 = 100_000.0;
+
+/// How the values after the header are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// Words.
+    Text,
+    /// Binary, least byte first.
+    Little,
+    /// Binary, greatest byte first.
+    Big,
+}
+
+/// Type of a stored number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn named(word: &str) -> Option<Kind> {
+        Some(match word {
+            "char" | "int8" => Kind::I8,
+            "uchar" | "uint8" => Kind::U8,
+            "short" | "int16" => Kind::I16,
+            "ushort" | "uint16" => Kind::U16,
+            "int" | "int32" => Kind::I32,
+            "uint" | "uint32" => Kind::U32,
+            "float" | "float32" => Kind::F32,
+            "double" | "float64" => Kind::F64,
+            _ => return None,
+        })
+    }
+}
+
+/// One property of an element.
+#[derive(Debug)]
+pub struct Property {
+    pub name: String,
+    pub kind: Kind,
+    /// Type of the length, if the property is a list.
+    pub length: Option<Kind>,
+}
+
+/// One element: so many rows of its properties.
+#[derive(Debug)]
+pub struct Element {
+    pub name: String,
+    pub count: u64,
+    pub properties: Vec<Property>,
+    /// The line that declares it.
+    pub line: usize,
+}
+
+/// What the header says, and where it ends.
+#[derive(Debug)]
+pub struct Header {
+    pub storage: Storage,
+    pub elements: Vec<Element>,
+    /// Offset of the first byte after the header.
+    pub end: usize,
+    /// Number of the first line after it.
+    pub line: usize,
+}
+
+/// Whether the file begins as a PLY file does.
+pub fn begins(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+}
+
+impl Header {
+    /// Whether values are words.
+    pub fn is_text(&self) -> bool {
+        self.storage == Storage::Text
+    }
+
+    /// Reads the header.
+    pub fn of(source: &Source) -> Result<Header, FormatError> {
+        let mut header = Header { storage: Storage::Text, elements: Vec::new(), end: 0, line: 0 };
+        let mut storage = None;
+        loop {
+            let Some((line, after)) = line_at(source.bytes, header.end) else {
+                return Err(source.at_line(header.line + 1, "end_header", ""));
+            };
+            header.end = after;
+            header.line += 1;
+            let text = String::from_utf8_lossy(line);
+            let wrong = |expected: &str| source.at_line(header.line, expected, text.trim());
+            let words: Vec<&str> = text.split_whitespace().collect();
+            match words[..] {
+                ["format", kind, ..] => {
+                    storage = Some(match kind {
+                        "ascii" => Storage::Text,
+                        "binary_little_endian" => Storage::Little,
+                        "binary_big_endian" => Storage::Big,
+                        _ => return Err(wrong("format ascii, binary_little_endian or binary_big_endian")),
+                    });
+                }
+                ["element", name, count] => {
+                    let count = count.parse().map_err(|_| wrong("element NAME COUNT"))?;
+                    if header.elements.len() == MOST {
+                        return Err(wrong("fewer elements"));
+                    }
+                    let (name, line) = (name.into(), header.line);
+                    header.elements.push(Element { name, count, properties: Vec::new(), line });
+                }
+                ["property", ref rest @ ..] => {
+                    let (length, kind, name) = match rest {
+                        ["list", length, kind, name] => (Some(Kind::named(length)), Kind::named(kind), name),
+                        [kind, name] => (None, Kind::named(kind), name),
+                        _ => return Err(wrong("property TYPE NAME or property list TYPE TYPE NAME")),
+                    };
+                    let (Some(kind), false, Some(element)) =
+                        (kind, length == Some(None), header.elements.last_mut())
+                    else {
+                        return Err(wrong("a property of a known type after its element"));
+                    };
+                    if element.properties.len() == MOST {
+                        return Err(source.at_line(header.line, "fewer properties", text.trim()));
+                    }
+                    element.properties.push(Property {
+                        name: (*name).into(),
+                        kind,
+                        length: length.flatten(),
+                    });
+                }
+                ["end_header"] => break,
+                ["ply" | "comment" | "obj_info", ..] | [] => {}
+                _ => return Err(wrong("format, element, property, comment or end_header")),
+            }
+        }
+        header.storage = storage
+            .ok_or_else(|| source.at_line(header.line, "a line 'format …' before it", "end_header"))?;
+        let face = |e: &Element| e.name == "face" && e.count > 0;
+        if !header.elements.iter().any(face) {
+            return Err(source.at_line(header.line, "an element 'face' before it", "end_header"));
+        }
+        header.line += 1;
+        Ok(header)
+    }
+}
+
+/// The line that begins at `at`, without its end, and where the next begins.
+fn line_at(bytes: &[u8], at: usize) -> Option<(&[u8], usize)> {
+    let rest = bytes.get(at..)?;
+    let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'))?;
+    let long = if rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
+    Some((&rest[..end], at + end + long))
+}

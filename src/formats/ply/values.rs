@@ -1,0 +1,107 @@
+//! The values after a PLY header, one after the other, from words or bytes.
+
+use super::header::{Header, Kind, LONGEST_LIST, Storage};
+use crate::formats::error::FormatError;
+use crate::formats::source::{Source, number, words};
+
+/// Reads value after value.
+pub struct Values<'s> {
+    source: &'s Source<'s>,
+    storage: Storage,
+    /// Words with their lines, for text.
+    words: Box<dyn Iterator<Item = (usize, &'s str)> + 's>,
+    /// The line of the last word, or the offset of the next byte.
+    at: usize,
+    vertices: u64,
+}
+
+impl<'s> Values<'s> {
+    pub fn new(source: &'s Source<'s>, header: &Header) -> Values<'s> {
+        let rest = source.bytes.get(header.end..).unwrap_or_default();
+        // what is not UTF-8 there is no number, and an error says where it stands
+        let text = match std::str::from_utf8(rest) {
+            Ok(text) => text,
+            Err(e) => rest.get(..e.valid_up_to()).and_then(|r| std::str::from_utf8(r).ok()).unwrap_or(""),
+        };
+        let first = header.line - 1;
+        let vertices = header.elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
+        Values {
+            source,
+            storage: header.storage,
+            words: Box::new(words(text).map(move |(n, w)| (n + first, w))),
+            at: if header.is_text() { header.line } else { header.end },
+            vertices,
+        }
+    }
+
+    fn wrong(&self, expected: String, found: &str) -> FormatError {
+        match self.storage {
+            Storage::Text => self.source.at_line(self.at, expected, found),
+            _ => self.source.at_byte(self.at, expected, if found.is_empty() { "the end" } else { found }),
+        }
+    }
+
+    /// The next value, of the property `name`.
+    pub fn next(&mut self, kind: Kind, name: &str) -> Result<f64, FormatError> {
+        let value = match self.storage {
+            Storage::Text => {
+                let (line, word) = self.words.next().unwrap_or((self.at, ""));
+                self.at = line;
+                return number(word).ok_or_else(|| self.wrong(format!("a number for {name}"), word));
+            }
+            _ => match kind {
+                Kind::I8 => self.bytes::<1>(name).map(|b| i8::from_le_bytes(b).into()),
+                Kind::U8 => self.bytes::<1>(name).map(|[b]| b.into()),
+                Kind::I16 => self.bytes(name).map(|b| i16::from_le_bytes(b).into()),
+                Kind::U16 => self.bytes(name).map(|b| u16::from_le_bytes(b).into()),
+                Kind::I32 => self.bytes(name).map(|b| i32::from_le_bytes(b).into()),
+                Kind::U32 => self.bytes(name).map(|b| u32::from_le_bytes(b).into()),
+                Kind::F32 => self.bytes(name).map(|b| f32::from_le_bytes(b).into()),
+                Kind::F64 => self.bytes(name).map(f64::from_le_bytes),
+            },
+        };
+        value.and_then(|value: f64| {
+            if value.is_finite() {
+                Ok(value)
+            } else {
+                Err(self.wrong(format!("a finite number for {name}"), &value.to_string()))
+            }
+        })
+    }
+
+    /// The next bytes, least first.
+    fn bytes<const N: usize>(&mut self, name: &str) -> Result<[u8; N], FormatError> {
+        let rest = self.source.bytes.get(self.at..).unwrap_or_default();
+        let Some(bytes) = rest.first_chunk::<N>() else {
+            return Err(self.wrong(format!("{N} bytes of {name}"), ""));
+        };
+        self.at += N;
+        let mut bytes = *bytes;
+        if self.storage == Storage::Big {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+
+    /// The length of a list.
+    pub fn count(&mut self, kind: Kind, name: &str) -> Result<u64, FormatError> {
+        let count = self.next(kind, name)?;
+        if count >= 0.0 && count.fract() == 0.0 && count <= LONGEST_LIST {
+            Ok(count as u64)
+        } else {
+            Err(self.wrong(format!("the length of {name}"), &count.to_string()))
+        }
+    }
+
+    /// Checks that a list names corners that are there.
+    pub fn check_corners(&self, corners: &[f64]) -> Result<(), FormatError> {
+        let sound = |c: &f64| *c >= 0.0 && c.fract() == 0.0 && *c < self.vertices as f64;
+        match corners.iter().find(|c| !sound(c)) {
+            None => Ok(()),
+            Some(c) => {
+                let last = self.vertices.saturating_sub(1);
+                Err(self.wrong(format!("a corner from 0 to {last}"), &c.to_string()))
+            }
+        }
+    }
+}
