@@ -8,6 +8,7 @@
 pub mod batches;
 pub mod beam;
 mod entrance;
+pub mod exact;
 pub mod hemisphere;
 pub mod view;
 

@@ -4,6 +4,7 @@
 //! in one direction, and goes on with the rest. Photons that build a map, rays that are counted for
 //! a score and camera rays that look into the stone are all consumers of [`Stone::walk`].
 
+pub mod beams;
 mod dispatch;
 pub mod feed;
 mod kernel;

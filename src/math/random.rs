@@ -23,6 +23,8 @@ pub enum Purpose {
     Pixel = 6,
     /// Tests and tools.
     Test = 7,
+    /// Photons that finish what beams leave over, one stream a batch.
+    BeamRemainder = 8,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.
