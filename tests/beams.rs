@@ -183,7 +183,7 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
             let design = library::design(name, &BTreeMap::new()).expect("there").expect("good");
             let turned = design.turned(DMat3::from_rotation_x(tilt.to_radians()));
             let stone = Stone::new(turned.solid().expect("closed"));
-            let mut view = Traced::new(View::new(&stone, material).expect("lit"), SEED);
+            let mut view = Traced::new(View::new(&stone, material, false).expect("lit"), SEED);
             view.extend_to(200_000);
             let effort = Effort { seed: SEED, ..Effort::default() };
             let beams = Beams::new(&stone);
