@@ -49,9 +49,10 @@ pub fn subject(name: &str, design: &Design, material: Material) -> Subject {
     Subject { stone: name.into(), material, solid: design.solid().map_err(|e| e.to_string()) }
 }
 
+/// Scalar Fresnel, as the reference figures have it.
 pub fn plan(metrics: &[&str], samples: u64) -> Plan {
     let metrics = metrics.iter().map(|m| Metric::named(m).expect("in the catalogue")).collect();
-    Plan { metrics, effort: Effort::Samples(samples), seed: SEED, ..Plan::default() }
+    Plan { metrics, effort: Effort::Samples(samples), polarised: false, seed: SEED, ..Plan::default() }
 }
 
 pub fn scores<const N: usize>(
