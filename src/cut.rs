@@ -4,7 +4,9 @@ pub mod design;
 pub mod document;
 pub mod families;
 pub mod library;
+pub mod meet;
 pub mod proportions;
+pub mod symmetry;
 
 pub use design::{Design, Facet, Gear, Tier, Unit, Zone};
 pub use families::CutError;
