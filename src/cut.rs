@@ -1,5 +1,6 @@
 //! Cuts: designs as tiers of facets, parametric families, the library, proportions.
 
+pub mod brilliant;
 pub mod design;
 pub mod document;
 pub mod families;

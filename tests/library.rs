@@ -1,5 +1,6 @@
 //! Every cut of the library: a closed convex stone with the proportions that its file promises.
 
+use cutlab::cut::brilliant::envelope;
 use cutlab::cut::proportions::{self, Proportions};
 use cutlab::cut::{Design, library};
 use cutlab::solid::polyhedron::Fate;
@@ -106,4 +107,40 @@ fn the_guilds_ratios_come_out() {
         }
         assert!((r.vol_w3 - vol).abs() <= vol_tolerance, "{name}: {r:?}");
     }
+}
+
+#[test]
+fn star_and_lower_half_lengths_are_those_a_brilliant_was_made_from() {
+    for (star, lower, flats, culet) in
+        [(50.0, 75.0, 96.0, 0.0), (54.8, 76.8, 16.0, 0.0), (60.0, 60.0, 64.0, 3.0)]
+    {
+        let values = [
+            ("star", star),
+            ("lower-half", lower),
+            ("girdle-facets", flats),
+            ("culet", culet),
+            ("girdle", 5.0),
+        ];
+        let lengths = measured("round-brilliant", &values).brilliant.expect("a brilliant");
+        assert!((lengths.star_percent - star).abs() < 1e-6, "{lengths:?}");
+        assert!((lengths.lower_half_percent - lower).abs() < 1e-6, "{lengths:?}");
+    }
+    for other in ["portuguese", "swiss-cut", "oval", "cube", "double-rose"] {
+        assert!(measured(other, &[]).brilliant.is_none(), "{other}");
+    }
+}
+
+#[test]
+fn envelopes_follow_the_table() {
+    for (values, name) in [
+        (vec![("pavilion-angle", 40.8)], Some("Excellent")),
+        (vec![("pavilion-angle", 40.5)], Some("Very good")),
+        (vec![("pavilion-angle", 40.8), ("star", 44.0)], Some("Very good")),
+        (vec![("pavilion-angle", 43.0)], Some("Good")),
+        (vec![("crown-angle", 41.0), ("girdle", 4.0)], Some("Fair")),
+        (vec![("pavilion-angle", 45.0)], None),
+    ] {
+        assert_eq!(envelope(&measured("round-brilliant", &values)), name, "{values:?}");
+    }
+    assert_eq!(envelope(&measured("princess", &[])), None);
 }

@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
+use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Proportions, Ratios};
 use crate::cut::symmetry::Symmetry;
 use crate::cut::{Design, Tier, Unit};
@@ -43,6 +44,11 @@ struct Sheet {
     /// The faceter's ratios, W corner to corner.
     ratios: Ratios,
     symmetry: Symmetry,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    brilliant: Option<Lengths>,
+    /// The proportion envelope of a round brilliant; no grade.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proportion_envelope: Option<&'static str>,
     tiers: Vec<TierRow>,
     material: String,
     refractive_index: f64,
@@ -217,6 +223,8 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
         facets_by_kind: p.by_zone.iter().copied().collect(),
         measured: Measured::of(&p, &design, args),
         tiers: design.tiers.iter().map(TierRow::of).collect(),
+        brilliant: p.brilliant,
+        proportion_envelope: brilliant::envelope(&p),
         ratios: p.ratios,
         symmetry: p.symmetry,
         material: material.name.into_owned(),
@@ -282,6 +290,16 @@ impl Sheet {
             line("culet", format!("{:.2} %", m.culet_percent));
         }
         line("depth", format!("{:.2} %", m.depth_percent));
+        if let Some(b) = &self.brilliant {
+            line("star", format!("{:.1} %, lower half {:.1} %", b.star_percent, b.lower_half_percent));
+            let envelope = self.proportion_envelope.map_or("outside the proportion envelopes".into(), |e| {
+                format!("within the proportion envelope of {e}")
+            });
+            line(
+                "envelope",
+                format!("{envelope} (GIA's table of single proportions, which is necessary only)"),
+            );
+        }
         line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
         line(
             "volume",

@@ -249,11 +249,20 @@ impl Document {
     }
 }
 
+/// More facets than this in a tier are a mistake in the file, not a stone.
+const MOST_FACETS: usize = 10_000;
+
 impl TierEntry {
     fn tier(&self, number: usize, gear: Gear, bench: &Bench) -> Result<Tier, DocumentError> {
         let fail = |problem: String| DocumentError::Tier { number, name: self.name.clone(), problem };
         let mut facets = Vec::new();
         let mut angle_deg = self.angle;
+        if self.indices.len().saturating_mul(self.repeat.unwrap_or(1) as usize) > MOST_FACETS {
+            return Err(fail(format!("indices and repeat give more than {MOST_FACETS} facets")));
+        }
+        if [self.angle, self.girdle, self.width, self.table].iter().flatten().any(|x| !x.is_finite()) {
+            return Err(fail("angle, girdle, width and table must be numbers".into()));
+        }
         let indices = self.all_indices(gear);
         if !indices.is_empty() {
             let rule = self.rule().map_err(fail)?;

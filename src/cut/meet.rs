@@ -365,6 +365,9 @@ fn width_within(walls: &[Plane]) -> Result<f64, MeetError> {
 
 /// The point common to the three planes among `planes` that cross most squarely.
 fn best_conditioned(planes: &[Plane]) -> Option<DVec3> {
+    /// Of a corner that names more, the first so many are tried by threes; all are checked.
+    const TRIED: usize = 16;
+    let planes = &planes[..planes.len().min(TRIED)];
     let mut best: Option<(f64, DVec3)> = None;
     for (i, a) in planes.iter().enumerate() {
         for (j, b) in planes.iter().enumerate().skip(i + 1) {

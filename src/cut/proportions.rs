@@ -1,5 +1,6 @@
 //! Proportions of any stone, measured from its solid.
 
+use super::brilliant::{self, Lengths};
 use super::design::{Design, Zone};
 use super::symmetry::{self, Symmetry};
 use crate::solid::{Polyhedron, SolidError};
@@ -43,6 +44,8 @@ pub struct Proportions {
     pub ratios: Ratios,
     /// Symmetry about the axis.
     pub symmetry: Symmetry,
+    /// Star and lower-half lengths of a round brilliant.
+    pub brilliant: Option<Lengths>,
 }
 
 /// What GemCad and the faceting guilds print below a design: ratios to the width W, which for a
@@ -120,6 +123,7 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
             vol_w3: volume / w.powi(3),
         },
         symmetry: symmetry::of(solid, SLIVER * width * width),
+        brilliant: if round { brilliant::lengths(solid, &zones) } else { None },
     }
 }
 
