@@ -21,7 +21,8 @@ pub static FAMILY: Family = Family {
         Parameter {
             key: "corner",
             default: 15.0,
-            range: (0.0, 40.0),
+            // 29.3 makes a square an octagon; more would make it narrower across its corners
+            range: (0.0, 29.0),
             unit: "%",
             about: "how much a cut corner takes off each side, of the width; 0 leaves sharp corners",
         },
