@@ -41,7 +41,7 @@ enum Command {
     Generate(generate::Args),
     /// Read designs and meshes and write them in another format
     Import(import::Args),
-    /// Proportions, facets, volume and weight
+    /// Proportions, faceter's ratios, symmetry, tiers, volume and weight
     Show(show::Args),
     /// Take a photon-mapped picture, or a turntable of pictures
     Render(render::Args),

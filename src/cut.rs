@@ -1,10 +1,13 @@
 //! Cuts: designs as tiers of facets, parametric families, the library, proportions.
 
+pub mod brilliant;
 pub mod design;
 pub mod document;
 pub mod families;
 pub mod library;
+pub mod meet;
 pub mod proportions;
+pub mod symmetry;
 
 pub use design::{Design, Facet, Gear, Tier, Unit, Zone};
 pub use families::CutError;

@@ -1,8 +1,7 @@
-//! The round brilliant against the worked rows of the project's sources, and the `[expect]` tables
-//! of the library.
+//! The round brilliant against the worked rows of the project's sources.
 
 use cutlab::cut::families::round_brilliant::derived_angles;
-use cutlab::cut::proportions::{self, Proportions};
+use cutlab::cut::proportions;
 use cutlab::cut::{Design, library};
 use std::collections::BTreeMap;
 
@@ -116,33 +115,4 @@ fn a_culet_is_flat_to_flat() {
     let y = solid.polygon(face).map(|v| v.y).fold(f64::MIN, f64::max);
     assert_near(2.0 * y / 6.5, 0.04, 1e-9, "culet");
     assert_eq!(solid.faces.len(), 154);
-}
-
-fn expected(p: &Proportions, key: &str) -> Option<(f64, f64)> {
-    Some(match key {
-        "facets" => (p.facets as f64, 0.0),
-        "table" => (p.table_percent?, 0.01),
-        "crown-angle" => (p.crown_angle_deg?, 0.01),
-        "crown-height" => (p.crown_height_percent, 0.01),
-        "pavilion-depth" => (p.pavilion_depth_percent, 0.01),
-        "pavilion-angle" => (p.pavilion_angle_deg?, 0.01),
-        "depth" => (p.depth_percent, 0.01),
-        "girdle" => (p.girdle_percent, 0.01),
-        _ => return None,
-    })
-}
-
-#[test]
-fn every_library_cut_has_the_proportions_it_promises() {
-    for name in library::names() {
-        let document = library::document(name).expect("in the library").expect("can be read");
-        assert!(!document.source.is_empty() && !document.about.is_empty(), "{name} needs source and about");
-        assert!(!document.expect.is_empty(), "{name} needs an [expect] table");
-        let design = document.design(&BTreeMap::new()).expect("can be made");
-        let p = proportions::of(&design).expect("closed");
-        for (key, promised) in &document.expect {
-            let (value, tolerance) = expected(&p, key).unwrap_or_else(|| panic!("{name}: no such key {key}"));
-            assert_near(value, *promised, tolerance, &format!("{name}: {key}"));
-        }
-    }
 }

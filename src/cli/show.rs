@@ -3,8 +3,10 @@
 use super::console::Console;
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
-use crate::cut::proportions::{self, Proportions};
-use crate::cut::{Design, Unit};
+use crate::cut::brilliant::{self, Lengths};
+use crate::cut::proportions::{self, Proportions, Ratios};
+use crate::cut::symmetry::Symmetry;
+use crate::cut::{Design, Tier, Unit};
 use crate::optics::fresnel::critical_angle_deg;
 use crate::optics::{Material, materials};
 use serde::Serialize;
@@ -39,6 +41,15 @@ struct Sheet {
     facets_by_kind: BTreeMap<&'static str, usize>,
     #[serde(flatten)]
     measured: Measured,
+    /// The faceter's ratios, W corner to corner.
+    ratios: Ratios,
+    symmetry: Symmetry,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    brilliant: Option<Lengths>,
+    /// The proportion envelope of a round brilliant; no grade.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proportion_envelope: Option<&'static str>,
+    tiers: Vec<TierRow>,
     material: String,
     refractive_index: f64,
     critical_angle_deg: f64,
@@ -63,6 +74,65 @@ struct Measured {
     volume_mm3: Option<f64>,
     carats: Option<f64>,
     weighed_as: Option<String>,
+}
+
+/// One tier of the design.
+#[derive(Debug, Serialize)]
+struct TierRow {
+    name: String,
+    angle_deg: Option<f64>,
+    facets: Vec<String>,
+    /// On the index wheel, as far as they are known.
+    indices: Vec<f64>,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    instructions: String,
+}
+
+impl TierRow {
+    fn of(tier: &Tier) -> TierRow {
+        TierRow {
+            name: tier.name.clone(),
+            angle_deg: tier.angle_deg,
+            facets: tier.facets.iter().map(|f| f.name.clone()).collect(),
+            indices: tier.facets.iter().filter_map(|f| f.index).collect(),
+            instructions: tier.instructions.clone(),
+        }
+    }
+
+    /// Whether two rows differ in their distances only: the girdle of a fancy outline.
+    fn reads_like(&self, other: &TierRow) -> bool {
+        let same = |a: f64, b: f64| (a - b).abs() < 0.005;
+        !self.name.is_empty()
+            && self.name == other.name
+            && self.angle_deg.zip(other.angle_deg).is_some_and(|(a, b)| same(a, b))
+    }
+
+    fn joined(rows: &[TierRow]) -> TierRow {
+        TierRow {
+            name: rows.first().map(|r| r.name.clone()).unwrap_or_default(),
+            angle_deg: rows.first().and_then(|r| r.angle_deg),
+            facets: rows.iter().flat_map(|r| r.facets.clone()).collect(),
+            indices: rows.iter().flat_map(|r| r.indices.clone()).collect(),
+            instructions: String::new(),
+        }
+    }
+
+    /// Angle, indices and name; a long row of indices is cut short.
+    fn text(&self) -> String {
+        const SHOWN: usize = 16;
+        let angle = self.angle_deg.map_or("no angle".into(), |a| format!("{a:.2}°"));
+        let digits = |i: &f64| format!("{:.2}", i).trim_end_matches('0').trim_end_matches('.').to_string();
+        let mut indices: Vec<String> = self.indices.iter().take(SHOWN).map(digits).collect();
+        if self.indices.len() > SHOWN {
+            indices.push(format!("… ({})", self.indices.len()));
+        } else if indices.is_empty() {
+            indices.push(format!("{} facets", self.facets.len()));
+        }
+        // a file without tier names may name its facets
+        let name = if self.name.is_empty() { self.facets.first() } else { Some(&self.name) };
+        let name = name.filter(|n| !n.is_empty()).map_or(String::new(), |n| format!("  {n}"));
+        format!("{angle:>8}{name}  {}", indices.join(" "))
+    }
 }
 
 /// A file that holds no stone, as JSON.
@@ -152,6 +222,11 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
         },
         facets_by_kind: p.by_zone.iter().copied().collect(),
         measured: Measured::of(&p, &design, args),
+        tiers: design.tiers.iter().map(TierRow::of).collect(),
+        brilliant: p.brilliant,
+        proportion_envelope: brilliant::envelope(&p),
+        ratios: p.ratios,
+        symmetry: p.symmetry,
         material: material.name.into_owned(),
         refractive_index: index,
         critical_angle_deg: critical_angle_deg(index),
@@ -215,6 +290,16 @@ impl Sheet {
             line("culet", format!("{:.2} %", m.culet_percent));
         }
         line("depth", format!("{:.2} %", m.depth_percent));
+        if let Some(b) = &self.brilliant {
+            line("star", format!("{:.1} %, lower half {:.1} %", b.star_percent, b.lower_half_percent));
+            let envelope = self.proportion_envelope.map_or("outside the proportion envelopes".into(), |e| {
+                format!("within the proportion envelope of {e}")
+            });
+            line(
+                "envelope",
+                format!("{envelope} (GIA's table of single proportions, which is necessary only)"),
+            );
+        }
         line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
         line(
             "volume",
@@ -230,13 +315,35 @@ impl Sheet {
             };
             line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm:.3} mm)"));
         }
+        let r = &self.ratios;
+        let t_w = r.t_w.map_or(String::new(), |t| format!("T/W {t:.3}  "));
+        line(
+            "ratios",
+            format!(
+                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner if round)",
+                r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
+            ),
+        );
+        line("symmetry", symmetry(&self.symmetry));
         line("closed", "yes".into());
         line("convex", "yes".into());
         line(
             "critical angle",
             format!("{:.2}° ({}, n {:.4})", self.critical_angle_deg, self.material, self.refractive_index),
         );
+        let tiers = self.tiers.chunk_by(TierRow::reads_like).map(TierRow::joined);
+        tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
     }
+}
+
+/// `8-fold with mirror, facets within 0.02° of it`
+fn symmetry(s: &Symmetry) -> String {
+    let turns = if s.order > 1 { format!("{}-fold", s.order) } else { "no repetition".into() };
+    let mirror = if s.mirror { "with mirror" } else { "without mirror" };
+    if s.order == 1 && !s.mirror {
+        return "none".into();
+    }
+    format!("{turns}, {mirror}; facets stray by at most {:.3}°", s.deviation_deg)
 }

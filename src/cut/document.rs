@@ -1,11 +1,32 @@
 //! A design in its own TOML form: what `cuts/` holds and what `-o stone.toml` writes.
 //!
-//! Either `family` with `[parameters]`, or `[[tier]]`s. A tier has `angle`, `distance` and
-//! `indices`, or explicit facets with `normal` and `distance` (a mesh). `[expect]` lists
+//! Either `family` with `[parameters]`, or `[[tier]]`s. A tier has `angle`, `indices` and a rule for
+//! its distance, or explicit facets with `normal` and `distance` (a mesh). `[expect]` lists
 //! proportions that a test checks for the library's own files.
+//!
+//! A tier's facets stand at `indices`; with `repeat = 8` each of them is cut eight times around the
+//! wheel, with `mirror = true` also at the index of opposite sign. One of these rules fixes the
+//! distance; each is about the tier's first facet and may speak of the tiers above it only:
+//!
+//! - `distance = 1.0`
+//! - `meets = "main@0 & break@3 & break@93"`: the facet passes through the corner where those
+//!   facets meet. A facet is called `TIER@INDEX`, `TIER NUMBER` (counted from 1 in cutting order),
+//!   by its own name, or `TIER` where that has one facet. Three planes or more; if more, all must
+//!   meet there; and the corner must be on the stone as cut so far.
+//! - `meets = ["A & B & C", "D & E & F"]`, without `angle`: it passes through both corners, and the
+//!   angle follows too.
+//! - `girdle = 0.02`, with `meets`: that part of W is left as girdle between the corner and the facet.
+//! - `width = 2.0`, for a vertical tier: its outline has that W.
+//! - `table = 0.56`, for a horizontal tier: the facet's extent along the width, as a part of W.
+//!
+//! W is the width as GemCad takes it: corner to corner in a round stone. A tier with `guide = true`
+//! is not cut; its planes can be named in a corner: a vertical guide at distance 0 is a plane
+//! through the axis, a horizontal one marks a height. Facets of a tier that is placed by a rule or
+//! repeated are called `TIER 1`, `TIER 2` … unless `names` says otherwise.
 
 use super::design::{Design, Facet, Gear, Tier, Unit, facet_normal};
 use super::families::{self, CutError};
+use super::meet::{Bench, Cut, MeetError, Rule};
 use crate::solid::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -83,14 +104,36 @@ pub struct TierEntry {
     angle: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     distance: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    meets: Option<Corners>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    girdle: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    width: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    table: Option<f64>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     indices: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    repeat: Option<u32>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    mirror: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    guide: bool,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     names: Vec<String>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     instructions: String,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     facet: Vec<FacetEntry>,
+}
+
+/// One corner, or two.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+enum Corners {
+    One(String),
+    Several(Vec<String>),
 }
 
 /// One facet given by its plane.
@@ -124,6 +167,16 @@ pub enum DocumentError {
         /// What is wrong with it.
         problem: String,
     },
+    /// A tier whose rule cannot be met.
+    #[error("tier {number} ({name}): {cause}")]
+    Meet {
+        /// Counted from 1.
+        number: usize,
+        /// The tier's name.
+        name: String,
+        /// Why not.
+        cause: MeetError,
+    },
     /// A unit other than `mm`.
     #[error("unit '{0}' is not known: write unit = \"mm\", or leave it out for a shape without size")]
     Unit(String),
@@ -151,8 +204,10 @@ impl Document {
             return Err(CutError::NoParameters { name: self.name.clone(), key: key.clone() }.into());
         }
         let gear = self.gear.map_or(Gear::default(), |g| Gear { teeth: g.teeth, offset: g.offset });
-        let tiers =
-            self.tier.iter().enumerate().map(|(i, t)| t.tier(i + 1, gear)).collect::<Result<_, _>>()?;
+        let mut bench = Bench::new(gear);
+        for (i, entry) in self.tier.iter().enumerate() {
+            bench.add(entry.tier(i + 1, gear, &bench)?, entry.guide);
+        }
         Ok(Design {
             name: self.name.clone(),
             headers: self.headers.clone(),
@@ -166,7 +221,7 @@ impl Document {
                 Some("mm") => Unit::Millimetre,
                 Some(other) => return Err(DocumentError::Unit(other.into())),
             },
-            tiers,
+            tiers: bench.tiers,
         })
     }
 
@@ -194,23 +249,39 @@ impl Document {
     }
 }
 
+/// More facets than this in a tier are a mistake in the file, not a stone.
+const MOST_FACETS: usize = 10_000;
+
 impl TierEntry {
-    fn tier(&self, number: usize, gear: Gear) -> Result<Tier, DocumentError> {
+    fn tier(&self, number: usize, gear: Gear, bench: &Bench) -> Result<Tier, DocumentError> {
         let fail = |problem: String| DocumentError::Tier { number, name: self.name.clone(), problem };
         let mut facets = Vec::new();
-        if !self.indices.is_empty() {
-            let angle = self.angle.ok_or_else(|| fail("indices need an angle".into()))?;
-            let distance = self.distance.ok_or_else(|| fail("indices need a distance".into()))?;
-            if !(angle.abs() <= 90.0 && gear.teeth != 0.0 && distance.is_finite()) {
-                return Err(fail(format!("angle {angle} must lie in −90..90 and the gear must have teeth")));
+        let mut angle_deg = self.angle;
+        if self.indices.len().saturating_mul(self.repeat.unwrap_or(1) as usize) > MOST_FACETS {
+            return Err(fail(format!("indices and repeat give more than {MOST_FACETS} facets")));
+        }
+        if [self.angle, self.girdle, self.width, self.table].iter().flatten().any(|x| !x.is_finite()) {
+            return Err(fail("angle, girdle, width and table must be numbers".into()));
+        }
+        let indices = self.all_indices(gear);
+        if !indices.is_empty() {
+            let rule = self.rule().map_err(fail)?;
+            if gear.teeth == 0.0 || angle_deg.is_some_and(|a| a.is_nan() || a.abs() > 90.0) {
+                return Err(fail("angle must lie in −90..90 and the gear must have teeth".into()));
             }
-            for (i, &index) in self.indices.iter().enumerate() {
-                facets.push(Facet {
-                    name: self.names.get(i).cloned().unwrap_or_default(),
-                    index: Some(index),
-                    plane: Plane { normal: facet_normal(gear, angle, index), distance },
-                });
-            }
+            let named = self.repeat.is_some() || self.mirror || !matches!(rule, Rule::Distance(_));
+            let cut = Cut { name: &self.name, angle_deg, indices: &indices, rule };
+            let (angle, distance) = bench.place(&cut).map_err(|cause| DocumentError::Meet {
+                number,
+                name: self.name.clone(),
+                cause,
+            })?;
+            angle_deg = Some(angle);
+            let tier = Tier::cut(&self.name, gear, angle, distance, &indices);
+            facets.extend(tier.facets.into_iter().enumerate().map(|(i, facet)| Facet {
+                name: self.names.get(i).cloned().unwrap_or(if named { facet.name } else { String::new() }),
+                ..facet
+            }));
         }
         for f in &self.facet {
             let normal = DVec3::from_array(f.normal);
@@ -226,12 +297,57 @@ impl TierEntry {
         if facets.is_empty() {
             return Err(fail("has neither indices nor facets".into()));
         }
-        Ok(Tier {
-            name: self.name.clone(),
-            angle_deg: self.angle,
-            instructions: self.instructions.clone(),
-            facets,
-        })
+        Ok(Tier { name: self.name.clone(), angle_deg, instructions: self.instructions.clone(), facets })
+    }
+
+    /// The indices with their repetitions around the wheel and their mirror images, each once, in
+    /// the wheel's order from the first one given.
+    fn all_indices(&self, gear: Gear) -> Vec<f64> {
+        let mut all: Vec<f64> = Vec::new();
+        let copies = self.repeat.unwrap_or(1).max(1);
+        let teeth = gear.teeth.abs();
+        let wheel = self.repeat.is_some() || self.mirror;
+        for &index in &self.indices {
+            for k in 0..copies {
+                let turned = index + teeth * f64::from(k) / f64::from(copies);
+                let both = [Some(turned), self.mirror.then_some(2.0 * gear.offset - turned)];
+                for i in both.into_iter().flatten() {
+                    let i = if wheel { i.rem_euclid(teeth) } else { i };
+                    if !wheel || !all.iter().any(|j| (i - j).abs() < 1e-9 || (i - j).abs() > teeth - 1e-9) {
+                        all.push(i);
+                    }
+                }
+            }
+        }
+        if wheel && let Some(&first) = all.first() {
+            all.sort_by(|a, b| (a - first).rem_euclid(teeth).total_cmp(&(b - first).rem_euclid(teeth)));
+        }
+        all
+    }
+
+    /// The one rule that fixes the distance.
+    fn rule(&self) -> Result<Rule, String> {
+        let meets = self.meets.clone().map(|corners| Rule::Meets {
+            corners: match corners {
+                Corners::One(corner) => vec![corner],
+                Corners::Several(corners) => corners,
+            },
+            girdle: self.girdle.unwrap_or(0.0),
+        });
+        let given = [
+            self.distance.map(Rule::Distance),
+            meets,
+            self.width.map(Rule::Width),
+            self.table.map(Rule::Table),
+        ];
+        let mut given = given.into_iter().flatten();
+        match (given.next(), given.next()) {
+            (Some(Rule::Distance(d)), None) if !d.is_finite() => Err("distance must be a number".into()),
+            (Some(_), Some(_)) => Err("has two rules for its distance: keep one".into()),
+            (Some(rule), None) if self.girdle.is_none() || self.meets.is_some() => Ok(rule),
+            (Some(_), None) => Err("girdle needs meets: the corner that it is left above or below".into()),
+            (None, _) => Err("indices need a distance, or meets, width or table to find it".into()),
+        }
     }
 
     fn of(tier: &Tier, gear: Gear) -> TierEntry {

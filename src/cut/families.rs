@@ -1,14 +1,20 @@
 //! The catalogue of parametric families, one a file.
 
 mod bipyramid;
+mod cushion;
+mod fancy_brilliant;
+mod marquise;
+mod oval;
+mod pear;
 mod prism;
 pub mod round_brilliant;
+mod step_cut;
 
 use super::design::Design;
 use std::collections::BTreeMap;
 
 /// One parameter of a family.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Parameter {
     /// Its key, as in `round-brilliant:crown-angle=35` and `--crown-angle 35`.
     pub key: &'static str,
@@ -37,7 +43,16 @@ pub struct Family {
 }
 
 /// Every family.
-pub static FAMILIES: &[&Family] = &[&round_brilliant::FAMILY, &prism::FAMILY, &bipyramid::FAMILY];
+pub static FAMILIES: &[&Family] = &[
+    &round_brilliant::FAMILY,
+    &oval::FAMILY,
+    &cushion::FAMILY,
+    &marquise::FAMILY,
+    &pear::FAMILY,
+    &step_cut::FAMILY,
+    &prism::FAMILY,
+    &bipyramid::FAMILY,
+];
 
 /// A cut that cannot be made, and why.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -221,6 +236,22 @@ fn build_exactly(family: &'static Family, given: &BTreeMap<String, f64>) -> Resu
 impl std::fmt::Debug for Family {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name)
+    }
+}
+
+/// Every plane must bound the stone: a facet that vanishes is a mistake of the parameters.
+fn check_every_facet_stands(design: &Design) -> Result<(), CutError> {
+    let solid = design.solid()?;
+    let lost = design
+        .facets()
+        .zip(&solid.fates)
+        .find(|(_, fate)| !matches!(fate, crate::solid::polyhedron::Fate::Facet(_)));
+    match lost {
+        None => Ok(()),
+        Some((facet, _)) => Err(CutError::Impossible {
+            problem: "a facet would vanish",
+            bound: format!("the other facets leave nothing of {}", facet.name),
+        }),
     }
 }
 

@@ -1,8 +1,12 @@
 //! Proportions of any stone, measured from its solid.
 
+use super::brilliant::{self, Lengths};
 use super::design::{Design, Zone};
+use super::symmetry::{self, Symmetry};
 use crate::solid::{Polyhedron, SolidError};
+use glam::DVec2;
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// What a cutter or a grader reads off a stone. Percentages are of the girdle width; a value that
 /// the stone does not have (a table height without a table) is none.
@@ -16,7 +20,7 @@ pub struct Proportions {
     pub width: f64,
     /// Extent of the outline across the width, in the design's unit.
     pub length: f64,
-    /// Table, corner to corner along the width.
+    /// Table along the width: corner to corner in a round stone, flat to flat in a square one.
     pub table_percent: Option<f64>,
     /// Steepest of the two main angles: the crown facets that reach the girdle's thick places.
     pub crown_angle_deg: Option<f64>,
@@ -36,6 +40,33 @@ pub struct Proportions {
     pub volume: f64,
     /// Surface in the design's unit squared.
     pub surface: f64,
+    /// The faceter's ratios.
+    pub ratios: Ratios,
+    /// Symmetry about the axis.
+    pub symmetry: Symmetry,
+    /// Star and lower-half lengths of a round brilliant.
+    pub brilliant: Option<Lengths>,
+}
+
+/// What GemCad and the faceting guilds print below a design: ratios to the width W, which for a
+/// round stone is taken corner to corner ([`wheel_width`]). Checked in `tests/library.rs` against
+/// the figures that the US Faceters Guild published for Classic and First Stone.
+#[derive(Debug, Clone, Serialize)]
+pub struct Ratios {
+    /// W, in the design's unit.
+    pub w: f64,
+    /// L/W: length to width; 1 for a round stone.
+    pub l_w: f64,
+    /// T/W: table to width.
+    pub t_w: Option<f64>,
+    /// P/W: pavilion depth to width, from the highest place of its edge with the girdle.
+    pub p_w: f64,
+    /// C/W: crown height to width, from the lowest place of its edge with the girdle.
+    pub c_w: f64,
+    /// H/W: whole depth to width.
+    pub h_w: f64,
+    /// Vol/W³.
+    pub vol_w3: f64,
 }
 
 /// A facet smaller than this share of the squared width (0.2 µm square on a stone of 6 mm) is what
@@ -60,14 +91,18 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
     } else {
         extent(girdle_z.into_iter())
     };
-    let flat_size = |zone| zone_faces(&zones, zone).map(|f| diameter(solid, f)).reduce(f64::max);
+    let outline = solid.outline();
+    let flat_size = |zone| zone_faces(&zones, zone).map(|f| flat_extent(solid, f, &outline)).reduce(f64::max);
+    let (length, volume) = (solid.length(), solid.volume());
+    let w = wheel_width(&outline);
+    let round = greatest_extent(&outline) <= ROUND * width;
     let by_zone = [Zone::Table, Zone::Crown, Zone::Girdle, Zone::Pavilion, Zone::Culet]
         .map(|zone| (zone.name(), zone_faces(&zones, zone).filter(|f| seen[*f]).count()));
     Proportions {
         facets: seen.iter().filter(|s| **s).count(),
         by_zone: by_zone.to_vec(),
         width,
-        length: solid.length(),
+        length,
         table_percent: flat_size(Zone::Table).map(percent),
         crown_angle_deg: main_angle(solid, &zones, Zone::Crown),
         pavilion_angle_deg: main_angle(solid, &zones, Zone::Pavilion),
@@ -76,8 +111,19 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
         girdle_percent: percent(girdle_high - girdle_low),
         depth_percent: percent(hi.z - lo.z),
         culet_percent: flat_size(Zone::Culet).map_or(0.0, percent),
-        volume: solid.volume(),
+        volume,
         surface: solid.surface(),
+        ratios: Ratios {
+            w,
+            l_w: if round { 1.0 } else { length / w },
+            t_w: flat_size(Zone::Table).map(|t| t / w),
+            p_w: (scallop(solid, &zones, Zone::Pavilion).unwrap_or(girdle_low) - lo.z) / w,
+            c_w: (hi.z - scallop(solid, &zones, Zone::Crown).unwrap_or(girdle_high)) / w,
+            h_w: (hi.z - lo.z) / w,
+            vol_w3: volume / w.powi(3),
+        },
+        symmetry: symmetry::of(solid, SLIVER * width * width),
+        brilliant: if round { brilliant::lengths(solid, &zones) } else { None },
     }
 }
 
@@ -94,12 +140,63 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
 }
 
-/// Largest distance of two corners of a face.
-fn diameter(solid: &Polyhedron, face: usize) -> f64 {
-    let corners: Vec<_> = solid.polygon(face).collect();
-    let pairs =
-        corners.iter().enumerate().flat_map(|(i, a)| corners[i..].iter().map(move |b| a.distance(*b)));
+/// An outline whose greatest extent is at most this many times its least is round: its flats are a
+/// polished circle's. A polygon of 13 and more sides is; a square (1.41) and an octagon (1.08) are
+/// not.
+const ROUND: f64 = 1.03;
+
+/// W of an outline: of a round one the greatest extent, corner to corner, as GemCad measures it on
+/// stones whose flats straddle the wheel's axes; of any other the least width.
+pub fn wheel_width(outline: &[DVec2]) -> f64 {
+    let (least, greatest) = (least_extent(outline), greatest_extent(outline));
+    if greatest <= ROUND * least { greatest } else { least }
+}
+
+/// Extent of a horizontal face along the stone's width: corner to corner in a round stone, flat to
+/// flat in a square one.
+///
+/// - `outline`: of the whole stone
+pub fn flat_extent(solid: &Polyhedron, face: usize, outline: &[DVec2]) -> f64 {
+    let corners: Vec<DVec2> = solid.polygon(face).map(|v| v.truncate()).collect();
+    let widest = ROUND * least_extent(outline);
+    let edges = (0..outline.len()).map(|i| (outline[(i + 1) % outline.len()] - outline[i]).perp());
+    let across = corners.iter().enumerate().flat_map(|(i, a)| corners[..i].iter().map(move |b| *a - *b));
+    edges
+        .chain(across)
+        .filter_map(DVec2::try_normalize)
+        .filter(|d| extent_along(outline, *d) <= widest)
+        .map(|d| extent_along(&corners, d))
+        .fold(0.0, f64::max)
+}
+
+fn extent_along(points: &[DVec2], direction: DVec2) -> f64 {
+    let (lo, hi) = extent(points.iter().map(|p| p.dot(direction)));
+    hi - lo
+}
+
+/// Least distance of two parallel lines that hold the outline; one lies along an edge.
+fn least_extent(outline: &[DVec2]) -> f64 {
+    (0..outline.len())
+        .filter_map(|i| (outline[(i + 1) % outline.len()] - outline[i]).perp().try_normalize())
+        .map(|d| extent_along(outline, d))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Greatest distance of two corners.
+fn greatest_extent(outline: &[DVec2]) -> f64 {
+    let pairs = outline.iter().enumerate().flat_map(|(i, a)| outline[..i].iter().map(|b| a.distance(*b)));
     pairs.fold(0.0, f64::max)
+}
+
+/// Height at which the edge of crown or pavilion with the girdle reaches farthest toward the middle
+/// of the girdle; none without such an edge.
+fn scallop(solid: &Polyhedron, zones: &[Zone], zone: Zone) -> Option<f64> {
+    let corners = |zone| {
+        zone_faces(zones, zone).flat_map(|f| &solid.faces[f].corners).copied().collect::<HashSet<usize>>()
+    };
+    let (side, girdle) = (corners(zone), corners(Zone::Girdle));
+    let heights = side.intersection(&girdle).map(|&c| solid.vertices[c].z);
+    if zone == Zone::Crown { heights.reduce(f64::min) } else { heights.reduce(f64::max) }
 }
 
 /// Angle of the mains: of the facets of a zone that span the greatest height, which in a brilliant

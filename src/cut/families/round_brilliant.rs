@@ -1,6 +1,6 @@
 //! The round brilliant: 57 facets and a girdle of flats; 153 facets with a girdle of 96.
 
-use super::{CutError, Family, Parameter, Values, whole};
+use super::{CutError, Family, Parameter, Values, check_every_facet_stands, whole};
 use crate::cut::design::{Design, Gear, Tier, Unit};
 
 /// The round brilliant. The defaults are the reference stone of the light-return literature.
@@ -204,20 +204,4 @@ fn check_lengths(table: f64, star: f64, girdle: f64, angles: DerivedAngles) -> R
         });
     }
     Ok(())
-}
-
-/// With a real crown every plane must bound the stone.
-fn check_every_facet_stands(design: &Design) -> Result<(), CutError> {
-    let solid = design.solid()?;
-    let lost = design
-        .facets()
-        .zip(&solid.fates)
-        .find(|(_, fate)| !matches!(fate, crate::solid::polyhedron::Fate::Facet(_)));
-    match lost {
-        None => Ok(()),
-        Some((facet, _)) => Err(CutError::Impossible {
-            problem: "a facet would vanish",
-            bound: format!("the other facets leave nothing of {}", facet.name),
-        }),
-    }
 }

@@ -1,0 +1,385 @@
+//! The meet-point solver: finds the distances of tiers as a faceter does at the machine.
+//!
+//! A tier is placed by a rule that speaks of the tiers before it: through the corner where named
+//! facets meet, a girdle's thickness above such a corner, a girdle of given width, a table of given
+//! size. Guides are planes that rules may name and that are not cut. The words of a rule are the
+//! grammar in [`super::document`]. Lengths are in the design's own unit, W is the width of
+//! [`super::proportions::wheel_width`] over the girdle cut so far.
+
+use super::design::{Facet, Gear, Tier, Zone, facet_normal};
+use super::proportions::{flat_extent, wheel_width};
+use crate::solid::{Plane, Polyhedron, SolidError};
+use glam::{DMat3, DVec3};
+
+/// What fixes a tier's distance.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Rule {
+    /// The distance itself.
+    Distance(f64),
+    /// The tier's first facet passes through these corners (one; or two, which fix its angle too),
+    /// away from the girdle by `girdle` × W.
+    Meets {
+        /// Corners, each `FACET & FACET & FACET …`.
+        corners: Vec<String>,
+        /// Fraction of W left between the corner and the tier.
+        girdle: f64,
+    },
+    /// A vertical tier whose outline, by itself, has this W.
+    Width(f64),
+    /// A horizontal tier whose facet has this extent along the width, as a fraction of W.
+    Table(f64),
+}
+
+/// A tier to be placed.
+#[derive(Debug, Clone)]
+pub struct Cut<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its angle from the girdle plane in degrees, negative on the pavilion; none if two corners
+    /// fix it.
+    pub angle_deg: Option<f64>,
+    /// Its indices; a rule is about the first.
+    pub indices: &'a [f64],
+    /// What fixes its distance.
+    pub rule: Rule,
+}
+
+/// Why a tier cannot be placed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeetError {
+    /// A rule names a facet that no earlier tier has.
+    #[error("no facet before it is called '{facet}' (write TIER@INDEX or TIER NUMBER; there is {})", .known.join(", "))]
+    UnknownFacet {
+        /// What was named.
+        facet: String,
+        /// The tiers there are.
+        known: Vec<String>,
+    },
+    /// A tier's name where one of its facets is meant.
+    #[error("'{tier}' has {count} facets: say which, as {tier}@INDEX or {tier} NUMBER")]
+    WhichFacet {
+        /// The tier.
+        tier: String,
+        /// How many facets it has.
+        count: usize,
+    },
+    /// Fewer than three facets.
+    #[error("'{corner}' names {count} facets: a corner needs three (a guide can be one of them)")]
+    TooFew {
+        /// The corner as written.
+        corner: String,
+        /// How many facets it names.
+        count: usize,
+    },
+    /// Planes that have no point in common, or more than one.
+    #[error("'{corner}' is no corner: these planes do not meet in one point{}", miss(*.apart))]
+    NoCorner {
+        /// The corner as written.
+        corner: String,
+        /// How far the planes pass each other by, if they cross at all.
+        apart: f64,
+    },
+    /// The corner is not on the stone.
+    #[error("'{corner}' is no corner of the stone: {by} cuts it away, {depth:.6} deep")]
+    CutAway {
+        /// The corner as written.
+        corner: String,
+        /// The facet that cuts it away.
+        by: String,
+        /// How far beyond that facet the corner lies.
+        depth: f64,
+    },
+    /// A tier without angle and without two corners.
+    #[error("needs an angle, or two corners that fix it")]
+    NoAngle,
+    /// Angle and two corners at once.
+    #[error("has an angle and two corners: one of the three must go")]
+    TooMuch,
+    /// Two corners that no facet at this index can both hold.
+    #[error(
+        "no facet at index {index} passes through both corners: they lie one above the other or across it"
+    )]
+    NoPlane {
+        /// The tier's first index.
+        index: f64,
+    },
+    /// `width` on a tier that is not vertical, `table` on one that is not horizontal.
+    #[error("'{rule}' is for {needed} tiers; this one stands at {angle_deg}°")]
+    WrongAngle {
+        /// The rule's word.
+        rule: &'static str,
+        /// Which tiers it is for.
+        needed: &'static str,
+        /// The tier's angle.
+        angle_deg: f64,
+    },
+    /// A rule that speaks of W before the girdle is cut.
+    #[error("the stone has no girdle yet, so it has no width: cut the girdle before this tier")]
+    NoGirdle,
+    /// A table larger than any that the crown allows.
+    #[error("a table of {asked:.4} W cannot be cut: the stone there is at most {most:.4} W wide")]
+    TableTooLarge {
+        /// What was asked for, as a fraction of W.
+        asked: f64,
+        /// The most there is.
+        most: f64,
+    },
+    /// The tiers before it leave the stone open where it must be closed.
+    #[error("the tiers before it do not close the stone: {0}")]
+    Open(#[from] SolidError),
+}
+
+fn miss(distance: f64) -> String {
+    if distance.is_finite() { format!(", they miss it by {distance:.3e}") } else { String::new() }
+}
+
+/// Planes count as meeting, and a corner as lying on the stone, within this part of the stone's
+/// size: far above the rounding of a dozen chained meets, far below what can be cut.
+const MEET: f64 = 1e-9;
+
+/// A stone on the bench: the tiers cut so far, and the guides.
+#[derive(Debug, Default)]
+pub struct Bench {
+    gear: Gear,
+    /// The tiers cut so far.
+    pub tiers: Vec<Tier>,
+    guides: Vec<Tier>,
+}
+
+impl Bench {
+    /// An empty bench with that index wheel.
+    pub fn new(gear: Gear) -> Bench {
+        Bench { gear, ..Bench::default() }
+    }
+
+    /// Finds the angle (degrees) and distance of a tier.
+    ///
+    /// Checked in `tests/meet.rs` against hand-derived corners and the closed form of the round
+    /// brilliant (1e-12).
+    pub fn place(&self, cut: &Cut) -> Result<(f64, f64), MeetError> {
+        let index = cut.indices.first().copied().unwrap_or_default();
+        match &cut.rule {
+            Rule::Distance(distance) => Ok((cut.angle_deg.ok_or(MeetError::NoAngle)?, *distance)),
+            Rule::Meets { corners, girdle } => self.through(cut.angle_deg, index, corners, *girdle),
+            Rule::Width(width) => {
+                let angle = cut.angle_deg.ok_or(MeetError::NoAngle)?;
+                if angle.abs() != 90.0 {
+                    return Err(MeetError::WrongAngle {
+                        rule: "width",
+                        needed: "vertical",
+                        angle_deg: angle,
+                    });
+                }
+                let walls: Vec<Plane> = cut
+                    .indices
+                    .iter()
+                    .map(|&i| Plane { normal: facet_normal(self.gear, angle, i), distance: 1.0 })
+                    .collect();
+                Ok((angle, width / width_within(&walls)?))
+            }
+            Rule::Table(share) => {
+                let angle = cut.angle_deg.ok_or(MeetError::NoAngle)?;
+                if angle != 0.0 {
+                    return Err(MeetError::WrongAngle {
+                        rule: "table",
+                        needed: "horizontal",
+                        angle_deg: angle,
+                    });
+                }
+                Ok((angle, self.table(facet_normal(self.gear, angle, index), *share)?))
+            }
+        }
+    }
+
+    /// Puts a tier on the stone, or among the guides.
+    pub fn add(&mut self, tier: Tier, guide: bool) {
+        if guide { self.guides.push(tier) } else { self.tiers.push(tier) }
+    }
+
+    fn facets(&self) -> impl Iterator<Item = &Facet> {
+        self.tiers.iter().flat_map(|t| &t.facets)
+    }
+
+    fn planes(&self) -> Vec<Plane> {
+        self.facets().map(|f| f.plane).collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.facets().fold(0.0, |m: f64, f| m.max(f.plane.distance.abs()))
+    }
+
+    /// W of the girdle cut so far.
+    fn width(&self) -> Result<f64, MeetError> {
+        let walls: Vec<Plane> =
+            self.planes().into_iter().filter(|p| Zone::of(p.normal) == Zone::Girdle).collect();
+        if walls.is_empty() { Err(MeetError::NoGirdle) } else { width_within(&walls) }
+    }
+
+    fn through(
+        &self,
+        angle_deg: Option<f64>,
+        index: f64,
+        corners: &[String],
+        girdle: f64,
+    ) -> Result<(f64, f64), MeetError> {
+        let points = corners.iter().map(|c| self.corner(c)).collect::<Result<Vec<_>, _>>()?;
+        let (angle, point) = match (angle_deg, points.as_slice()) {
+            (Some(angle), [point]) => (angle, *point),
+            (None, [a, b]) => {
+                let out = facet_normal(self.gear, 90.0, index);
+                let (run, rise) = (out.dot(*a - *b), a.z - b.z);
+                if run.abs() <= MEET * self.size() {
+                    return Err(MeetError::NoPlane { index });
+                }
+                ((-rise / run).atan().to_degrees(), *a)
+            }
+            (None, _) => return Err(MeetError::NoAngle),
+            (Some(_), _) => return Err(MeetError::TooMuch),
+        };
+        let normal = facet_normal(self.gear, angle, index);
+        let lift = if girdle == 0.0 { 0.0 } else { girdle * self.width()? };
+        Ok((angle, normal.dot(point + DVec3::Z * lift * angle.signum())))
+    }
+
+    /// The corner written `FACET & FACET & FACET …`.
+    fn corner(&self, corner: &str) -> Result<DVec3, MeetError> {
+        let planes = corner.split('&').map(|name| self.named(name.trim())).collect::<Result<Vec<_>, _>>()?;
+        if planes.len() < 3 {
+            return Err(MeetError::TooFew { corner: corner.into(), count: planes.len() });
+        }
+        let point = best_conditioned(&planes)
+            .ok_or(MeetError::NoCorner { corner: corner.into(), apart: f64::INFINITY })?;
+        let tolerance = MEET * self.size().max(point.length());
+        let apart = planes.iter().map(|p| p.height(point).abs()).fold(0.0, f64::max);
+        if apart > tolerance {
+            return Err(MeetError::NoCorner { corner: corner.into(), apart });
+        }
+        match self.facets().find(|f| f.plane.height(point) > tolerance) {
+            None => Ok(point),
+            Some(facet) => Err(MeetError::CutAway {
+                corner: corner.into(),
+                by: self.called(facet),
+                depth: facet.plane.height(point),
+            }),
+        }
+    }
+
+    /// What to call a facet in an error.
+    fn called(&self, facet: &Facet) -> String {
+        let tier = self.tiers.iter().find(|t| t.facets.iter().any(|f| std::ptr::eq(f, facet)));
+        match (tier, facet.index) {
+            (Some(tier), Some(index)) => format!("{}@{index}", tier.name),
+            _ => facet.name.clone(),
+        }
+    }
+
+    /// The plane called `TIER@INDEX`, `TIER NUMBER`, by a facet's own name, or `TIER` if it has one.
+    fn named(&self, name: &str) -> Result<Plane, MeetError> {
+        let tiers = || self.tiers.iter().chain(&self.guides);
+        if let Some((tier, index)) = name.rsplit_once('@').and_then(|(t, i)| Some((t, i.parse().ok()?))) {
+            let index: f64 = index;
+            let teeth = self.gear.teeth.abs();
+            let same = |i: f64| {
+                let off = (i - index).rem_euclid(teeth);
+                off.min(teeth - off) < 1e-6
+            };
+            let facets = tiers().filter(|t| t.name == tier).flat_map(|t| &t.facets);
+            if let Some(facet) = facets.into_iter().find(|f| f.index.is_some_and(same)) {
+                return Ok(facet.plane);
+            }
+        }
+        if let Some(facet) = tiers().flat_map(|t| &t.facets).find(|f| f.name == name) {
+            return Ok(facet.plane);
+        }
+        if let Some(tier) = tiers().find(|t| t.name == name) {
+            return match tier.facets.as_slice() {
+                [facet] => Ok(facet.plane),
+                several => Err(MeetError::WhichFacet { tier: name.into(), count: several.len() }),
+            };
+        }
+        let numbered = name.rsplit_once(' ').and_then(|(t, k)| Some((t, k.parse::<usize>().ok()?)));
+        let facet = numbered.and_then(|(tier, k)| {
+            tiers().find(|t| t.name == tier).and_then(|t| t.facets.get(k.checked_sub(1)?))
+        });
+        facet.map(|f| f.plane).ok_or_else(|| MeetError::UnknownFacet {
+            facet: name.into(),
+            known: tiers().map(|t| t.name.clone()).collect(),
+        })
+    }
+
+    /// Distance of the horizontal plane along `normal` whose facet is `share` × W wide.
+    fn table(&self, normal: DVec3, share: f64) -> Result<f64, MeetError> {
+        let width = self.width()?;
+        let mut planes = self.planes();
+        // the far side may still be uncut
+        planes.push(Plane { normal: -normal, distance: 100.0 * self.size() });
+        let stone = Polyhedron::from_planes(&planes)?;
+        let heights = stone.vertices.iter().map(|v| v.dot(normal));
+        let mut high = heights.fold(f64::NEG_INFINITY, f64::max);
+        let girdle = (0..stone.faces.len()).filter(|&f| Zone::of(stone.area_vector(f)) == Zone::Girdle);
+        let mut low = girdle
+            .flat_map(|f| stone.polygon(f).map(|v| v.dot(normal)))
+            .fold(f64::NEG_INFINITY, f64::max)
+            .min(high);
+        let outline = stone.outline();
+        let excess = |distance: f64| -> Result<f64, MeetError> {
+            let mut cut = planes.clone();
+            cut.push(Plane { normal, distance });
+            let solid = Polyhedron::from_planes(&cut)?;
+            let face = solid.faces.iter().position(|f| f.plane == cut.len() - 1);
+            Ok(face.map_or(0.0, |f| flat_extent(&solid, f, &outline)) / width - share)
+        };
+        // just above the girdle, where the outline itself would merge with the table
+        low += 1e-9 * (high - low);
+        let (mut at_low, mut at_high) = (excess(low)?, -share);
+        if at_low < 0.0 || share <= 0.0 {
+            return Err(MeetError::TableTooLarge { asked: share, most: at_low + share });
+        }
+        // the extent falls in straight pieces: false position ends exactly, halving keeps it safe
+        for step in 0..200 {
+            let middle = if step % 3 == 2 {
+                0.5 * (low + high)
+            } else {
+                low + (high - low) * at_low / (at_low - at_high)
+            };
+            let at_middle = excess(middle)?;
+            if at_middle.abs() < 1e-15 || high - low < 1e-15 * width {
+                return Ok(middle);
+            }
+            if at_middle > 0.0 {
+                (low, at_low) = (middle, at_middle);
+            } else {
+                (high, at_high) = (middle, at_middle);
+            }
+        }
+        Ok(0.5 * (low + high))
+    }
+}
+
+/// W of the outline between vertical planes.
+fn width_within(walls: &[Plane]) -> Result<f64, MeetError> {
+    let mut planes = walls.to_vec();
+    planes.extend([DVec3::Z, -DVec3::Z].map(|normal| Plane { normal, distance: walls[0].distance.abs() }));
+    Ok(wheel_width(&Polyhedron::from_planes(&planes)?.outline()))
+}
+
+/// The point common to the three planes among `planes` that cross most squarely.
+fn best_conditioned(planes: &[Plane]) -> Option<DVec3> {
+    /// Of a corner that names more, the first so many are tried by threes; all are checked.
+    const TRIED: usize = 16;
+    let planes = &planes[..planes.len().min(TRIED)];
+    let mut best: Option<(f64, DVec3)> = None;
+    for (i, a) in planes.iter().enumerate() {
+        for (j, b) in planes.iter().enumerate().skip(i + 1) {
+            for c in &planes[j + 1..] {
+                let rows = DMat3::from_cols(a.normal, b.normal, c.normal).transpose();
+                let squareness = rows.determinant().abs();
+                if squareness > 1e-9 && best.is_none_or(|(s, _)| squareness > s) {
+                    let point = rows.inverse() * DVec3::new(a.distance, b.distance, c.distance);
+                    best = Some((squareness, point));
+                }
+            }
+        }
+    }
+    best.map(|(_, point)| point)
+}

@@ -1,0 +1,75 @@
+//! Symmetry of a finished stone: how often it repeats around its axis, whether it has a mirror, and
+//! how far its facets stray from that.
+
+use crate::solid::Polyhedron;
+use glam::{DMat3, DVec3};
+use serde::Serialize;
+
+/// Symmetry about the vertical axis through the stone's centre of mass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Symmetry {
+    /// Rotational order; 1 if the stone does not repeat.
+    pub order: usize,
+    /// Whether a vertical mirror plane exists.
+    pub mirror: bool,
+    /// Largest angle between a facet and the one that it turns into, in degrees.
+    pub deviation_deg: f64,
+}
+
+/// A facet answers another if their normals differ by less than this many degrees and their
+/// distances by less than [`ASTRAY`] of the stone's radius: cutters hold a tenth of a degree; real
+/// neighbours differ by more than two.
+const ASTRAY_DEG: f64 = 1.0;
+
+/// See [`ASTRAY_DEG`].
+const ASTRAY: f64 = 0.01;
+
+/// Measures the symmetry; faces smaller than `sliver` (area) are left out.
+pub fn of(solid: &Polyhedron, sliver: f64) -> Symmetry {
+    let (_, centre) = solid.volume_and_centre();
+    let facets: Vec<(DVec3, f64)> = (0..solid.faces.len())
+        .filter(|&f| solid.area(f) > sliver)
+        .filter_map(|f| {
+            let normal = solid.area_vector(f).try_normalize()?;
+            Some((normal, normal.dot(solid.polygon(f).next()? - centre)))
+        })
+        .collect();
+    let radius = solid.bounding_sphere().1;
+    let strays = |image: DMat3| strays_by(&facets, image, ASTRAY * radius);
+    let turned = (2..=facets.len().min(128)).rev().find_map(|n| {
+        let deviation = strays(DMat3::from_rotation_z(std::f64::consts::TAU / n as f64))?;
+        Some((n, deviation))
+    });
+    let azimuth = |n: DVec3| n.y.atan2(n.x);
+    let mirrored = facets.iter().find(|(n, _)| n.truncate().length() > 0.01).and_then(|(first, _)| {
+        facets
+            .iter()
+            .filter_map(|(other, _)| {
+                let (s, c) = (azimuth(*first) + azimuth(*other)).sin_cos();
+                strays(DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(s, -c, 0.0), DVec3::Z))
+            })
+            .reduce(f64::min)
+    });
+    let (order, deviation) = turned.unwrap_or((1, 0.0));
+    Symmetry { order, mirror: mirrored.is_some(), deviation_deg: deviation.max(mirrored.unwrap_or_default()) }
+}
+
+/// The largest angle between a facet's image and the facet nearest to it, in degrees; none if some
+/// image has no facet near it.
+fn strays_by(facets: &[(DVec3, f64)], image: DMat3, apart: f64) -> Option<f64> {
+    let mut largest = 0.0f64;
+    for (normal, distance) in facets {
+        let turned = image * *normal;
+        let angle = |n: &DVec3| n.cross(turned).length().atan2(n.dot(turned)).to_degrees();
+        let nearest = facets
+            .iter()
+            .filter(|(n, d)| n.dot(turned) > 0.99 && (d - distance).abs() < apart)
+            .map(|(n, _)| angle(n))
+            .fold(f64::INFINITY, f64::min);
+        if nearest > ASTRAY_DEG {
+            return None;
+        }
+        largest = largest.max(nearest);
+    }
+    Some(largest)
+}
