@@ -10,6 +10,7 @@ pub mod beam;
 mod entrance;
 pub mod exact;
 pub mod hemisphere;
+pub mod separation;
 pub mod view;
 
 pub use batches::{BATCHES, Experiment, Traced};

@@ -4,6 +4,7 @@ pub mod aset;
 pub mod bundle;
 pub mod diagram;
 pub mod page;
+pub mod pattern;
 pub mod sections;
 
 pub use bundle::{Bundle, ReportError, Request, make};

@@ -2,7 +2,8 @@
 
 use cutlab::cut::{families, library};
 use cutlab::experiments::exact::{self, Effort};
-use cutlab::experiments::{Traced, View};
+use cutlab::experiments::separation;
+use cutlab::experiments::{Beam, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::optics::Material;
 use cutlab::solid::{Plane, Polyhedron};
@@ -219,6 +220,32 @@ fn areas_of_the_strongest_path_are_those_of_the_reference() {
     }
     assert!((shares.bands.iter().sum::<f64>() + shares.dark - 1.0).abs() < 1e-9, "{shares:?}");
     assert!(shares.undecided < 1e-3, "{shares:?}");
+}
+
+/// The mean angle between B and G against the beam experiment's photons, whose lanes are compared
+/// facet by facet.
+#[test]
+fn the_separation_of_colours_agrees_with_photons() {
+    for (material, overrides) in [
+        ("diamond", &[][..]),
+        ("diamond", &[("pavilion-angle", 43.0)]),
+        ("moissanite", &[("girdle-facets", 16.0)]),
+    ] {
+        let material = Material::named(material).expect("in the catalogue");
+        let stone = Stone::new(brilliant(overrides));
+        let mut photons = Traced::new(Beam::new(&stone, material).expect("lit"), SEED);
+        photons.extend_to(400_000);
+        let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
+        for stop_power in [1e-4, 1e-5] {
+            let effort = Effort { stop_power, seed: SEED, ..Effort::default() };
+            let beams = separation::separation(&stone, &Beams::new(&stone), DVec3::NEG_Z, material, &effort)
+                .expect("lit")
+                .angle_deg;
+            let off = (photons.value - beams.value).abs();
+            assert!(off < 3.5 * photons.error.hypot(beams.error), "{photons:?} {beams:?}");
+            println!("{}: {photons:?} {beams:?}", material.name);
+        }
+    }
 }
 
 /// The strongest path that has met three facets or more, or the one that leaves in a given

@@ -153,6 +153,21 @@ fn show_gives_the_proportions_of_the_reference_stone() {
 }
 
 #[test]
+fn show_draws_the_virtual_facets() {
+    let bench = Bench::new();
+    let sheet = bench.good(&["show", "round-brilliant", "--beams", "pattern.svg"]);
+    let svg = std::fs::read_to_string(bench.path("pattern.svg")).expect("written");
+    assert!(sheet.contains("153 = ") && svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{sheet}");
+    // the shares of the strongest path, physics.md §4: 6.0, 66.7, 22.8, 4.5 within .5
+    for share in ["6.0 %", "66.6 %", "22.9 %", "4.5 %"] {
+        assert!(svg.contains(&format!(">{share} of the outline")), "{share}");
+    }
+    assert_eq!(bench.good(&["show", "round-brilliant", "--quiet", "--beams", "-"]), svg);
+    assert!(bench.bad(2, &["show", "tolkowsky", "octahedron", "--beams", "x.svg"]).contains("one stone"));
+    assert!(bench.bad(2, &["show", "tolkowsky", "--beams", "x.png"]).contains("SVG"));
+}
+
+#[test]
 fn show_goes_on_after_a_bad_file_and_the_exit_code_tells() {
     let bench = Bench::new();
     std::fs::write(bench.path("bad.obj"), "v 1 2\nf 1 2 3\n").expect("writes");

@@ -9,9 +9,13 @@ use crate::cut::symmetry::Symmetry;
 use crate::cut::{Design, Tier, Unit};
 use crate::optics::fresnel::critical_angle_deg;
 use crate::optics::{Material, materials};
+use crate::report::pattern;
+use crate::store::replace;
+use crate::walk::Stone;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -24,7 +28,15 @@ pub struct Args {
     /// Material, for critical angle and weight [the file's own index; weight as diamond]
     #[arg(long, value_name = "NAME", value_parser = stones::material)]
     material: Option<&'static Material>,
+    /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
+    /// strongest light of each point comes from; SVG (one stone only)
+    #[arg(long, value_name = "PATTERN.svg")]
+    beams: Option<PathBuf>,
 }
+
+/// A virtual facet that holds less than this share of the light on the stone is not divided
+/// further: in a drawing 800 units wide it is a point.
+const LEAST_POWER: f64 = 1e-6;
 
 /// One stone as JSON. Lengths are in `unit`, percentages of the girdle width.
 #[derive(Debug, Serialize)]
@@ -176,6 +188,12 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    if let Some(path) = &args.beams {
+        draw_beams(args, path, console)?;
+        if path == Path::new("-") {
+            return Ok(Code::Done); // standard output is the drawing
+        }
+    }
     let results = stones::each(&args.stones, console, "reading", |spec| sheet(spec, args));
     let pairs = args.stones.iter().zip(&results);
     if console.json {
@@ -200,6 +218,23 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         results.iter().filter_map(|r| r.as_ref().err()).for_each(|f| console.complain(&f.message()));
     }
     Ok(stones::code(&results))
+}
+
+/// Draws the virtual facets of the only stone.
+fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+    let [spec] = &args.stones[..] else {
+        return Err(Failure::input("--beams draws one stone: name one"));
+    };
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && path != Path::new("-") {
+        return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
+    }
+    let design = stones::open(spec)?.design;
+    let index = stones::material_of(&design, args.material, None).index_d();
+    let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
+    replace::write(path, pattern.svg.as_bytes())?;
+    console.note(&format!("{}: {} virtual facets", path.display(), pattern.polygons));
+    Ok(())
 }
 
 fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
