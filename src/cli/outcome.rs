@@ -7,6 +7,7 @@ use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Exit code after an interrupt from the keyboard: 128 + SIGINT, as shells have it.
@@ -65,6 +66,12 @@ impl Failure {
     /// A file or folder that could not be read.
     pub fn reading(path: &str, cause: &std::io::Error) -> Failure {
         Failure::new(Code::Io, format!("cannot read {path}: {cause}"))
+    }
+
+    /// A file that is there already and was not to be replaced.
+    pub fn exists(stone: &str, target: &Path) -> Failure {
+        let target = target.display();
+        Failure::new(Code::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// Standard output could not be written; a reader that went away is no error.
