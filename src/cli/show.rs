@@ -65,11 +65,68 @@ struct Measured {
     weighed_as: Option<String>,
 }
 
+/// A closed mesh with dents: shown, though it is no stone that can be cut.
+#[derive(Debug, Serialize)]
+struct MeshSheet {
+    file: String,
+    format: &'static str,
+    facets: usize,
+    closed: bool,
+    convex: bool,
+    /// In the file's own unit cubed.
+    volume: f64,
+    /// Smallest and largest coordinates.
+    #[serde(rename = "box")]
+    bounds: [[f64; 3]; 2],
+    reason: String,
+}
+
+impl MeshSheet {
+    fn of(file: &str, failure: &Failure) -> Option<MeshSheet> {
+        let Shape { format, closed, dented: Some(mesh), .. } = failure.shape()? else { return None };
+        Some(MeshSheet {
+            file: file.into(),
+            format,
+            facets: mesh.facets,
+            closed,
+            convex: false,
+            volume: mesh.volume,
+            bounds: [mesh.bounds.0.to_array(), mesh.bounds.1.to_array()],
+            reason: failure.message(),
+        })
+    }
+
+    fn text(&self) -> String {
+        let [low, high] = self.bounds;
+        let side = |a: usize| format!("{:.6}", high[a] - low[a]);
+        format!(
+            "{} ({})\n  facets          {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
+             file's own unit\n  closed          yes\n  convex          no\n  note            {}\n",
+            self.file,
+            self.format,
+            self.facets,
+            side(0),
+            side(1),
+            side(2),
+            self.volume,
+            self.reason
+        )
+    }
+}
+
+/// What is shown of a file.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Shown {
+    Stone(Box<Sheet>),
+    Mesh(MeshSheet),
+}
+
 /// A file that holds no stone, as JSON.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Bad {
-    /// Understood, but open or not convex.
+    /// Understood, but open.
     NoStone {
         file: String,
         format: &'static str,
@@ -89,7 +146,7 @@ impl Bad {
     fn of(file: &str, failure: &Failure) -> Bad {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(Shape { format, facets, closed, convex }) => {
+            Some(Shape { format, facets, closed, convex, .. }) => {
                 Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
             None => Bad::Error { file, error: why },
@@ -100,13 +157,16 @@ impl Bad {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Entry<'a> {
-    Good(&'a Sheet),
+    Good(&'a Shown),
     Bad(Bad),
 }
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let results = stones::each(&args.stones, console, "reading", |spec| sheet(spec, args));
+    let results = stones::each(&args.stones, console, "reading", |spec| match sheet(spec, args) {
+        Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
+        Err(failure) => MeshSheet::of(spec, &failure).map(Shown::Mesh).ok_or(failure),
+    });
     let pairs = args.stones.iter().zip(&results);
     if console.json {
         let entries: Vec<Entry> = pairs
@@ -118,11 +178,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print_json(&entries)?;
     } else {
         let mut text = String::new();
-        for sheet in results.iter().flatten() {
+        for shown in results.iter().flatten() {
             if !text.is_empty() {
                 text.push('\n');
             }
-            text += &sheet.text();
+            text += &match shown {
+                Shown::Stone(sheet) => sheet.text(),
+                Shown::Mesh(mesh) => mesh.text(),
+            };
         }
         if !text.is_empty() {
             console.print(&text)?;
