@@ -27,7 +27,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// As [`write`], but never over a file that exists: whether it was written.
+/// As [`write()`], but never over a file that exists: whether it was written.
 pub fn create(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
     let fail = |cause| WriteError { path: path.to_owned(), cause };
     match beside(path, bytes).map_err(fail)?.persist_noclobber(path) {
