@@ -167,25 +167,47 @@ fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
 ///
 /// The file is replaced whole. Checked in `tests/formats.rs`.
 pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
-    let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
-    let bytes = encoded(design, &path.display().to_string(), |f| f.extensions.contains(&ending.as_str()))?;
+    let bytes = encode(design, written_to(path)?.name)?;
     Ok(replace::write(path, &bytes)?)
 }
 
 /// The bytes of a file of the design in the format called `format`, by name or ending.
 pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
-    encoded(design, format, |f| f.name == format || f.extensions.contains(&format))
+    let write = written_as(format)?.write.ok_or_else(|| no_writer(format))?;
+    write(design)
 }
 
-fn encoded(design: &Design, asked: &str, wanted: impl Fn(&Format) -> bool) -> Result<Vec<u8>, FormatError> {
-    let writers = || FORMATS.iter().filter_map(|f| f.write.map(|write| (*f, write)));
-    let Some((_, write)) = writers().find(|(f, _)| wanted(f)) else {
-        let mut known: Vec<_> = writers().filter_map(|(f, _)| f.extensions.first().copied()).collect();
-        let mut seen = BTreeSet::new();
-        known.retain(|ending| seen.insert(*ending));
-        return Err(FormatError::NoWriter { asked: asked.into(), known });
-    };
-    write(design)
+/// The format that is written for a file of this name, by its ending.
+pub fn written_to(path: &Path) -> Result<&'static Format, FormatError> {
+    let ending = ending_of(path);
+    written(|f| f.extensions.contains(&&*ending)).ok_or_else(|| no_writer(&path.display().to_string()))
+}
+
+/// The format to write that is called `asked`, by name or ending.
+pub fn written_as(asked: &str) -> Result<&'static Format, FormatError> {
+    written(|f| f.name == asked || f.extensions.contains(&asked)).ok_or_else(|| no_writer(asked))
+}
+
+fn written(wanted: impl Fn(&Format) -> bool) -> Option<&'static Format> {
+    FORMATS.iter().copied().find(|f| f.write.is_some() && wanted(f))
+}
+
+fn no_writer(asked: &str) -> FormatError {
+    let writers = FORMATS.iter().filter(|f| f.write.is_some());
+    let mut known: Vec<_> = writers.filter_map(|f| f.extensions.first().copied()).collect();
+    let mut seen = BTreeSet::new();
+    known.retain(|ending| seen.insert(*ending));
+    FormatError::NoWriter { asked: asked.into(), known }
+}
+
+/// Whether some format that is read, or is refused by name, has files of this ending.
+pub fn has_known_ending(path: &Path) -> bool {
+    let ending = ending_of(path);
+    FORMATS.iter().any(|f| f.extensions.contains(&&*ending)) || refused::has_ending(&ending)
+}
+
+fn ending_of(path: &Path) -> String {
+    path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
 }
 
 /// A name for each facet, in the order of [`Design::facets`]: its own, or its tier's with a number.

@@ -69,7 +69,7 @@ fn generate_bare_writes_a_named_obj_here() {
 fn generate_writes_every_format_and_each_reads_back() {
     let bench = Bench::new();
     let mut arguments = vec!["generate", "--table", "57", "--size", "8"];
-    let files = ["s.obj", "s.stl", "s.glb", "s.toml"];
+    let files = ["s.obj", "s.stl", "s.glb", "s.toml", "s.asc", "s.gem", "s.gcs", "s.ply"];
     files.iter().for_each(|f| arguments.extend(["-o", f]));
     bench.good(&arguments);
     let mut show = vec!["show", "--json"];
@@ -78,10 +78,10 @@ fn generate_writes_every_format_and_each_reads_back() {
     for sheet in sheets.as_array().expect("an array") {
         assert_eq!(sheet["facets"], 153, "{sheet}");
         assert_eq!((&sheet["closed"], &sheet["convex"]), (&true.into(), &true.into()));
-        assert!(near(&sheet["width"], 8.0, 1e-5), "{sheet}");
+        assert!(near(&sheet["width"], 8.0, 1e-5), "{sheet}"); // also in files that have no unit
         assert!(near(&sheet["table_percent"], 57.0, 1e-3), "{sheet}");
     }
-    assert_eq!(sheets.as_array().map(Vec::len), Some(4));
+    assert_eq!(sheets.as_array().map(Vec::len), Some(8));
     // the same on standard output
     let obj = bench.good(&["generate", "--table", "57", "--size", "8", "-o", "-", "--quiet"]);
     assert_eq!(obj, std::fs::read_to_string(bench.path("s.obj")).expect("written"));
@@ -187,6 +187,19 @@ fn show_goes_on_after_a_bad_file_and_the_exit_code_tells() {
 }
 
 #[test]
+fn show_tells_what_it_can_of_a_mesh_with_a_dent() {
+    let bench = Bench::new();
+    let dented = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bad/dented.obj");
+    let dented = dented.display().to_string();
+    let sheet = &json(&bench.good(&["show", "--json", &dented]))[0];
+    assert_eq!((&sheet["closed"], &sheet["convex"]), (&true.into(), &false.into()), "{sheet}");
+    assert!(sheet["facets"].as_u64().is_some_and(|n| n > 4) && sheet["box"].is_array(), "{sheet}");
+    assert!(sheet["volume"].as_f64().is_some_and(|v| v > 0.0), "{sheet}");
+    assert!(bench.good(&["show", &dented]).contains("convex          no"));
+    assert!(bench.bad(2, &["score", &dented]).contains("not convex"));
+}
+
+#[test]
 fn import_converts_one_file_or_a_folder_full() {
     let bench = Bench::new();
     bench.good(&["generate", "tolkowsky", "-o", "a.obj", "-o", "b.stl"]);
@@ -197,6 +210,38 @@ fn import_converts_one_file_or_a_folder_full() {
     assert!(near(&sheets[1]["width"], 5.0, 1e-9) && near(&sheets[2]["width"], 5.0, 1e-5));
     assert!(bench.bad(2, &["import", "a.obj", "b.stl", "-o", "one.obj"]).contains("folder"));
     assert!(bench.bad(2, &["import", "a.obj", "-o", "x.docx"]).contains("obj"));
+}
+
+#[test]
+fn import_takes_folders_and_never_overwrites() {
+    let bench = Bench::new();
+    bench.good(&["generate", "tolkowsky", "-o", "in/a.asc", "-o", "in/a.gem", "-o", "in/deep/b.gcs"]);
+    std::fs::write(bench.path("in/notes.md"), "# notes").expect("writes");
+    let said = bench.good(&["import", "in", "-o", "out", "--to", "glb"]);
+    assert!(said.starts_with("file ") && said.contains("gem-cut-studio"), "{said}");
+    assert!(said.ends_with("3 written, 1 passed over\n"), "{said}");
+    let sheets = json(&bench.good(&["show", "--json", "out/a-asc.glb", "out/a-gem.glb", "out/deep/b.glb"]));
+    assert!((0..3).all(|i| sheets[i]["facets"] == 153), "{sheets}");
+    // what is there stays, to the byte, whoever wrote it
+    std::fs::write(bench.path("out/a-asc.glb"), "mine").expect("writes");
+    let out = bench.run(&["import", "in", "-o", "out", "--to", "glb"]);
+    assert_eq!(out.status.code(), Some(3));
+    assert!(text(&out.stderr).contains("--force"));
+    assert_eq!(std::fs::read_to_string(bench.path("out/a-asc.glb")).expect("there"), "mine");
+    bench.good(&["import", "in", "-o", "out", "--to", "glb", "--force"]);
+    // a bad file does not stop the rest
+    std::fs::write(bench.path("in/bad.gem"), "no design").expect("writes");
+    let out = bench.run(&["import", "in", "-o", "new", "--to", "sc-tracer", "--json"]);
+    assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
+    let rows = json(&text(&out.stdout));
+    let outcomes: Vec<_> = (0..5).map(|i| rows[i]["outcome"].as_str().unwrap_or_default()).collect();
+    assert_eq!(outcomes, ["written", "written", "failed", "written", "passed over"], "{rows}");
+    assert!(rows[2]["error"].as_str().is_some_and(|e| e.contains("in/bad.gem, byte 8: expected")), "{rows}");
+    assert!(bench.path("new/deep/b.asc").exists());
+    assert!(bench.bad(2, &["import", "in", "-o", "x", "--to", "docx"]).contains("docx"));
+    std::fs::create_dir(bench.path("empty")).expect("makes");
+    assert!(bench.bad(2, &["import", "empty", "-o", "x"]).contains("no designs"));
+    assert!(bench.bad(3, &["import", "in/a.asc", "-o", "out/a-gem.glb"]).contains("exists"));
 }
 
 #[test]

@@ -152,6 +152,29 @@ fn meshes_have_the_volume_and_facets_of_the_designs_they_were_made_from() {
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+#[test]
+fn all_designs_are_shown_in_one_call_in_two_seconds() {
+    let Some(corpus) = corpus() else { return };
+    let known = known(&corpus);
+    let begun = std::time::Instant::now();
+    let out = std::process::Command::new(env!("CARGO_BIN_EXE_cutlab"))
+        .args(["show", "--json", "--quiet"])
+        .args(known.iter().map(|k| &k.file))
+        .current_dir(&corpus)
+        .output()
+        .expect("the program starts");
+    let took = begun.elapsed();
+    println!("{} designs shown in {:.2} s", known.len(), took.as_secs_f64());
+    let sheets: serde_json::Value = serde_json::from_slice(&out.stdout).expect("JSON");
+    let open = known.iter().filter(|k| !k.closed).count();
+    for (sheet, k) in sheets.as_array().expect("an array").iter().zip(&known) {
+        assert_eq!(sheet["closed"], k.closed, "{}", k.file);
+    }
+    assert_eq!(sheets.as_array().map(Vec::len), Some(known.len()));
+    assert_eq!(out.status.code(), Some(i32::from(open > 0)));
+    assert!(took.as_secs_f64() < 2.0, "{took:?}");
+}
+
 /// The formats that hold facets as planes, and so give them back.
 const DESIGN_FORMATS: [&str; 4] = ["cutlab", "gemcad", "gemcad-binary", "gem-cut-studio"];
 

@@ -71,7 +71,7 @@ fn what_is_written_reads_back_to_the_same_planes() {
             let off = farthest(&design, &back.design);
             println!("{spec} as {}: {off:.1e}", format.name);
             assert!(off <= allowed, "{spec} as {}: planes off by {off:e}", format.name);
-            if matches!(format.name, "obj" | "glb") {
+            if matches!(format.name, "obj" | "glb" | "ply") {
                 let names = |f: Vec<(String, Plane)>| {
                     let mut names: Vec<_> = f.into_iter().map(|(n, _)| n).collect();
                     names.sort();

@@ -1,71 +1,175 @@
-//! `cutlab import`: any format in, any format out.
+//! `cutlab import`: any format in, any format out, whole folders at once.
+
+mod plan;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
-use crate::formats;
+use crate::formats::{self, Format, FormatError, stone};
+use crate::store::replace;
+use plan::Job;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab import stone.gem -o stone.asc
+  cutlab import designs -o meshes --to glb     a folder with all that is in it, as glb into meshes/
+
+Files of a folder that are of no known format are passed over. Nothing is overwritten without
+--force.")]
 pub struct Args {
-    /// Designs and meshes; the content decides their format
-    #[arg(required = true, value_name = "FILE")]
+    /// Designs, meshes, and folders of them; the content decides the format of each
+    #[arg(required = true, value_name = "FILE|DIR")]
     files: Vec<String>,
     /// Where to write: a file whose ending chooses the format, or a folder
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
-    /// Format when OUT is a folder: a name or ending from `cutlab list formats`
+    /// Format to write, a name or ending from `cutlab list formats` [for a folder: toml]
     #[arg(long, value_name = "FORMAT")]
     to: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
     /// Scale to this girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
 }
 
+/// What happened to one file.
+#[derive(Debug, Clone, Default, Serialize)]
+struct Row {
+    file: String,
+    outcome: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    format: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    facets: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wrote: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+}
+
+const WRITTEN: &str = "written";
+const PASSED_OVER: &str = "passed over";
+
 /// Reads every file and writes it again.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let into_folder = args.to.is_some() || args.files.len() > 1 || args.output.is_dir();
-    if into_folder && args.output.extension().is_some() && !args.output.is_dir() && args.files.len() > 1 {
-        return Err(Failure::input(format!(
-            "{} stones do not fit into the one file {}: give a folder and --to FORMAT",
-            args.files.len(),
-            args.output.display()
-        )));
-    }
-    let target = |spec: &str| -> PathBuf {
-        if args.output == Path::new("-") {
-            args.output.clone()
-        } else if into_folder && (args.to.is_some() || !is_file_name(&args.output)) {
-            let format = args.to.as_deref().unwrap_or("toml");
-            args.output.join(format!("{}.{format}", stones::file_stem(spec)))
-        } else {
-            args.output.clone()
+    let to_output = args.output == Path::new("-");
+    let (jobs, format) = plan(args, to_output)?;
+    let mut results = stones::each(&jobs, console, "importing", |job| import(job, args, format, console));
+    let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
+        Ok(row) => row.clone(),
+        Err(failure) => {
+            let error = Some(failure.message());
+            Row { file: job.stone.clone(), outcome: "failed", error, ..Row::default() }
         }
     };
-    let results = stones::each(&args.files, console, "importing", |spec| {
-        let imported = stones::open(spec)?;
-        let facets = imported.design.solid()?.faces.len();
-        let design = stones::sized(imported.design, args.size)?;
-        let path = target(spec);
-        if path == Path::new("-") {
-            console.print_bytes(&formats::encode(&design, args.to.as_deref().unwrap_or("toml"))?)?;
-        } else {
-            formats::write(&design, &path)?;
+    let rows: Vec<Row> = jobs.iter().zip(&results).map(row).collect();
+    rows.iter().for_each(|r| r.warnings.iter().for_each(|w| console.note(&format!("{}: note: {w}", r.file))));
+    results.retain(|r| r.as_ref().map_or(true, |row| row.outcome != PASSED_OVER));
+    if console.json && !to_output {
+        console.print_json(&rows)?;
+    } else {
+        rows.iter().filter_map(|r| r.error.as_ref()).for_each(|e| console.complain(e));
+        if to_output {
+            console.note(&table(&rows));
+        } else if rows.iter().any(|r| r.outcome == WRITTEN) {
+            console.print(&table(&rows))?;
         }
-        Ok((path, imported.format, facets, imported.warnings))
-    });
-    for (spec, result) in args.files.iter().zip(&results) {
-        match result {
-            Ok((path, format, facets, warnings)) => {
-                warnings.iter().for_each(|w| console.note(&format!("{spec}: note: {w}")));
-                console.note(&format!("{spec}: {format}, {facets} facets, wrote {}", path.display()));
-            }
-            Err(failure) => console.complain(&failure.message()),
-        }
+    }
+    if results.is_empty() {
+        return Err(Failure::input(format!("no designs and no meshes in {}", args.files.join(", "))));
     }
     Ok(stones::code(&results))
 }
 
-fn is_file_name(path: &Path) -> bool {
-    path.extension().is_some() && !path.is_dir()
+/// What is to be imported, and the format to write it in.
+fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Failure> {
+    let alone = args.files.len() == 1 && !Path::new(&args.files[0]).is_dir();
+    let to_file = to_output || (args.output.extension().is_some() && !args.output.is_dir());
+    if to_file && !alone {
+        return Err(Failure::input(format!(
+            "several stones do not fit into the one file {}: give a folder and --to FORMAT",
+            args.output.display()
+        )));
+    }
+    let format = match &args.to {
+        Some(asked) => formats::written_as(asked)?,
+        None if to_file && !to_output => formats::written_to(&args.output)?,
+        None => formats::written_as("toml")?,
+    };
+    if to_file {
+        let job =
+            |stone: &String| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
+        return Ok((args.files.iter().map(job).collect(), format));
+    }
+    let ending = format.extensions.first().copied().unwrap_or(format.name);
+    Ok((plan::into_folder(&args.files, &args.output, ending)?, format))
+}
+
+fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<Row, Failure> {
+    let file = job.stone.clone();
+    let exists = || Failure::exists(&file, &job.target);
+    let to_output = job.target == Path::new("-");
+    if !args.force && !to_output && job.target.symlink_metadata().is_ok() {
+        return Err(exists());
+    }
+    let imported = match stone::open(&job.stone) {
+        Err(FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. })
+            if job.by_chance =>
+        {
+            return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
+        }
+        other => other?,
+    };
+    let facets = imported.design.solid()?.faces.len();
+    let design = stones::sized(imported.design, args.size)?;
+    let bytes = formats::encode(&design, format.name)?;
+    if to_output {
+        console.print_bytes(&bytes)?;
+    } else if args.force {
+        replace::write(&job.target, &bytes)?;
+    } else if !replace::create(&job.target, &bytes)? {
+        return Err(exists());
+    }
+    Ok(Row {
+        file,
+        outcome: WRITTEN,
+        format: Some(imported.format),
+        facets: Some(facets),
+        wrote: Some(job.target.clone()),
+        warnings: imported.warnings,
+        error: None,
+    })
+}
+
+/// The rows in columns, then how many had which outcome.
+fn table(rows: &[Row]) -> String {
+    let listed: Vec<[String; 4]> = rows
+        .iter()
+        .filter(|r| r.outcome != PASSED_OVER)
+        .map(|r| {
+            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |w| w.display().to_string());
+            let facets = r.facets.map_or_else(String::new, |n| n.to_string());
+            [r.file.clone(), r.format.unwrap_or_default().into(), facets, wrote]
+        })
+        .collect();
+    let heads = ["file", "format", "facets", "wrote"].map(String::from);
+    let width = |c: usize| listed.iter().chain([&heads]).map(|r| r[c].chars().count()).max().unwrap_or(0);
+    let (file, format, facets) = (width(0), width(1), width(2));
+    let line = |r: &[String; 4]| format!("{:file$}  {:format$}  {:>facets$}  {}\n", r[0], r[1], r[2], r[3]);
+    let mut text: String = [&heads].into_iter().chain(&listed).map(line).collect();
+    let counts: Vec<String> = [WRITTEN, "failed", PASSED_OVER]
+        .iter()
+        .map(|outcome| (rows.iter().filter(|r| r.outcome == *outcome).count(), outcome))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, outcome)| format!("{n} {outcome}"))
+        .collect();
+    text += &counts.join(", ");
+    text
 }

@@ -4,9 +4,10 @@ use crate::cut::CutError;
 use crate::formats::FormatError;
 use crate::photons::file::MapFileError;
 use crate::solid::SolidError;
-use crate::solid::recover::RecoverError;
+use crate::solid::recover::{Dented, RecoverError};
 use crate::store::replace::WriteError;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Exit code after an interrupt from the keyboard: 128 + SIGINT, as shells have it.
@@ -36,11 +37,11 @@ impl From<Code> for ExitCode {
 pub struct Failure {
     code: Code,
     message: String,
-    shape: Option<Shape>,
+    shape: Option<Box<Shape>>,
 }
 
 /// What is known of a file that was understood but holds no convex stone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shape {
     /// The file's format.
     pub format: &'static str,
@@ -50,6 +51,8 @@ pub struct Shape {
     pub closed: bool,
     /// Whether it is convex, if that can be said.
     pub convex: Option<bool>,
+    /// The mesh, if it is closed but has dents.
+    pub dented: Option<Dented>,
 }
 
 impl Failure {
@@ -65,6 +68,12 @@ impl Failure {
     /// A file or folder that could not be read.
     pub fn reading(path: &str, cause: &std::io::Error) -> Failure {
         Failure::new(Code::Io, format!("cannot read {path}: {cause}"))
+    }
+
+    /// A file that is there already and was not to be replaced.
+    pub fn exists(stone: &str, target: &Path) -> Failure {
+        let target = target.display();
+        Failure::new(Code::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// Standard output could not be written; a reader that went away is no error.
@@ -88,7 +97,7 @@ impl Failure {
 
     /// The shape of a file that holds no convex stone; none for every other failure.
     pub fn shape(&self) -> Option<Shape> {
-        self.shape
+        self.shape.as_deref().copied()
     }
 
     /// Says it on standard error and gives the exit code.
@@ -114,20 +123,21 @@ impl From<FormatError> for Failure {
         match error {
             FormatError::Write(error) => error.into(),
             FormatError::Read { .. } => Failure::new(Code::Io, error.to_string()),
-            _ => Failure { shape: shape_of(&error), ..Failure::input(error.to_string()) },
+            _ => Failure { shape: shape_of(&error).map(Box::new), ..Failure::input(error.to_string()) },
         }
     }
 }
 
 fn shape_of(error: &FormatError) -> Option<Shape> {
     let FormatError::NoStone { format, facets, cause } = error else { return None };
-    let (closed, convex) = match &**cause {
-        FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
-        FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
-        FormatError::Mesh { cause: RecoverError::NotConvex(_), .. } => (true, Some(false)),
+    let (closed, convex, dented) = match &**cause {
+        FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true), None),
+        FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None, None),
+        FormatError::Mesh { cause: RecoverError::NotConvex(mesh), .. } => (true, Some(false), Some(**mesh)),
         _ => return None,
     };
-    Some(Shape { format, facets: *facets, closed, convex })
+    let facets = facets.or(dented.map(|d| d.facets));
+    Some(Shape { format, facets, closed, convex, dented })
 }
 
 impl From<MapFileError> for Failure {

@@ -1,21 +1,26 @@
 //! `cutlab show`: what a cutter or a grader reads off a stone.
 
+mod mesh;
+mod tiers;
+
 use super::console::Console;
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
 use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Proportions, Ratios};
 use crate::cut::symmetry::Symmetry;
-use crate::cut::{Design, Tier, Unit};
+use crate::cut::{Design, Unit};
 use crate::optics::fresnel::critical_angle_deg;
 use crate::optics::{Material, materials};
 use crate::report::pattern;
 use crate::store::replace;
 use crate::walk::Stone;
+use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use tiers::TierRow;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -88,70 +93,19 @@ struct Measured {
     weighed_as: Option<String>,
 }
 
-/// One tier of the design.
+/// What is shown of a file.
 #[derive(Debug, Serialize)]
-struct TierRow {
-    name: String,
-    angle_deg: Option<f64>,
-    facets: Vec<String>,
-    /// On the index wheel, as far as they are known.
-    indices: Vec<f64>,
-    #[serde(skip_serializing_if = "String::is_empty")]
-    instructions: String,
-}
-
-impl TierRow {
-    fn of(tier: &Tier) -> TierRow {
-        TierRow {
-            name: tier.name.clone(),
-            angle_deg: tier.angle_deg,
-            facets: tier.facets.iter().map(|f| f.name.clone()).collect(),
-            indices: tier.facets.iter().filter_map(|f| f.index).collect(),
-            instructions: tier.instructions.clone(),
-        }
-    }
-
-    /// Whether two rows differ in their distances only: the girdle of a fancy outline.
-    fn reads_like(&self, other: &TierRow) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() < 0.005;
-        !self.name.is_empty()
-            && self.name == other.name
-            && self.angle_deg.zip(other.angle_deg).is_some_and(|(a, b)| same(a, b))
-    }
-
-    fn joined(rows: &[TierRow]) -> TierRow {
-        TierRow {
-            name: rows.first().map(|r| r.name.clone()).unwrap_or_default(),
-            angle_deg: rows.first().and_then(|r| r.angle_deg),
-            facets: rows.iter().flat_map(|r| r.facets.clone()).collect(),
-            indices: rows.iter().flat_map(|r| r.indices.clone()).collect(),
-            instructions: String::new(),
-        }
-    }
-
-    /// Angle, indices and name; a long row of indices is cut short.
-    fn text(&self) -> String {
-        const SHOWN: usize = 16;
-        let angle = self.angle_deg.map_or("no angle".into(), |a| format!("{a:.2}°"));
-        let digits = |i: &f64| format!("{:.2}", i).trim_end_matches('0').trim_end_matches('.').to_string();
-        let mut indices: Vec<String> = self.indices.iter().take(SHOWN).map(digits).collect();
-        if self.indices.len() > SHOWN {
-            indices.push(format!("… ({})", self.indices.len()));
-        } else if indices.is_empty() {
-            indices.push(format!("{} facets", self.facets.len()));
-        }
-        // a file without tier names may name its facets
-        let name = if self.name.is_empty() { self.facets.first() } else { Some(&self.name) };
-        let name = name.filter(|n| !n.is_empty()).map_or(String::new(), |n| format!("  {n}"));
-        format!("{angle:>8}{name}  {}", indices.join(" "))
-    }
+#[serde(untagged)]
+enum Shown {
+    Stone(Box<Sheet>),
+    Mesh(MeshSheet),
 }
 
 /// A file that holds no stone, as JSON.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Bad {
-    /// Understood, but open or not convex.
+    /// Understood, but open.
     NoStone {
         file: String,
         format: &'static str,
@@ -171,7 +125,7 @@ impl Bad {
     fn of(file: &str, failure: &Failure) -> Bad {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(Shape { format, facets, closed, convex }) => {
+            Some(Shape { format, facets, closed, convex, .. }) => {
                 Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
             None => Bad::Error { file, error: why },
@@ -182,7 +136,7 @@ impl Bad {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Entry<'a> {
-    Good(&'a Sheet),
+    Good(&'a Shown),
     Bad(Bad),
 }
 
@@ -194,7 +148,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             return Ok(Code::Done); // standard output is the drawing
         }
     }
-    let results = stones::each(&args.stones, console, "reading", |spec| sheet(spec, args));
+    let results = stones::each(&args.stones, console, "reading", |spec| match sheet(spec, args) {
+        Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
+        Err(failure) => MeshSheet::of(spec, &failure).map(Shown::Mesh).ok_or(failure),
+    });
     let pairs = args.stones.iter().zip(&results);
     if console.json {
         let entries: Vec<Entry> = pairs
@@ -206,11 +163,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print_json(&entries)?;
     } else {
         let mut text = String::new();
-        for sheet in results.iter().flatten() {
+        for shown in results.iter().flatten() {
             if !text.is_empty() {
                 text.push('\n');
             }
-            text += &sheet.text();
+            text += &match shown {
+                Shown::Stone(sheet) => sheet.text(),
+                Shown::Mesh(mesh) => mesh.text(),
+            };
         }
         if !text.is_empty() {
             console.print(&text)?;

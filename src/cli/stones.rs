@@ -18,11 +18,11 @@ pub fn open(spec: &str) -> Result<Imported, Failure> {
 
 /// Does `work` for every stone, in parallel; results in the order of `specs`. A stone that fails
 /// does not stop the rest.
-pub fn each<T: Send>(
-    specs: &[String],
+pub fn each<S: Sync, T: Send>(
+    specs: &[S],
     console: &Console,
     what: &'static str,
-    work: impl Fn(&str) -> Result<T, Failure> + Sync,
+    work: impl Fn(&S) -> Result<T, Failure> + Sync,
 ) -> Vec<Result<T, Failure>> {
     let bar = console.progress(specs.len(), what);
     let results = specs

@@ -50,9 +50,10 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         return Err(FormatError::TooLarge { file: source.name.into(), limit: MOST_BYTES });
     }
     let text = source.text();
-    few_attributes(source, &text)?;
+    let text = text.trim_start();
+    few_attributes(source, text)?;
     let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(&text, options).map_err(|cause| FormatError::Line {
+    let document = Document::parse_with_options(text, options).map_err(|cause| FormatError::Line {
         file: source.name.into(),
         line: cause.pos().row as usize,
         expected: "Gem Cut Studio's XML".into(),

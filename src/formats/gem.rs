@@ -200,9 +200,10 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     design.symmetry = u32::try_from(raw.symmetry.0).ok().map(|order| (order, raw.symmetry.1 != 0));
     let index = raw.refractive_index;
     if !(index > 1.0 && index <= 3.5) {
-        warnings.push(format!("index of refraction {index} is that of no gem; kept"));
+        let done = if index < 1.0 { "left out" } else { "kept" };
+        warnings.push(format!("index of refraction {index} is that of no gem; {done}"));
     }
-    design.refractive_index = Some(index);
+    design.refractive_index = Some(index).filter(|n| *n >= 1.0);
     design.tiers = tiers(raw);
     Ok(Reading { design, warnings })
 }

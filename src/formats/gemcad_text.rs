@@ -140,9 +140,10 @@ impl File {
         let first = rest.split_whitespace().next().unwrap_or_default();
         let index = number(first).ok_or_else(|| source.at_line(at, "an index of refraction", first))?;
         if !(index > 1.0 && index <= 3.5) {
-            self.warnings.push(format!("line {at}: index of refraction {index} is that of no gem; kept"));
+            let done = if index < 1.0 { "left out" } else { "kept" };
+            self.warnings.push(format!("line {at}: index of refraction {index} is that of no gem; {done}"));
         }
-        self.refractive_index = Some(index);
+        self.refractive_index = Some(index).filter(|n| *n >= 1.0);
         Ok(())
     }
 

@@ -1,5 +1,5 @@
 //! PLY: polygons as text or binary in either byte order; written in binary with `f64` corners and
-//! the facets' normals.
+//! the facets' normals, their names in comments.
 //!
 //! Own reader: the crates for it read a whole file into maps of values, several times its size.
 
@@ -9,11 +9,12 @@ mod values;
 use super::error::FormatError;
 use super::shell::{MOST_CORNERS, STATED_IN_F32, STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::Source;
-use super::{Format, Reading};
+use super::{Format, Reading, facet_labels};
 use crate::cut::Design;
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use header::{Element, Header, Kind, Property};
+use std::sync::Arc;
 use values::Values;
 
 /// PLY meshes of every kind; written in binary, little-endian.
@@ -48,11 +49,14 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
             "face" => {
                 let list = list_of_corners(source, element)?;
                 let normal = places(source, element, ["nx", "ny", "nz"]).ok();
+                let named = header.facet_names.len() as u64 == element.count;
                 each(element, &mut values, |row, corners| {
                     let normal = normal.map(|at| DVec3::from_array(at.map(|p| row[p])));
                     let corners: Vec<_> = corners[list].iter().map(|&c| c as usize).collect();
                     total += corners.len();
-                    polygons.push(Polygon { corners, normal, ..Polygon::default() });
+                    let name = header.facet_names.get(polygons.len()).filter(|_| named);
+                    let name = name.map_or_else(Arc::default, |n| n.as_str().into());
+                    polygons.push(Polygon { name, corners, normal });
                     few_enough(source, polygons.len())?;
                     fits(total, element)
                 })?;
@@ -124,12 +128,16 @@ fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatEr
 fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
     let planes = design.planes();
-    let name: String = design.name.chars().map(|c| if (' '..='~').contains(&c) { c } else { '?' }).collect();
+    let ascii = |text: &str| text.replace(|c| !(' '..='~').contains(&c), "?");
+    let labels = facet_labels(design);
+    let names: String =
+        solid.faces.iter().map(|f| format!("comment facet {}\n", ascii(&labels[f.plane]))).collect();
     let mut bytes = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment cutlab: {name}\nelement vertex {}\n\
+        "ply\nformat binary_little_endian 1.0\ncomment cutlab: {}\n{names}element vertex {}\n\
          property double x\nproperty double y\nproperty double z\nelement face {}\n\
          property list uint int vertex_indices\n\
          property double nx\nproperty double ny\nproperty double nz\nend_header\n",
+        ascii(&design.name),
         solid.vertices.len(),
         solid.faces.len()
     )

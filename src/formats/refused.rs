@@ -30,6 +30,11 @@ pub fn by_name(source: &Source) -> Option<&'static str> {
     REFUSED.iter().find(|r| r.extension == ending).map(|r| r.format)
 }
 
+/// Whether a refused format has this ending.
+pub fn has_ending(ending: &str) -> bool {
+    REFUSED.iter().any(|r| r.extension == ending)
+}
+
 /// Why a file that no reader claims is not read.
 pub fn why(source: &Source) -> FormatError {
     if source.bytes.iter().all(|b| *b == 0) {

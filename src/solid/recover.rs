@@ -66,6 +66,19 @@ pub struct Recovered {
     verdict: Result<(), RecoverError>,
 }
 
+/// A closed surface that is not convex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dented {
+    /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
+    pub stands_out: f64,
+    /// Number of facets: flat regions of its surface.
+    pub facets: usize,
+    /// The volume it encloses, in the mesh's unit cubed.
+    pub volume: f64,
+    /// Smallest and largest coordinates.
+    pub bounds: (DVec3, DVec3),
+}
+
 /// A mesh of which no convex stone can be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecoverError {
@@ -99,9 +112,9 @@ pub enum RecoverError {
     Shells(usize),
     /// A dent.
     #[error(
-        "the mesh is not convex: a corner stands out of a facet's plane by {0:.1e} of its size; only convex stones are read"
+        "the mesh is not convex: a corner stands out of a facet's plane by {:.1e} of its size; only convex stones are cut, traced and written", .0.stands_out
     )]
-    NotConvex(f64),
+    NotConvex(Box<Dented>),
     /// The planes leave another solid than the mesh.
     #[error("the facet planes enclose a volume of {planes}, the mesh one of {mesh}")]
     Volume {
@@ -208,7 +221,13 @@ fn judge(
     let verdict = match (surface.open_edges, surface.shells, convex) {
         (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
         (_, 2.., _) => Err(RecoverError::Shells(surface.shells)),
-        (_, _, false) => Err(RecoverError::NotConvex(stands_out)),
+        (_, _, false) => {
+            let bounds = corners
+                .iter()
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+            let facets = regions.len();
+            Err(RecoverError::NotConvex(Box::new(Dented { stands_out, facets, volume, bounds })))
+        }
         _ => enclose(&facets, volume, tolerance),
     };
     Ok(Recovered { facets, open_edges: surface.open_edges, convex, stands_out, volume, tolerance, verdict })

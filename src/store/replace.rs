@@ -23,11 +23,27 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         let mut out = std::io::stdout().lock();
         return out.write_all(bytes).and_then(|()| out.flush()).map_err(fail);
     }
+    beside(path, bytes).map_err(fail)?.persist(path).map_err(|e| fail(e.error))?;
+    Ok(())
+}
+
+/// As [`write()`], but never over a file that exists: whether it was written.
+pub fn create(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
+    let fail = |cause| WriteError { path: path.to_owned(), cause };
+    match beside(path, bytes).map_err(fail)?.persist_noclobber(path) {
+        Ok(_) => Ok(true),
+        Err(e) if e.error.kind() == std::io::ErrorKind::AlreadyExists => Ok(false),
+        Err(e) => Err(fail(e.error)),
+    }
+}
+
+/// A complete temporary file in the folder of `path`, on disk.
+fn beside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
     let folder = match path.parent() {
         Some(p) if p != Path::new("") => p,
         _ => Path::new("."),
     };
-    std::fs::create_dir_all(folder).map_err(fail)?;
+    std::fs::create_dir_all(folder)?;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".cutlab-");
     #[cfg(unix)]
@@ -35,11 +51,10 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666)); // the umask still applies
     }
-    let mut file = builder.tempfile_in(folder).map_err(fail)?;
-    file.write_all(bytes).map_err(fail)?;
-    file.as_file().sync_all().map_err(fail)?;
-    file.persist(path).map_err(|e| fail(e.error))?;
-    Ok(())
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file)
 }
 
 #[cfg(test)]
@@ -52,6 +67,8 @@ mod tests {
         let path = dir.path().join("new/folder/file.txt");
         write(&path, b"one").expect("writes");
         write(&path, b"two").expect("replaces");
+        assert_eq!(std::fs::read(&path).expect("reads"), b"two");
+        assert!(!create(&path, b"three").expect("looks"));
         assert_eq!(std::fs::read(&path).expect("reads"), b"two");
         let beside = std::fs::read_dir(path.parent().expect("a parent")).expect("lists").count();
         assert_eq!(beside, 1);

@@ -74,6 +74,8 @@ pub struct Element {
 pub struct Header {
     pub storage: Storage,
     pub elements: Vec<Element>,
+    /// What follows `comment facet` on each such line: the facets' names, as cutlab writes them.
+    pub facet_names: Vec<String>,
     /// Offset of the first byte after the header.
     pub end: usize,
     /// Number of the first line after it.
@@ -93,7 +95,8 @@ impl Header {
 
     /// Reads the header.
     pub fn of(source: &Source) -> Result<Header, FormatError> {
-        let mut header = Header { storage: Storage::Text, elements: Vec::new(), end: 0, line: 0 };
+        let mut header =
+            Header { storage: Storage::Text, elements: Vec::new(), facet_names: Vec::new(), end: 0, line: 0 };
         let mut storage = None;
         loop {
             let Some((line, after)) = line_at(source.bytes, header.end) else {
@@ -141,6 +144,7 @@ impl Header {
                         length: length.flatten(),
                     });
                 }
+                ["comment", "facet", ref name @ ..] => header.facet_names.push(name.join(" ")),
                 ["end_header"] => break,
                 ["ply" | "comment" | "obj_info", ..] | [] => {}
                 _ => return Err(wrong("format, element, property, comment or end_header")),
