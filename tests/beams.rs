@@ -234,7 +234,7 @@ fn the_separation_of_colours_agrees_with_photons() {
         let material = Material::named(material).expect("in the catalogue");
         let stone = Stone::new(brilliant(overrides));
         let mut photons = Traced::new(Beam::new(&stone, material).expect("lit"), SEED);
-        photons.extend_to(400_000);
+        photons.extend_to(100_000);
         let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
         for stop_power in [1e-4, 1e-5] {
             let effort = Effort { stop_power, seed: SEED, ..Effort::default() };
