@@ -233,7 +233,7 @@ fn the_separation_of_colours_agrees_with_photons() {
     ] {
         let material = Material::named(material).expect("in the catalogue");
         let stone = Stone::new(brilliant(overrides));
-        let mut photons = Traced::new(Beam::new(&stone, material).expect("lit"), SEED);
+        let mut photons = Traced::new(Beam::new(&stone, material, false).expect("lit"), SEED);
         photons.extend_to(100_000);
         let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
         for stop_power in [1e-4, 1e-5] {
