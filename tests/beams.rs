@@ -173,19 +173,25 @@ fn a_turned_stone_in_turned_light_is_the_same() {
 }
 
 /// Beams against the view experiment, whose lanes know nothing of polygons: all cuts of the
-/// library, face-up and tilted. Of some hundred comparisons one in a thousand may be off by more
-/// than four errors (α = .001 for all together), and few by more than three.
+/// library, nearly face-up and tilted. Nearly: in a stone of cubic symmetry light that comes straight
+/// down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
+/// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron still differs by 1 %).
+/// Of some thousand comparisons none may be off by more than five errors (of 64 batches, α = .005 for
+/// all together); in 2.2 of 144 views one is expected off by more than three: nine have a chance of
+/// .001.
 #[test]
 fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
     let material = Material::named("diamond").expect("in the catalogue");
     let (mut compared, mut beyond_three) = (0, 0);
     for name in library::names() {
-        for tilt in [0.0f64, 10.0, 25.0] {
+        for tilt in [1.0f64, 10.0, 25.0] {
             let design = library::design(name, &BTreeMap::new()).expect("there").expect("good");
-            let turned = design.turned(DMat3::from_rotation_x(tilt.to_radians()));
+            // about an axis that no symmetry has
+            let axis = DMat3::from_rotation_z(0.3) * DVec3::X;
+            let turned = design.turned(DMat3::from_axis_angle(axis, tilt.to_radians()));
             let stone = Stone::new(turned.solid().expect("closed"));
             let mut view = Traced::new(View::new(&stone, material, false).expect("lit"), SEED);
-            view.extend_to(200_000);
+            view.extend_to(100_000);
             let effort = Effort { seed: SEED, ..Effort::default() };
             let beams = Beams::new(&stone);
             let gaze = exact::gaze(&stone, &beams, DVec3::NEG_Z, material.index_d(), &effort).expect("lit");
@@ -197,17 +203,20 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
             pairs.extend((0..4).map(|b| (view.estimate(|t| (t.bands[b], t.rays)), gaze.bands[b])));
             // photons are given up at 1e-4 of their power, and walk in f32
             let given_up = view.estimate(|t| (t.lost, t.rays)).value + 1e-6;
+            let mut worst = 0.0f64;
             for (i, (photons, beams)) in pairs.into_iter().enumerate() {
                 let off = (photons.value - beams.value).abs() - given_up;
                 let error = photons.error.hypot(beams.error);
-                assert!(off <= 4.4 * error, "{name} at {tilt}°, {i}: {photons:?} {beams:?}");
-                beyond_three += i32::from(off > 3.0 * error);
-                compared += 1;
+                assert!(off <= 5.0 * error, "{name} at {tilt}°, {i}: {photons:?} {beams:?}");
+                worst = worst.max(off / error.max(f64::MIN_POSITIVE));
             }
+            // the shares of one view add up to 1: it counts once
+            beyond_three += i32::from(worst > 3.0);
+            compared += 1;
         }
     }
-    println!("{beyond_three} of {compared} comparisons are off by more than three errors");
-    assert!(beyond_three <= 2, "{beyond_three} of {compared}");
+    println!("{beyond_three} of {compared} views are off by more than three errors somewhere");
+    assert!(beyond_three <= 8, "{beyond_three} of {compared}");
 }
 
 /// ASET areas by the strongest path (`physics.md` §4, ±.5 %).

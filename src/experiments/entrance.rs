@@ -86,6 +86,10 @@ impl Crown {
     }
 }
 
+/// A facet whose normal rises by less than this is upright to rounding: nothing of it is seen from
+/// above. A steep facet of a tilted stone is seen, and mirrors nearly all that falls on it.
+const UPRIGHT: f64 = 1e-9;
+
 /// The outline of a stone seen from straight above, walking frame.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
@@ -113,7 +117,7 @@ impl Outline {
             .planes
             .iter()
             .enumerate()
-            .filter(|(_, p)| is_crown(p.normal))
+            .filter(|(_, p)| p.normal.z > UPRIGHT)
             .map(|(i, p)| (i, p.normal.truncate() / p.normal.z, p.distance / p.normal.z))
             .collect();
         if pick.total() > 0.0 && !roof.is_empty() {
