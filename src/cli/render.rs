@@ -3,7 +3,6 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
-use crate::optics::Material;
 use crate::photons::{self, Shots, file};
 use crate::render::{self, Maps, Pass, tone};
 use crate::scene::{Pose, Preset, SCENES, Scene};
@@ -23,12 +22,8 @@ pub struct Args {
     /// What is around it: see `cutlab list scenes`
     #[arg(long, default_value = "table", value_parser = preset)]
     scene: &'static Preset,
-    /// What it is made of, see `cutlab list materials` [the file's own index, or diamond]
-    #[arg(long, value_name = "NAME", value_parser = stones::material)]
-    material: Option<&'static Material>,
-    /// One refractive index, without dispersion, in place of a material
-    #[arg(long, value_name = "N", value_parser = stones::refractive_index, conflicts_with = "material")]
-    ri: Option<f64>,
+    #[command(flatten)]
+    substance: stones::Substance,
     /// Girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -99,7 +94,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     check_name(&output, args)?;
     let imported = stones::open(spec)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = stones::material_of(&imported.design, args.material, args.ri);
+    let material = args.substance.of(&imported.design);
     let design = stones::sized(imported.design, args.size)?;
     let stone = Stone::new(design.solid()?);
     let pose = args.pose.unwrap_or(args.scene.default_pose);

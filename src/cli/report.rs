@@ -5,7 +5,6 @@ use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
-use crate::optics::Material;
 use crate::report::bundle::STEPS;
 use crate::report::page::number;
 use crate::report::{self, ReportError, Request};
@@ -27,12 +26,8 @@ pub struct Args {
     /// Girdle width in millimetres [the stone's own, or 6.5]
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-    /// Material [the file's own index, or diamond]
-    #[arg(long, value_name = "NAME", value_parser = stones::material)]
-    material: Option<&'static Material>,
-    /// One refractive index, without dispersion, in place of a material
-    #[arg(long, value_name = "N", value_parser = stones::refractive_index, conflicts_with = "material")]
-    ri: Option<f64>,
+    #[command(flatten)]
+    substance: stones::Substance,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -50,7 +45,7 @@ struct Summary {
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let imported = stones::open(&args.stone)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = stones::material_of(&imported.design, args.material, args.ri);
+    let material = args.substance.of(&imported.design);
     let size = args.size.or((imported.design.unit == Unit::Free).then_some(USUAL_SIZE));
     let design = stones::sized(imported.design, size)?;
     let request = Request { stone: args.stone.clone(), design, material, seed: args.seed, command: typed() };

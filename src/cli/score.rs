@@ -37,12 +37,8 @@ pub struct Args {
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Material [the file's own index, or diamond]
-    #[arg(long, value_name = "NAME", value_parser = stones::material)]
-    material: Option<&'static Material>,
-    /// One refractive index, without dispersion, in place of a material
-    #[arg(long, value_name = "N", value_parser = stones::refractive_index, conflicts_with = "material")]
-    ri: Option<f64>,
+    #[command(flatten)]
+    substance: stones::Substance,
     /// Girdle width in millimetres; scores of a clear stone do not depend on it
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -100,19 +96,22 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 /// Scores one stone; with the code if it could not be opened.
 fn row(spec: &str, args: &Args, plan: &Plan) -> (Row, Option<Code>) {
     let opened = stones::open(spec).and_then(|imported| {
-        let material = stones::material_of(&imported.design, args.material, args.ri);
+        let material = args.substance.of(&imported.design);
         let design = stones::sized(imported.design, args.size)?;
         Ok((material, design.solid()?))
     });
     let (material, solid, code) = match opened {
         Ok((material, solid)) => (material, Ok(solid), None),
         Err(failure) => {
-            let material =
-                args.material.cloned().unwrap_or_else(|| Material::of_index(args.ri.unwrap_or(1.0)));
+            let material = args
+                .substance
+                .material
+                .cloned()
+                .unwrap_or_else(|| Material::of_index(args.substance.ri.unwrap_or(1.0)));
             (material, Err(failure.message()), Some(failure.code()))
         }
     };
-    let known = solid.is_ok() || args.material.is_some() || args.ri.is_some();
+    let known = solid.is_ok() || args.substance.material.is_some() || args.substance.ri.is_some();
     let mut row = score(&Subject { stone: spec.into(), material, solid }, plan);
     if !known {
         row.material.clear();

@@ -11,7 +11,7 @@ use crate::cut::proportions::{self, Proportions, Ratios};
 use crate::cut::symmetry::Symmetry;
 use crate::cut::{Design, Unit};
 use crate::optics::fresnel::critical_angle_deg;
-use crate::optics::{Material, materials};
+use crate::optics::materials;
 use crate::report::pattern;
 use crate::store::replace;
 use crate::walk::Stone;
@@ -30,9 +30,8 @@ pub struct Args {
     /// Girdle width in millimetres, for volume in mm³ and weight
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-    /// Material, for critical angle and weight [the file's own index; weight as diamond]
-    #[arg(long, value_name = "NAME", value_parser = stones::material)]
-    material: Option<&'static Material>,
+    #[command(flatten)]
+    substance: stones::Substance,
     /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
@@ -189,7 +188,7 @@ fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure
         return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
     }
     let design = stones::open(spec)?.design;
-    let index = stones::material_of(&design, args.material, None).index_d();
+    let index = args.substance.of(&design).index_d();
     let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
     replace::write(path, pattern.svg.as_bytes())?;
@@ -200,7 +199,7 @@ fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure
 fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
     let imported = stones::open(spec)?;
     let design = imported.design;
-    let material = stones::material_of(&design, args.material, None);
+    let material = args.substance.of(&design);
     let index = material.index_d();
     let p = proportions::of(&design).map_err(|e| Failure::input(format!("{spec}: {e}")))?;
     Ok(Sheet {
@@ -238,7 +237,7 @@ impl Measured {
             (None, Unit::Free) => None,
         };
         let volume_mm3 = to_mm.map(|k| p.volume * k.powi(3));
-        let weighed = args.material.unwrap_or(materials::MATERIALS[0]);
+        let weighed = args.substance.material.unwrap_or(materials::MATERIALS[0]);
         let carats = volume_mm3.and_then(|v| weighed.carats(v));
         Measured {
             width: p.width,

@@ -72,13 +72,26 @@ pub fn refractive_index(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What a stone is made of: the material asked for, or the bare index asked for, or the index that
-/// its file was drawn for, or diamond.
-pub fn material_of(design: &Design, material: Option<&Material>, ri: Option<f64>) -> Material {
-    match (material, ri.or(design.refractive_index)) {
-        (Some(material), _) => material.clone(),
-        (None, Some(n)) => Material::of_index(n),
-        (None, None) => MATERIALS[0].clone(),
+/// What a stone is made of, as asked for on the command line.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct Substance {
+    /// Material, see `cutlab list materials` [the file's own index, or diamond]
+    #[arg(long, value_name = "NAME", value_parser = material)]
+    pub material: Option<&'static Material>,
+    /// One refractive index, without dispersion, in place of a material
+    #[arg(long, value_name = "N", value_parser = refractive_index, conflicts_with = "material")]
+    pub ri: Option<f64>,
+}
+
+impl Substance {
+    /// What the design is made of: the material asked for, or the bare index asked for, or the
+    /// index that its file was drawn for, or diamond.
+    pub fn of(&self, design: &Design) -> Material {
+        match (self.material, self.ri.or(design.refractive_index)) {
+            (Some(material), _) => material.clone(),
+            (None, Some(n)) => Material::of_index(n),
+            (None, None) => MATERIALS[0].clone(),
+        }
     }
 }
 
