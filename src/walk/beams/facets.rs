@@ -71,7 +71,7 @@ impl Facets {
         0.5 * twice.dot(self.planes[facet].normal)
     }
 
-    /// For each edge of a facet, from its corner on, the facet beyond it, or [`NONE`].
+    /// For each edge of a facet, from its corner on, the facet beyond it, or `NONE`.
     #[inline]
     pub fn beyond(&self, facet: usize) -> &[u32] {
         &self.beyond[self.range(facet)]
