@@ -9,7 +9,7 @@ use glam::DVec2;
 /// symmetrical to the light leave slivers of area 1e-17 along every edge.
 const ON_LINE: f64 = 1e-14;
 
-/// A corner of a footprint and the facet edge that its next side lies on ([`NONE`] for a side that
+/// A corner of a footprint and the facet edge that its next side lies on (`NONE` for a side that
 /// the footprint had before).
 #[derive(Debug, Clone, Copy)]
 pub struct Corner {
