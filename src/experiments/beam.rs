@@ -70,10 +70,8 @@ impl<'a> Beam<'a> {
     }
 }
 
-/// Angle between what two lanes leave, in degrees.
-fn angle_deg(m: &Meeting, a: usize, b: usize) -> f64 {
-    let out = |l: usize| Vec3::new(m.dx[l], m.dy[l], m.dz[l]).as_dvec3();
-    let (a, b): (DVec3, DVec3) = (out(a), out(b));
+/// Angle between two directions, in degrees; exact for small angles.
+pub(super) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b)).to_degrees()
 }
 
@@ -130,7 +128,8 @@ impl Rays for Shine<'_> {
             let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
             let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
             if self.together[d] && leaves && up {
-                let (angle, power) = (angle_deg(m, d + 1, d + 2), f64::from(m.power[d]));
+                let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
+                let power = f64::from(m.power[d]);
                 self.tally.streak_deg += f64::from(seen[d]) * angle;
                 self.tally.power_angle_deg += power * angle;
                 self.tally.paired_power += power;

@@ -93,7 +93,7 @@ impl Photons for Counted {
     fn meet(&mut self, m: &Meeting) {
         for l in 0..LANES {
             if m.power[l] > 0.0 {
-                let z = Vec3::new(m.dx[l], m.dy[l], m.dz[l]).dot(self.axis);
+                let z = m.direction(l).dot(self.axis);
                 self.sums.add(z.into(), m.power[l].into());
             }
         }

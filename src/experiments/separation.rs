@@ -1,6 +1,7 @@
 //! Separation: how far apart a stone sends the colours of one direction, by beams of three lines at
 //! once, the remainder finished by photons.
 
+use super::beam::angle_deg;
 use super::exact::Effort;
 use super::{BATCHES, ExperimentError, check_index, entrance};
 use crate::math::stats::{self, Estimate};
@@ -41,10 +42,6 @@ struct Counted<'a> {
     remainder: Remainder<WIDTH>,
 }
 
-fn angle_deg(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b)).to_degrees()
-}
-
 impl Watch<Scalar, WIDTH> for Counted<'_> {
     fn exit(&mut self, exit: &Exit<Scalar, WIDTH>) {
         if exit.direction.dot(self.axis) <= 0.0 || self.crown[exit.facet] == 0.0 {
@@ -75,14 +72,14 @@ impl Photons for Finished<'_> {
     }
 
     fn meet(&mut self, m: &Meeting) {
-        let out = |l: usize| Vec3::new(m.dx[l], m.dy[l], m.dz[l]);
         for d in (0..LANES / WIDTH).map(|photon| photon * WIDTH) {
             self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
             let leaves = m.power[d..d + WIDTH].iter().all(|p| *p > 0.0);
-            let up = out(d).dot(self.axis) > 0.0 && self.crown[m.facet[d] as usize] > 0.0;
+            let up = m.direction(d).dot(self.axis) > 0.0 && self.crown[m.facet[d] as usize] > 0.0;
             if self.together[d] && leaves && up {
                 let power = f64::from(m.power[d]);
-                self.sums.angle_deg += power * angle_deg(out(d + 1).as_dvec3(), out(d + 2).as_dvec3());
+                self.sums.angle_deg +=
+                    power * angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 self.sums.power += power;
             }
         }

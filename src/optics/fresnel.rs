@@ -1,5 +1,46 @@
 //! Reflection and refraction at a smooth facet.
 
+/// What happens at a smooth facet to the components across (s) and in (p) the plane of incidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facing {
+    /// Reflectance of the s component.
+    pub r_s: f64,
+    /// Reflectance of the p component.
+    pub r_p: f64,
+    /// Real part of r_s r_p*, the product of the amplitude coefficients.
+    pub re: f64,
+    /// Imaginary part of it; not 0 at total reflection only.
+    pub im: f64,
+    /// Cosine of refraction; 0 at total reflection.
+    pub cos_t: f64,
+}
+
+impl Facing {
+    /// Fresnel's coefficients.
+    ///
+    /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
+    pub fn new(cos_i: f64, eta: f64) -> Facing {
+        let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
+        if sin2_t < 1.0 {
+            let cos_t = (1.0 - sin2_t).sqrt();
+            let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+            let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+            return Facing { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
+        }
+        // cos t = iκ: r_s r_p* = A²/|A|² with A = (cos²i + κ²)/η + i κ cos i (1/η² − 1)
+        let n = 1.0 / eta;
+        let kappa = (sin2_t - 1.0).sqrt();
+        let (x, y) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
+        let size = x * x + y * y;
+        Facing { r_s: 1.0, r_p: 1.0, re: (x * x - y * y) / size, im: 2.0 * x * y / size, cos_t: 0.0 }
+    }
+
+    /// Reflectance of unpolarised light, (R_s + R_p)/2.
+    pub fn mean(&self) -> f64 {
+        0.5 * (self.r_s + self.r_p)
+    }
+}
+
 /// Unpolarised Fresnel reflectance of a smooth facet, (R_s + R_p)/2.
 ///
 /// - `cos_i`: |incident · normal|, in 0..=1
@@ -9,14 +50,8 @@
 /// and the cosine 0 beyond the critical angle.
 /// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked below and in `tests/optics.rs`.
 pub fn unpolarised(cos_i: f64, eta: f64) -> (f64, f64) {
-    let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
-    if sin2_t >= 1.0 {
-        return (1.0, 0.0);
-    }
-    let cos_t = (1.0 - sin2_t).sqrt();
-    let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    (0.5 * (s * s + p * p), cos_t)
+    let facing = Facing::new(cos_i, eta);
+    (facing.mean(), facing.cos_t)
 }
 
 /// The critical angle in degrees of a stone of index `n` in air: beyond it light is reflected

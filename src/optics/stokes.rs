@@ -5,6 +5,7 @@
 //! Source: Born & Wolf, *Principles of Optics*, §1.4–1.5. Checked in `tests/polarisation.rs`
 //! against field components carried in complex numbers.
 
+use super::fresnel::Facing;
 use glam::DVec3;
 
 /// A Stokes vector and the axis it is given about.
@@ -20,42 +21,6 @@ pub struct Stokes {
     pub v: f64,
     /// Unit vector across the ray.
     pub axis: DVec3,
-}
-
-/// What happens at a smooth facet to the components across (s) and in (p) the plane of incidence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facing {
-    /// Reflectance of the s component.
-    pub r_s: f64,
-    /// Reflectance of the p component.
-    pub r_p: f64,
-    /// Real part of r_s r_p*, the product of the amplitude coefficients.
-    pub re: f64,
-    /// Imaginary part of it; not 0 at total reflection only.
-    pub im: f64,
-    /// Cosine of refraction; 0 at total reflection.
-    pub cos_t: f64,
-}
-
-impl Facing {
-    /// Fresnel's coefficients.
-    ///
-    /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
-    pub fn new(cos_i: f64, eta: f64) -> Facing {
-        let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
-        if sin2_t < 1.0 {
-            let cos_t = (1.0 - sin2_t).sqrt();
-            let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-            let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-            return Facing { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
-        }
-        // cos t = iκ: r_s r_p* = A²/|A|² with A = (cos²i + κ²)/η + i κ cos i (1/η² − 1)
-        let n = 1.0 / eta;
-        let kappa = (sin2_t - 1.0).sqrt();
-        let (x, y) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
-        let size = x * x + y * y;
-        Facing { r_s: 1.0, r_p: 1.0, re: (x * x - y * y) / size, im: 2.0 * x * y / size, cos_t: 0.0 }
-    }
 }
 
 impl Stokes {
@@ -79,7 +44,7 @@ impl Stokes {
 
     /// What a facet reflects of light given about its plane of incidence.
     pub fn reflected(self, f: &Facing) -> Stokes {
-        let (mean, half) = (0.5 * (f.r_s + f.r_p), 0.5 * (f.r_s - f.r_p));
+        let (mean, half) = (f.mean(), 0.5 * (f.r_s - f.r_p));
         Stokes {
             i: mean * self.i + half * self.q,
             q: half * self.i + mean * self.q,

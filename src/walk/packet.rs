@@ -180,12 +180,17 @@ pub struct Exit {
 }
 
 impl Meeting {
+    /// Unit direction outside of what a lane leaves.
+    pub fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
+    }
+
     /// What a lane left outside; none at total reflection or at rest.
     pub fn exit(&self, packet: &Packet, lane: usize) -> Option<Exit> {
         (self.power[lane] > 0.0).then(|| Exit {
             facet: self.facet[lane],
             point: packet.point(lane),
-            direction: Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane]),
+            direction: self.direction(lane),
             power: self.power[lane],
         })
     }

@@ -1,6 +1,7 @@
 //! The walk in `f64`, one ray at a time, written for reading: the oracle of the lanes.
 
-use crate::optics::stokes::{Facing, Stokes};
+use crate::optics::fresnel::Facing;
+use crate::optics::stokes::Stokes;
 use crate::solid::Plane;
 use glam::DVec3;
 
@@ -67,7 +68,7 @@ pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnM
         let facing = Facing::new(cos_inside, 1.0 / ray.index);
         let cos_outside = facing.cos_t;
         ray.stokes = ray.stokes.map(|light| light.about_incidence(ray.direction, normal).reflected(&facing));
-        let kept = ray.stokes.map_or(ray.power * 0.5 * (facing.r_s + facing.r_p), |light| light.i);
+        let kept = ray.stokes.map_or(ray.power * facing.mean(), |light| light.i);
         let direction = if cos_outside > 0.0 {
             ray.direction * ray.index + normal * (cos_outside - ray.index * cos_inside)
         } else {

@@ -2,7 +2,7 @@
 
 use super::dispatch::{self, Isa};
 use super::packet::LANES;
-use crate::optics::stokes::Facing;
+use crate::optics::fresnel::Facing;
 use crate::solid::{Plane, Polyhedron};
 use glam::{DVec3, Vec3};
 
@@ -143,7 +143,7 @@ impl Stone {
         let normal = self.normals[facet];
         let cos_outside = (-direction.dot(normal)).clamp(0.0, 1.0);
         let facing = Facing::new(cos_outside.into(), index.into());
-        let (reflectance, cos_inside) = ((0.5 * (facing.r_s + facing.r_p)) as f32, facing.cos_t as f32);
+        let (reflectance, cos_inside) = (facing.mean() as f32, facing.cos_t as f32);
         let polarisation = (0.5 * (facing.r_p - facing.r_s)) as f32; // T_s − T_p over 2
         let across = direction.cross(normal);
         let axis = if across.length_squared() < 1e-12 {

@@ -1,4 +1,5 @@
-//! A loose stone on a grey table under one soft light, as the original project's first picture.
+//! A loose stone on a grey table, as the original project's first picture, under a soft box and a
+//! small lamp.
 
 use super::placed;
 use crate::optics::Material;
@@ -10,7 +11,7 @@ use glam::Vec3;
 /// alike.
 pub static PRESET: Preset = Preset {
     name: "table",
-    about: "a loose stone on a grey table under one soft square light",
+    about: "a loose stone on a grey table under a soft box and a small lamp",
     default_stone: "round-brilliant",
     default_pose: Pose::Lying,
     default_size: (640, 480),
