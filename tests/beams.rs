@@ -197,13 +197,13 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
             let beams = Beams::new(&stone);
             let gaze = exact::gaze(&stone, &beams, DVec3::NEG_Z, material.index_d(), &effort).expect("lit");
             let mut pairs = vec![
-                (view.estimate(|t| (t.reflected, t.rays)), gaze.reflected),
-                (view.estimate(|t| (t.up(), t.rays)), gaze.up),
-                (view.estimate(|t| (t.up_cos2, t.rays)), gaze.up_cos2),
+                (view.estimate(|t| t.reflected / t.rays), gaze.reflected),
+                (view.estimate(|t| t.up() / t.rays), gaze.up),
+                (view.estimate(|t| t.up_cos2 / t.rays), gaze.up_cos2),
             ];
-            pairs.extend((0..4).map(|b| (view.estimate(|t| (t.bands[b], t.rays)), gaze.bands[b])));
+            pairs.extend((0..4).map(|b| (view.estimate(|t| t.bands[b] / t.rays), gaze.bands[b])));
             // photons are given up at 1e-4 of their power, and walk in f32
-            let given_up = view.estimate(|t| (t.lost, t.rays)).value + 1e-6;
+            let given_up = view.estimate(|t| t.lost / t.rays).value + 1e-6;
             let mut worst = 0.0f64;
             for (i, (photons, beams)) in pairs.into_iter().enumerate() {
                 let off = (photons.value - beams.value).abs() - given_up;
@@ -246,7 +246,7 @@ fn the_separation_of_colours_agrees_with_photons() {
         let mut photons =
             Traced::new(Beam::new(&stone, &Medium { material, polarised: false }).expect("lit"), SEED);
         photons.extend_to(100_000);
-        let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
+        let photons = photons.estimate(|t| t.power_angle_deg / t.paired_power);
         for stop_power in [1e-4, 1e-5] {
             let effort = Effort { stop_power, seed: SEED, ..Effort::default() };
             let beams = separation::separation(&stone, &Beams::new(&stone), DVec3::NEG_Z, material, &effort)

@@ -93,7 +93,7 @@ fn errors(material: &Material, runs: usize) -> Result<(), Box<dyn Error>> {
         let trace = || {
             let mut view = Traced::new(View::new(&stone, &Medium { material, polarised: false })?, 1);
             view.extend_to(samples);
-            Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| (t.up(), t.rays)))
+            Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| t.up() / t.rays))
         };
         let (time, up) = best_of(runs, trace);
         let (ms, up) = (time.as_secs_f64() * 1e3, up?);
