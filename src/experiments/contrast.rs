@@ -55,7 +55,12 @@ impl Sum for Tally {
 
 impl<'a> Contrast<'a> {
     /// Looks at a stone at the material's D line.
-    pub fn new(stone: &'a Stone, medium: &Medium, aspect: Aspect, sky: Sky) -> Result<Self, ExperimentError> {
+    pub fn seen_from(
+        stone: &'a Stone,
+        medium: &Medium,
+        aspect: Aspect,
+        sky: Sky,
+    ) -> Result<Self, ExperimentError> {
         Ok(Self {
             stone,
             polarised: medium.polarised,

@@ -89,7 +89,12 @@ fn weights(h: f32) -> [f32; 3] {
 
 impl<'a> Iso<'a> {
     /// Looks at a stone at the material's D line, without polarisation.
-    pub fn new(stone: &'a Stone, medium: &Medium, aspect: Aspect, sky: Sky) -> Result<Self, ExperimentError> {
+    pub fn seen_from(
+        stone: &'a Stone,
+        medium: &Medium,
+        aspect: Aspect,
+        sky: Sky,
+    ) -> Result<Self, ExperimentError> {
         Ok(Self {
             stone,
             index: check_index(medium.material.index_d())?,

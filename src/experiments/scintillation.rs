@@ -64,7 +64,12 @@ impl Sum for Tally {
 
 impl<'a> Scintillation<'a> {
     /// Rocks a stone about an aspect, at the material's D line.
-    pub fn new(stone: &'a Stone, medium: &Medium, aspect: Aspect, sky: Sky) -> Result<Self, ExperimentError> {
+    pub fn seen_from(
+        stone: &'a Stone,
+        medium: &Medium,
+        aspect: Aspect,
+        sky: Sky,
+    ) -> Result<Self, ExperimentError> {
         let seen = |axle, degrees: i32| {
             let aspect = aspect.turned(degrees.into(), axle);
             Ok((aspect, Outline::new(stone, aspect)?))
@@ -106,7 +111,7 @@ impl Groups for Changes<'_> {
                 continue;
             }
             let cell = Cell::around(at, *side, &mut self.stream);
-            let level = ((-self.stream.unit64().log2() / RARER) as u32).min(FINEST);
+            let level = level(&mut self.stream);
             for point in 0..1 << level {
                 let inside = |at| before.1.holds(at) && after.1.holds(at);
                 let at = if point == 0 { at } else { cell.another(&mut self.stream, inside) };
@@ -125,6 +130,11 @@ impl Groups for Changes<'_> {
         self.tally.luminance += sum / luminances.len() as f64;
         self.tally.change += unbiased(&mut self.changes);
     }
+}
+
+/// A cell has two to this power of points.
+fn level(stream: &mut Stream) -> u32 {
+    ((-stream.unit64().log2() / RARER) as u32).min(FINEST)
 }
 
 /// What the changes of 2^k points of a cell add to the mean |change| of cells.
@@ -158,5 +168,42 @@ impl Experiment for Scintillation<'_> {
             changes: Vec::new(),
         };
         cells::walk_all(self.stone, (self.index, self.polarised), self.sky, &mut changes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Changes of a cell's points are 1 with probability .6 and −1 otherwise: the mean of 64 has a
+    /// mean size of .2032 (by the binomial law), that of one of 1.
+    #[test]
+    fn what_few_points_add_has_the_change_of_many_as_its_mean() {
+        let n = 1 << FINEST;
+        let mut law = vec![1.0];
+        for _ in 0..n {
+            let mut next = vec![0.0; law.len() + 1];
+            for (i, p) in law.iter().enumerate() {
+                next[i] += 0.4 * p;
+                next[i + 1] += 0.6 * p;
+            }
+            law = next;
+        }
+        let of = |(i, p): (usize, &f64)| p * (2.0 * i as f64 / f64::from(n) - 1.0).abs();
+        let expected: f64 = law.iter().enumerate().map(of).sum();
+        let mut stream = Stream::new(1, Purpose::Test, 3);
+        let (runs, mut sum, mut squares) = (400_000, 0.0, 0.0);
+        for _ in 0..runs {
+            let level = level(&mut stream);
+            let change = |s: &mut Stream| if s.unit64() < 0.6 { 1.0 } else { -1.0 };
+            let mut changes: Vec<f64> = (0..1 << level).map(|_| change(&mut stream)).collect();
+            let x = unbiased(&mut changes);
+            sum += x;
+            squares += x * x;
+        }
+        let mean = sum / f64::from(runs);
+        let error = ((squares / f64::from(runs) - mean * mean) / f64::from(runs)).sqrt();
+        assert!((mean - expected).abs() < 4.0 * error, "{mean} ± {error}, expected {expected}");
+        assert!(error < 0.005, "{error}");
     }
 }

@@ -179,12 +179,14 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     let surroundings = Surroundings { scope: sky(view::SCOPE_DEG), dome: sky(view::OBSERVER_DEG) };
     sheet.fill("view", pick, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
     let pick = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
-    sheet.fill("iso", pick, 1, || Iso::new(stone, &medium, aspect, sky(iso::OBSERVER_DEG)))?;
+    sheet.fill("iso", pick, 1, || Iso::seen_from(stone, &medium, aspect, sky(iso::OBSERVER_DEG)))?;
     let cells = sky(cells::OBSERVER_DEG);
     let pick = |r| if let Reading::Contrast(f) = r { Some(f) } else { None };
-    sheet.fill("contrast", pick, CONTRAST_COST, || Contrast::new(stone, &medium, aspect, cells))?;
+    sheet.fill("contrast", pick, CONTRAST_COST, || Contrast::seen_from(stone, &medium, aspect, cells))?;
     let pick = |r| if let Reading::Scintillation(f) = r { Some(f) } else { None };
-    sheet.fill("scintillation", pick, ROCKING_COST, || Scintillation::new(stone, &medium, aspect, cells))?;
+    sheet.fill("scintillation", pick, ROCKING_COST, || {
+        Scintillation::seen_from(stone, &medium, aspect, cells)
+    })?;
     if subject.material.is_dispersive() {
         let pick = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
         sheet.fill("beam", pick, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
