@@ -5,15 +5,17 @@
 //! a score and camera rays that look into the stone are all consumers of [`Stone::walk`].
 
 pub mod beams;
+mod belt;
 mod dispatch;
 pub mod feed;
 mod kernel;
 mod packet;
 pub mod scalar;
+mod search;
 mod stone;
 
 pub use dispatch::Isa;
-pub use packet::{Exit, LANES, Lanes, Meeting, Packet};
+pub use packet::{Exit, LANES, Lanes, Meeting, NO_FACET, NextFacets, Packet};
 pub use stone::{Entry, Hit, Stone};
 
 /// After so many meetings whatever power a lane still holds is given up as lost. A guard against
