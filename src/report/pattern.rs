@@ -8,7 +8,7 @@
 use crate::experiments::exact::Strongest;
 use crate::experiments::view::{Band, band};
 use crate::walk::Stone;
-use crate::walk::beams::{Beams, Exit, Lit, Rest, Watch};
+use crate::walk::beams::{Beams, Exit, Lit, Rest, Until, Watch};
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
@@ -70,7 +70,7 @@ impl Watch<Strongest, 1> for Drawing {
         let Strongest { best, towards, .. } = rest.light;
         let tone = if best > 0.0 { band(towards.z as f32) as usize } else { Band::Below as usize + 1 };
         let mut path = std::mem::take(&mut self.paths[tone]);
-        let corners = rest.footprint.iter().map(|c| self.place(rest.entrance.point(c.at)));
+        let corners = rest.footprint.iter().map(|c| self.place(rest.entrance.point(*c)));
         Self::polygon(&mut path, corners);
         self.paths[tone] = path;
         self.shares[tone] += rest.share;
@@ -99,7 +99,7 @@ pub fn draw(stone: &Stone, index: f64, stop_power: f64) -> Pattern {
     beams.follow(
         &Lit { direction: DVec3::NEG_Z, indices: [index] },
         Strongest::FRESH,
-        stop_power,
+        Until::power(stop_power),
         &mut drawing,
     );
     let mut facets = String::new();

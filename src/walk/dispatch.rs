@@ -7,6 +7,8 @@
 
 #![allow(unsafe_code)]
 
+use super::beams::run::Run;
+use super::beams::{Light, Totals, Watch};
 use super::packet::{Meeting, NextFacets, Packet};
 use super::stone::{Hit, Stone};
 use super::{kernel, search};
@@ -150,5 +152,34 @@ pub(super) fn first_hit(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<
         // SAFETY: as above
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 => unsafe { first_hit_avx512(stone, origin, direction) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
+fn follow_avx512<L: Light, W: Watch<L, K>, const K: usize>(run: Run<L, W, K>, light: L) -> Totals {
+    run.all(light)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn follow_avx2<L: Light, W: Watch<L, K>, const K: usize>(run: Run<L, W, K>, light: L) -> Totals {
+    run.all(light)
+}
+
+/// [`Run::all`] with the stone's instruction set.
+pub(super) fn follow<L: Light, W: Watch<L, K>, const K: usize>(
+    stone: &Stone,
+    run: Run<L, W, K>,
+    light: L,
+) -> Totals {
+    match stone.isa.0 {
+        Level::Portable => run.all(light),
+        // SAFETY: an Isa of this level exists only where the features were detected
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => unsafe { follow_avx2(run, light) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => unsafe { follow_avx512(run, light) },
     }
 }
