@@ -1,8 +1,8 @@
 //! Beam: light from a point at infinity above the stone, in the six lines B C D e F G.
 
 use super::batches::Experiment;
-use super::together::Together;
 use super::entrance::{self, Outline};
+use super::together::Together;
 use super::{ExperimentError, Medium, check_index};
 use crate::math::points::Points;
 use crate::math::random::Purpose;

@@ -5,9 +5,9 @@ use super::together::Together;
 use super::{BATCHES, ExperimentError, check_index};
 use crate::math::stats::{self, Estimate};
 use crate::optics::stokes::Stokes;
+use crate::walk::Meeting;
 use crate::walk::beams::remainder::{Photons, Remainder};
 use crate::walk::beams::{Beams, Entrance, Exit, Light, Lit, Rest, Scalar, Until, Watch};
-use crate::walk::Meeting;
 use glam::DVec3;
 use rayon::prelude::*;
 

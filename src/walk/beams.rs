@@ -11,8 +11,8 @@ mod clip;
 mod facets;
 mod frame;
 mod light;
-pub mod remainder;
 mod queue;
+pub mod remainder;
 pub(super) mod run;
 
 pub use facets::{Facets, WELD};

@@ -23,7 +23,9 @@ pub struct Queue<B> {
 impl<B> Queue<B> {
     /// An empty queue; one that is not `sorted` lets beams out in any order, and stays short.
     pub fn new(sorted: bool) -> Self {
-        let levels = (0..if sorted { LEVELS } else { 1 }).map(|_| Level { beams: Vec::new(), corners: Vec::new() }).collect();
+        let levels = (0..if sorted { LEVELS } else { 1 })
+            .map(|_| Level { beams: Vec::new(), corners: Vec::new() })
+            .collect();
         Queue { levels, strongest: 0 }
     }
 

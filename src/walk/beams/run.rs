@@ -151,8 +151,7 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
         let (glare, toward) = (reflected.power() * share, self.lit.direction);
         self.totals.reflected += glare;
         self.watch.reflected(entrance, toward.reflect(normal), glare);
-        let corners: Vec<_> =
-            facets.ring(entrance.facet).iter().map(|p| entrance.coordinates(*p)).collect();
+        let corners: Vec<_> = facets.ring(entrance.facet).iter().map(|p| entrance.coordinates(*p)).collect();
         let (facet, number) = (entrance.facet as u32, self.origins.len() as u32);
         let beam = Beam { frames, light: inside, share, facet, origin: number, meetings: 0 };
         self.inside += inside.power() * share;
@@ -187,7 +186,9 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
     fn divide(&mut self, beam: &Beam<L, K>, footprint: &[DVec2], middle: DVec2, guess: usize, turn: f64) {
         let mut clipper = std::mem::take(&mut self.clipper);
         self.spread(&mut clipper, beam, footprint, guess, turn);
-        if self.ahead.is_empty() && let Some(first) = self.first_met(beam, middle, turn) {
+        if self.ahead.is_empty()
+            && let Some(first) = self.first_met(beam, middle, turn)
+        {
             self.spread(&mut clipper, beam, footprint, first, turn);
         }
         self.clipper = clipper;
@@ -196,7 +197,14 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
     /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the
     /// beam does not meet the facet, no facet is left in `ahead`.
     #[inline(always)]
-    fn spread(&mut self, clipper: &mut Clipper, beam: &Beam<L, K>, footprint: &[DVec2], first: usize, turn: f64) {
+    fn spread(
+        &mut self,
+        clipper: &mut Clipper,
+        beam: &Beam<L, K>,
+        footprint: &[DVec2],
+        first: usize,
+        turn: f64,
+    ) {
         let facets = &self.beams.facets;
         let [lead, company @ ..] = &beam.frames[..] else { return };
         self.number += 1;
@@ -227,7 +235,9 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
             let part = clipper.corners();
             let share = clip::area(part) * self.origins[beam.origin as usize].density;
             let mut beam = Beam { share, ..*beam };
-            if share > 0.0 && let Some(power) = self.meet(&mut beam, facet, part) {
+            if share > 0.0
+                && let Some(power) = self.meet(&mut beam, facet, part)
+            {
                 self.queue.push(beam, power, part);
             }
         }
@@ -281,7 +291,8 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
             frame.mirror(plane);
         }
         let power = kept.power() * beam.share;
-        if power < self.until.power || beam.meetings >= self.until.facets.min(FACETS_LIMIT) || !kept.goes_on() {
+        if power < self.until.power || beam.meetings >= self.until.facets.min(FACETS_LIMIT) || !kept.goes_on()
+        {
             self.leave(beam, footprint);
             return None;
         }
