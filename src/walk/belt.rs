@@ -2,7 +2,7 @@
 
 use super::packet::{LANES, Lanes, NO_FACET};
 use crate::solid::Plane;
-use glam::{Vec3};
+use glam::Vec3;
 
 /// Fewer flats cost less than finding out which rays need them.
 const FLATS_WORTH_SKIPPING: usize = 8;
@@ -60,8 +60,7 @@ impl Planes {
 
     fn of(planes: &[Plane], numbers: &[usize]) -> Planes {
         let zero = [0.0; LANES];
-        let mut side =
-            Planes { nx: zero, ny: zero, nz: zero, d: [1.0; LANES], facet: [NO_FACET; LANES] };
+        let mut side = Planes { nx: zero, ny: zero, nz: zero, d: [1.0; LANES], facet: [NO_FACET; LANES] };
         for (l, &f) in numbers.iter().enumerate() {
             [side.nx[l], side.ny[l], side.nz[l]] = planes[f].normal.as_vec3().into();
             side.d[l] = planes[f].distance as f32;
