@@ -1,4 +1,4 @@
-//! The walk: light inside a convex stone.
+//! The walk: light inside a convex stone, and inside others ([`mesh`]).
 //!
 //! A ray inside never branches. At every facet it leaves the transmitted part of its power outside,
 //! in one direction, and goes on with the rest. Photons that build a map, rays that are counted for
@@ -9,6 +9,7 @@ mod belt;
 mod dispatch;
 pub mod feed;
 mod kernel;
+pub mod mesh;
 mod packet;
 pub mod scalar;
 mod search;

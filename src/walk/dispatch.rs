@@ -116,8 +116,8 @@ fn first_hit_avx2(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
 /// [`kernel::meet`] with the stone's instruction set.
 pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
     match stone.isa.0 {
-        Level::Portable if packet.polarised => kernel::meet::<false, 4, 2, true>(stone, packet, out),
-        Level::Portable => kernel::meet::<false, 4, 2, false>(stone, packet, out),
+        Level::Portable if packet.polarised => kernel::meet::<false, 8, 1, true>(stone, packet, out),
+        Level::Portable => kernel::meet::<false, 8, 1, false>(stone, packet, out),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { meet_avx2(stone, packet, out) },
@@ -131,7 +131,7 @@ pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
 pub(super) fn next_facets(stone: &Stone, packet: &Packet) -> NextFacets {
     let mut next = NextFacets::default();
     match stone.isa.0 {
-        Level::Portable => search::next_facets::<false, 4, 2>(stone, packet, &mut next),
+        Level::Portable => search::next_facets::<false, 8, 1>(stone, packet, &mut next),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { next_facets_avx2(stone, packet, &mut next) },
