@@ -226,10 +226,7 @@ fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
     let (with, without) = (gaze(true), gaze(false));
     let change = with.up.value - without.up.value;
     println!("{change:+.6} ± {:.1e}", with.up.error.hypot(without.up.error));
-    assert!(
-        (change.abs() - 0.0007).abs() < 0.0001 + 3.0 * with.up.error.hypot(without.up.error),
-        "{change}"
-    );
+    assert!((change.abs() - 0.0007).abs() < 0.0001 + 3.0 * with.up.error.hypot(without.up.error), "{change}");
     assert!((with.reflected.value - without.reflected.value).abs() < 1e-12);
     let sum = with.reflected.value + with.up.value + with.down.value + with.lost.value;
     assert!((sum - 1.0).abs() < 2e-4, "{sum}");
