@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     directions(&Stone::new(design.solid()?), material, real, runs);
     for tilt in [0.0f64, 30.0] {
         let turn = DMat3::from_rotation_z(0.3) * DMat3::from_rotation_x(tilt.to_radians());
-        let stone = Stone::new(design.turned(turn).solid()?);
+        let stone = Stone::new(design.clone().turned(turn).solid()?);
         println!("\n{} facets, tilt {tilt}°", stone.facet_count());
         thresholds(&stone, material, real, runs);
         errors(&stone, material, real, runs)?;
