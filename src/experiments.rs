@@ -18,7 +18,9 @@ pub mod hemisphere;
 pub mod iso;
 pub mod scintillation;
 pub mod separation;
+mod together;
 pub mod view;
+pub mod weigh;
 
 pub use aspect::Aspect;
 pub use batches::{BATCHES, Experiment, Traced};

@@ -2,6 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
+use super::together::Together;
 use super::{Aspect, ExperimentError, Medium, check_index};
 use crate::math::histogram::Histogram;
 use crate::math::points::Points;
@@ -109,8 +110,7 @@ struct Shine<'a> {
     paired: bool,
     /// cos t / cos i at entry.
     widening: Lanes,
-    /// Whether the lines of a ray have met the same facets so far.
-    together: [bool; LANES],
+    together: Together<LINES>,
 }
 
 impl Rays for Shine<'_> {
@@ -130,8 +130,8 @@ impl Rays for Shine<'_> {
             packet.enter(lane, point, &entry, index);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
-        self.together[lane] = self.paired;
         if self.paired {
+            self.together.begin(lane);
             self.tally.points += 1.0;
         }
         true
@@ -150,11 +150,9 @@ impl Rays for Shine<'_> {
         }
         let six = lines::SIX.len() as f64;
         self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
-        for d in (0..LANES / LINES).map(|ray| ray * LINES) {
-            self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
-            let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
+        for d in Together::<LINES>::lanes() {
             let up = height[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
-            if self.together[d] && leaves && up {
+            if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);
                 self.tally.streak_deg += f64::from(seen[d]) * angle;
@@ -178,7 +176,7 @@ impl Experiment for Beam<'_> {
                 indices,
                 paired,
                 widening: [0.0; LANES],
-                together: [false; LANES],
+                together: Together::NONE,
             };
             feed::walk_all(self.stone, STOP_POWER, &mut shine);
         }
