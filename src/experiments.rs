@@ -10,12 +10,14 @@
 pub mod aspect;
 pub mod batches;
 pub mod beam;
+pub mod by_beams;
 pub mod cells;
 pub mod contrast;
 mod entrance;
 pub mod exact;
 pub mod hemisphere;
 pub mod iso;
+pub mod quadrature;
 pub mod scintillation;
 pub mod separation;
 mod together;
@@ -28,6 +30,7 @@ pub use beam::Beam;
 pub use contrast::Contrast;
 pub use hemisphere::Hemisphere;
 pub use iso::Iso;
+pub use quadrature::Quadrature;
 pub use scintillation::Scintillation;
 pub use view::View;
 

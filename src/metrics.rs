@@ -54,6 +54,8 @@ pub struct Metric {
     /// Half-angle in degrees of the observer's dark cone, for a metric that has one; a plan may set
     /// another.
     pub observer: Option<f64>,
+    /// Whether beams give it too (`--exact`).
+    pub by_beams: bool,
     /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
     pub definition: &'static str,
     /// Where the definition is from.

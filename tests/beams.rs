@@ -304,7 +304,7 @@ fn weights_of_a_caller_add_up_to_what_the_gaze_has() {
 #[test]
 fn areas_of_the_strongest_path_are_those_of_the_reference() {
     let stone = Stone::new(brilliant(&[]));
-    let shares = exact::strongest(&Beams::new(&stone), DVec3::NEG_Z, DIAMOND, 1e-7).expect("lit");
+    let shares = exact::strongest(&Beams::new(&stone), DVec3::NEG_Z, DIAMOND, false, 1e-7).expect("lit");
     for (got, expected) in shares.bands.iter().zip([0.060, 0.667, 0.228, 0.045]) {
         assert!((got - expected).abs() < 0.005, "{shares:?}");
     }

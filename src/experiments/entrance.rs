@@ -7,7 +7,7 @@ use crate::walk::Stone;
 use glam::{DVec2, DVec3, Vec3};
 
 /// Whether light through facet with unit normal `n` goes through the crown (the table included).
-fn is_crown(n: DVec3) -> bool {
+pub(super) fn is_crown(n: DVec3) -> bool {
     matches!(Zone::of(n), Zone::Table | Zone::Crown)
 }
 
@@ -16,9 +16,14 @@ pub(super) fn crown_flags(stone: &Stone) -> Vec<f32> {
     flags(stone, is_crown)
 }
 
+/// Whether a facet with unit normal `n` belongs to the pavilion (or is the culet).
+pub(super) fn is_pavilion(n: DVec3) -> bool {
+    matches!(Zone::of(n), Zone::Pavilion | Zone::Culet)
+}
+
 /// For each facet 1 if it belongs to the pavilion (or is the culet), else 0.
 pub(super) fn pavilion_flags(stone: &Stone) -> Vec<f32> {
-    flags(stone, |n| matches!(Zone::of(n), Zone::Pavilion | Zone::Culet))
+    flags(stone, is_pavilion)
 }
 
 /// For each facet 1 if it is the table, else 0.

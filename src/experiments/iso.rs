@@ -36,6 +36,11 @@ pub struct Iso<'a> {
     table: Vec<f32>,
 }
 
+/// For each facet 1 if it faces the viewer, else 0.
+pub(super) fn facing_flags(stone: &Stone, aspect: Aspect) -> Vec<f32> {
+    entrance::flags(stone, |n| n.dot(aspect.axis) > FACING)
+}
+
 /// The three weights of light from height h (sine of its elevation): 1, h, 2h√(1 − h²).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
@@ -83,7 +88,7 @@ impl Sum for Tally {
 }
 
 /// The weights of light from a height.
-fn weights(h: f32) -> [f32; 3] {
+pub(super) fn weights(h: f32) -> [f32; 3] {
     [1.0, h, 2.0 * h * (1.0 - h * h).max(0.0).sqrt()]
 }
 
@@ -101,7 +106,7 @@ impl<'a> Iso<'a> {
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,
-            facing: entrance::flags(stone, |n| n.dot(aspect.axis) > FACING),
+            facing: facing_flags(stone, aspect),
             table: entrance::table_flags(stone),
         })
     }

@@ -216,6 +216,7 @@ impl Rays for Gaze<'_> {
         let (facet, point) = outline.sample(u);
         let entry = stone.enter(facet, -aspect.axis.as_vec3(), *index);
         self.luminance[lane] = surroundings.dome.mirrored(&entry);
+        self.been_below[lane] = 0.0;
         self.tally.rays += 1.0;
         self.tally.reflected += f64::from(entry.reflectance);
         packet.enter(lane, point, &entry, *index);
@@ -256,7 +257,6 @@ impl Rays for Gaze<'_> {
         self.tally.up_cos2 += take(&mut self.up_cos2);
         self.tally.scope_bright += take(&mut self.scope_bright);
         let (luminance, windowed) = (take(&mut self.luminance), take(&mut self.windowed));
-        self.been_below[lane] = 0.0;
         self.tally.luminance += luminance;
         self.tally.windowed += windowed;
         self.tally.dark += if luminance < f64::from(DARK) { 1.0 - windowed } else { 0.0 };

@@ -25,6 +25,8 @@ pub enum Purpose {
     Test = 7,
     /// Photons that finish what beams leave over, one stream a batch.
     BeamRemainder = 8,
+    /// Directions of a dome, one stream a batch.
+    Quadrature = 12,
     /// The faceters' view, one stream a batch.
     Iso = 9,
     /// Cells of the picture, one stream a batch and one a run of it.

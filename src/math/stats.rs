@@ -71,7 +71,8 @@ where
 /// - `of`: a ratio of sums, or anything else that changes in proportion when they change a little
 ///
 /// The value is that of all batches together, the error √((k−1)/k Σ(θᵢ − θ̄)²) over the values θᵢ
-/// without batch i, times Student's t over 1.96. Source: R. G. Miller, *Biometrika* 61 (1974) 1.
+/// without batch i, times Student's t over 1.96; batches that all give one value give it exactly.
+/// Source: R. G. Miller, *Biometrika* 61 (1974) 1.
 /// Checked below, and for every metric in `tests/coverage.rs`.
 pub fn jackknife<T: Sum>(batches: &[T], of: impl Fn(&T) -> f64) -> Estimate {
     let k = batches.len();
@@ -82,6 +83,13 @@ pub fn jackknife<T: Sum>(batches: &[T], of: impl Fn(&T) -> f64) -> Estimate {
         after[i].add(batch);
     }
     let value = of(&after[0]);
+    let mut each = batches.iter().map(&of);
+    if let Some(first) = each.next()
+        && k > 1
+        && each.all(|other| other == first)
+    {
+        return Estimate::exact(first);
+    }
     if k < 2 {
         return Estimate { value, error: f64::INFINITY };
     }

@@ -11,6 +11,7 @@ pub static ASET_LEAK_STRONGEST: Metric = Metric {
     range: (0.0, 1.0),
     scale: 1.0,
     observer: None,
+    by_beams: true,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
         with its polarisation followed inside (scalar with --polarisation off), D line. No \
         observer's head. Share of the outline whose strongest path comes from below the horizon, as \

@@ -13,6 +13,7 @@ pub static SPREAD: Metric = Metric {
     range: (-100.0, 10000.0),
     scale: 100.0,
     observer: None,
+    by_beams: false,
     definition: "Geometry of the solid, no light. Area of the outline seen face-up per that of the \
         library's Tolkowsky brilliant of equal mass, less 1, in percent.",
     source: "defined by cutlab; proportions of the other stone: M. Tolkowsky, Diamond Design (1919)",

@@ -1,15 +1,17 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
 use crate::experiments::view::{Sky, Surroundings};
+use crate::experiments::weigh::Effort as Work;
 use crate::experiments::{
-    Aspect, Beam, Contrast, Experiment, ExperimentError, Hemisphere, Iso, Medium, Scintillation, Traced,
-    View, cells, iso, view,
+    Aspect, BATCHES, Beam, Contrast, Experiment, ExperimentError, Hemisphere, Iso, Medium, Quadrature,
+    Scintillation, Traced, View, by_beams, cells, iso, view,
 };
-use crate::math::stats::Estimate;
+use crate::math::stats::{self, Estimate, Sum};
 use crate::metrics::{METRICS, Metric, Reading};
 use crate::optics::Material;
 use crate::solid::Polyhedron;
 use crate::walk::Stone;
+use crate::walk::beams::Beams;
 
 /// Points of the hemisphere and of the view when nothing else is asked: ±.0003 of `wlr` for a
 /// round brilliant, ±.0002 of the `aset` scores.
@@ -25,7 +27,13 @@ const CONTRAST_COST: u64 = 2;
 /// The same for a cell of one to 64 points, seen twice.
 const ROCKING_COST: u64 = 6;
 
-/// Points of every experiment before its error is looked at: enough for every batch to have seen
+/// The same for a direction of the dome that is followed by beams.
+const DIRECTION_COST: u64 = 256;
+
+/// The same for a photon that finishes beams, which then outweigh it.
+const PHOTON_COST: u64 = 16;
+
+/// Points of the hemisphere, or as much of other experiments, before its error is looked at: enough for every batch to have seen
 /// something.
 const FIRST_SAMPLES: u64 = 1 << 13;
 
@@ -173,23 +181,37 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
         }
     }
     let mut sheet = Sheet { row, plan };
-    let pick = |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None };
-    sheet.fill("hemisphere", pick, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
-    let pick = |r| if let Reading::View(f) = r { Some(f) } else { None };
+    let hemisphere = |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None };
+    sheet.fill("hemisphere", hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
+    let view = |r| if let Reading::View(f) = r { Some(f) } else { None };
     let surroundings = Surroundings { scope: sky(view::SCOPE_DEG), dome: sky(view::OBSERVER_DEG) };
-    sheet.fill("view", pick, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
-    let pick = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
-    sheet.fill("iso", pick, 1, || Iso::seen_from(stone, &medium, aspect, sky(iso::OBSERVER_DEG)))?;
+    sheet.fill("view", view, false, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
+    let iso = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
+    let head = sky(iso::OBSERVER_DEG);
+    sheet.fill("iso", iso, false, 1, || Iso::seen_from(stone, &medium, aspect, head))?;
     let cells = sky(cells::OBSERVER_DEG);
-    let pick = |r| if let Reading::Contrast(f) = r { Some(f) } else { None };
-    sheet.fill("contrast", pick, CONTRAST_COST, || Contrast::seen_from(stone, &medium, aspect, cells))?;
-    let pick = |r| if let Reading::Scintillation(f) = r { Some(f) } else { None };
-    sheet.fill("scintillation", pick, ROCKING_COST, || {
+    let contrast = |r| if let Reading::Contrast(f) = r { Some(f) } else { None };
+    sheet.fill("contrast", contrast, false, CONTRAST_COST, || {
+        Contrast::seen_from(stone, &medium, aspect, cells)
+    })?;
+    let scintillation = |r| if let Reading::Scintillation(f) = r { Some(f) } else { None };
+    sheet.fill("scintillation", scintillation, false, ROCKING_COST, || {
         Scintillation::seen_from(stone, &medium, aspect, cells)
     })?;
-    if subject.material.is_dispersive() {
-        let pick = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
-        sheet.fill("beam", pick, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
+    let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
+    let dispersive = subject.material.is_dispersive();
+    if dispersive {
+        sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
+    }
+    if plan.exact {
+        let make = || Quadrature::seen_from(stone, &medium, aspect);
+        sheet.fill("quadrature", hemisphere, true, DIRECTION_COST, make)?;
+        let beams = Beams::new(stone);
+        sheet.finish("view by beams", view, |w| by_beams::view(&beams, &medium, aspect, surroundings, w))?;
+        sheet.finish("iso by beams", iso, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
+        if dispersive {
+            sheet.finish("beam by beams", beam, |w| by_beams::colours(&beams, &medium, aspect, w))?;
+        }
     }
     Ok(())
 }
@@ -200,22 +222,33 @@ struct Sheet<'a> {
     plan: &'a Plan,
 }
 
+/// A column: its number, its metric's scale, and what it reads from a tally.
+type Column<F> = (usize, f64, F);
+
 impl Sheet<'_> {
+    /// The columns that read a tally.
+    ///
+    /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
+    fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
+        let asked = |m: &Metric| (self.plan.exact && m.by_beams) == by_beams;
+        let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
+        metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
+    }
+
     /// Traces an experiment as far as the plan asks and fills in the columns that read it, if there
     /// are any.
     ///
-    /// - `of`: what a metric reads from the tally, if it reads this experiment
+    /// - `of`, `by_beams`: as [`Sheet::columns`] has them
     /// - `cost`: so many points of the hemisphere are as dear as one of this experiment
     fn fill<E: Experiment, F: Fn(&E::Tally) -> f64>(
         &mut self,
         name: &'static str,
         of: impl Fn(Reading) -> Option<F>,
+        by_beams: bool,
         cost: u64,
         make: impl FnOnce() -> Result<E, ExperimentError>,
     ) -> Result<(), ExperimentError> {
-        let metrics = self.plan.metrics.iter().enumerate();
-        let columns: Vec<(usize, f64, F)> =
-            metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect();
+        let columns = self.columns(of, by_beams);
         if columns.is_empty() {
             return Ok(());
         }
@@ -223,36 +256,100 @@ impl Sheet<'_> {
         match self.plan.effort {
             Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
             Effort::Error(target) => {
-                let worst = |t: &Traced<E>| {
-                    columns.iter().map(|(_, scale, f)| t.estimate(f).error / scale).fold(0.0, f64::max)
-                };
-                if let Some(error) = reach(&mut traced, target, self.plan.cap / cost, worst) {
-                    let note = format!(
-                        "{name}: standard error {target} not reached: {error:.2e} after {} samples",
-                        traced.samples()
-                    );
-                    let row = &mut self.row;
-                    row.error = Some(row.error.take().map_or(note.clone(), |e| format!("{e}; {note}")));
+                let worst = |t: &Traced<E>| worst(&columns, |f| t.estimate(f));
+                let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
+                if let Some(error) = reach(&mut traced, target, first.max(1), cap, worst) {
+                    self.complain(name, target, error, traced.samples());
                 }
             }
         }
-        for (column, _, f) in &columns {
-            let score = traced.estimate(f);
-            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
-        }
-        self.row.samples.push((name, traced.samples()));
+        self.take(name, traced.samples(), &columns, |f| traced.estimate(f));
         Ok(())
     }
+
+    /// Fills in the columns that beams of one direction give, with photons for what is left over as
+    /// far as the plan asks.
+    fn finish<T: Sum, F: Fn(&T) -> f64>(
+        &mut self,
+        name: &'static str,
+        of: impl Fn(Reading) -> Option<F>,
+        tallies: impl Fn(&Work) -> Result<Vec<T>, ExperimentError>,
+    ) -> Result<(), ExperimentError> {
+        let columns = self.columns(of, true);
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let cap = self.plan.cap / PHOTON_COST;
+        let mut photons = match self.plan.effort {
+            Effort::Samples(samples) => samples / PHOTON_COST,
+            Effort::Error(_) => FIRST_SAMPLES / PHOTON_COST,
+        };
+        loop {
+            // fewer than two a batch would leave the remainder out
+            photons = photons.max(2 * BATCHES as u64);
+            let work = Work { photons: photons as usize, seed: self.plan.seed, ..Work::default() };
+            let found = tallies(&work)?;
+            let estimate = |f: &F| match &found[..] {
+                [only] => Estimate::exact(f(only)),
+                all => stats::jackknife(all, f),
+            };
+            let error = worst(&columns, estimate);
+            match self.plan.effort {
+                Effort::Error(target) if error > target && photons < cap => {
+                    photons = more(photons, error / target).min(cap);
+                    continue;
+                }
+                Effort::Error(target) if error > target => self.complain(name, target, error, photons),
+                _ => (),
+            }
+            self.take(name, photons, &columns, estimate);
+            return Ok(());
+        }
+    }
+
+    fn take<F>(
+        &mut self,
+        name: &'static str,
+        samples: u64,
+        columns: &[Column<F>],
+        estimate: impl Fn(&F) -> Estimate,
+    ) {
+        for (column, _, f) in columns {
+            let score = estimate(f);
+            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
+        }
+        self.row.samples.push((name, samples));
+    }
+
+    /// Notes an error that was not reached.
+    fn complain(&mut self, name: &str, target: f64, error: f64, samples: u64) {
+        let note =
+            format!("{name}: standard error {target} not reached: {error:.2e} after {samples} samples");
+        let before = self.row.error.take();
+        self.row.error = Some(before.map_or(note.clone(), |e| format!("{e}; {note}")));
+    }
+}
+
+/// The largest error of any column, measured against its scale.
+fn worst<F>(columns: &[Column<F>], estimate: impl Fn(&F) -> Estimate) -> f64 {
+    columns.iter().map(|(_, scale, f)| estimate(f).error / scale).fold(0.0, f64::max)
+}
+
+/// How many samples are likely to bring an error down that is `times` too large: errors fall with
+/// the root of the samples or faster, but that of few samples may be far off.
+fn more(samples: u64, times: f64) -> u64 {
+    (samples as f64 * (times * times).clamp(LEAST_STEP, LARGEST_STEP)) as u64
 }
 
 /// Traces until the error is below the target; the error if the cap comes first.
 fn reach<E: Experiment>(
     traced: &mut Traced<E>,
     target: f64,
+    first: u64,
     cap: u64,
     worst: impl Fn(&Traced<E>) -> f64,
 ) -> Option<f64> {
-    traced.extend_to(FIRST_SAMPLES.min(cap));
+    traced.extend_to(first.min(cap));
     loop {
         let error = worst(traced);
         if error <= target {
@@ -261,8 +358,6 @@ fn reach<E: Experiment>(
         if traced.samples() >= cap {
             return Some(error);
         }
-        // errors fall with the root of the samples or faster; one of few samples may be far off
-        let steps = (error / target).powi(2).clamp(LEAST_STEP, LARGEST_STEP);
-        traced.extend_to(((traced.samples() as f64 * steps) as u64).min(cap));
+        traced.extend_to(more(traced.samples(), error / target).min(cap));
     }
 }
