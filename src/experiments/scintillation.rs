@@ -17,8 +17,8 @@ const REACH: i32 = 15;
 /// Steps from one tilt to the next, both axes together.
 const STEPS: usize = 4 * REACH as usize;
 
-/// The most points of a cell, as a power of two. The mean change of 64 points' means lies within
-/// .0005 of that of twice as many (`tests/coverage.rs` has the figures).
+/// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
+/// [`Tally::last`], and is about what is left to take off: `tests/faceters.rs` looks at it.
 const FINEST: u32 = 6;
 
 /// A cell has 2^k points or more with probability 2^(−k · this).
@@ -52,6 +52,8 @@ pub struct Tally {
     pub luminance: f64,
     /// Σ |change of a cell's luminance| in one step.
     pub change: f64,
+    /// What of it the doubling to the most points has added (it is negative).
+    pub last: f64,
 }
 
 impl Sum for Tally {
@@ -59,6 +61,7 @@ impl Sum for Tally {
         self.cells += other.cells;
         self.luminance += other.luminance;
         self.change += other.change;
+        self.last += other.last;
     }
 }
 
@@ -128,7 +131,9 @@ impl Groups for Changes<'_> {
         let sum: f64 = luminances.iter().map(|l| f64::from(*l)).sum();
         self.tally.cells += 1.0;
         self.tally.luminance += sum / luminances.len() as f64;
-        self.tally.change += unbiased(&mut self.changes);
+        let (change, last) = unbiased(&mut self.changes);
+        self.tally.change += change;
+        self.tally.last += if luminances.len() == 2 << FINEST { last } else { 0.0 };
     }
 }
 
@@ -137,11 +142,12 @@ fn level(stream: &mut Stream) -> u32 {
     ((-stream.unit64().log2() / RARER) as u32).min(FINEST)
 }
 
-/// What the changes of 2^k points of a cell add to the mean |change| of cells.
-fn unbiased(changes: &mut Vec<f64>) -> f64 {
+/// What the changes of 2^k points of a cell add to the mean |change| of cells, and what of it the last
+/// doubling does.
+fn unbiased(changes: &mut Vec<f64>) -> (f64, f64) {
     let mean_size = |changes: &[f64]| changes.iter().map(|c| c.abs()).sum::<f64>() / changes.len() as f64;
     let mut coarse = mean_size(changes);
-    let (mut sum, mut weight) = (coarse, 1.0);
+    let (mut sum, mut weight, mut last) = (coarse, 1.0, 0.0);
     while changes.len() > 1 {
         let half = changes.len() / 2;
         for i in 0..half {
@@ -150,10 +156,11 @@ fn unbiased(changes: &mut Vec<f64>) -> f64 {
         changes.truncate(half);
         weight *= RARER.exp2();
         let fine = mean_size(changes);
-        sum += weight * (fine - coarse);
+        last = weight * (fine - coarse);
+        sum += last;
         coarse = fine;
     }
-    sum
+    (sum, last)
 }
 
 impl Experiment for Scintillation<'_> {
@@ -197,7 +204,7 @@ mod tests {
             let level = level(&mut stream);
             let change = |s: &mut Stream| if s.unit64() < 0.6 { 1.0 } else { -1.0 };
             let mut changes: Vec<f64> = (0..1 << level).map(|_| change(&mut stream)).collect();
-            let x = unbiased(&mut changes);
+            let (x, _) = unbiased(&mut changes);
             sum += x;
             squares += x * x;
         }
