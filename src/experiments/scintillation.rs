@@ -19,7 +19,7 @@ const STEPS: usize = 4 * REACH as usize;
 
 /// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
 /// [`Tally::last`], and is about what is left to take off: `tests/faceters.rs` looks at it.
-const FINEST: u32 = 6;
+const FINEST: u32 = 10;
 
 /// A cell has 2^k points or more with probability 2^(−k · this).
 const RARER: f64 = 1.25;
@@ -182,8 +182,8 @@ impl Experiment for Scintillation<'_> {
 mod tests {
     use super::*;
 
-    /// Changes of a cell's points are 1 with probability .6 and −1 otherwise: the mean of 64 has a
-    /// mean size of .2032 (by the binomial law), that of one of 1.
+    /// Changes of a cell's points are 1 with probability .6 and −1 otherwise: the mean size of the mean
+    /// of many is .2 (by the binomial law), that of one is 1.
     #[test]
     fn what_few_points_add_has_the_change_of_many_as_its_mean() {
         let n = 1 << FINEST;

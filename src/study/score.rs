@@ -24,7 +24,7 @@ const BEAM_COST: u64 = 4;
 /// The same for a cell of two points.
 const CONTRAST_COST: u64 = 2;
 
-/// The same for a cell of one to 64 points, seen twice.
+/// The same for a cell of one to a thousand points, three on average, seen twice.
 const ROCKING_COST: u64 = 6;
 
 /// The same for a direction of the dome that is followed by beams.
@@ -335,10 +335,10 @@ fn worst<F>(columns: &[Column<F>], estimate: impl Fn(&F) -> Estimate) -> f64 {
     columns.iter().map(|(_, scale, f)| estimate(f).error / scale).fold(0.0, f64::max)
 }
 
-/// How many samples are likely to bring an error down that is `times` too large: errors fall with
-/// the root of the samples or faster, but that of few samples may be far off.
+/// How many samples are likely to bring an error down that is `times` too large: the errors of evenly
+/// spread points fall with the root of the samples or faster, about as samples to the power of 2/3.
 fn more(samples: u64, times: f64) -> u64 {
-    (samples as f64 * (times * times).clamp(LEAST_STEP, LARGEST_STEP)) as u64
+    (samples as f64 * times.powf(1.5).clamp(LEAST_STEP, LARGEST_STEP)) as u64
 }
 
 /// Traces until the error is below the target; the error if the cap comes first.
