@@ -112,7 +112,7 @@ fn exits_at_the_critical_angle_are_balanced() {
 }
 
 /// A rhombic dodecahedron a tenth of a degree off its symmetry sends some percent of its light within
-/// 1e-4 of the horizon, most of it within 1e-6, where `f32` cannot tell up from down. Power and cosines are right: only
+/// 1e-4 of the horizon, most of it much nearer, where `f32` cannot tell up from down. Power and cosines are right: only
 /// on which side of the horizon that light counts is open.
 #[test]
 fn light_along_the_horizon_is_right_but_for_its_side() {
