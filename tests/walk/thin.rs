@@ -84,7 +84,7 @@ fn exits_at_the_critical_angle_are_balanced() {
         let mut packet = Packet::default();
         let steps: [f64; LANES] =
             std::array::from_fn(|l| if l == 0 { 0.0 } else { 10f64.powi(-(l.div_ceil(2) as i32)) });
-        let angle = |l: usize| critical + steps[l] * if l % 2 == 0 { 0.5 } else { -0.5 };
+        let angle = |l: usize| critical + steps[l] * if l.is_multiple_of(2) { 0.5 } else { -0.5 };
         for l in 0..LANES {
             let direction = DVec3::new(angle(l).sin(), 0.0, angle(l).cos());
             packet.set(l, Vec3::ZERO, direction.as_vec3(), 1.0, DIAMOND);
