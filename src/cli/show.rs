@@ -124,7 +124,7 @@ impl Bad {
     fn of(file: &str, failure: &Failure) -> Bad {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(Shape { format, facets, closed, convex, .. }) => {
+            Some(&Shape { format, facets, closed, convex, .. }) => {
                 Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
             None => Bad::Error { file, error: why },
