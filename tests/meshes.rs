@@ -1,5 +1,11 @@
-//! Closed meshes that are no convex stone: shown, and written as meshes, by the program itself.
+//! Meshes: what is written has no gap and no triangle without area; closed meshes that are no convex
+//! stone are shown, and written as meshes.
 
+use cutlab::cut::{Facet, Tier, library};
+use cutlab::formats::Surface;
+use cutlab::solid::Plane;
+use glam::DVec3;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -86,4 +92,54 @@ fn a_mesh_that_is_no_convex_stone_is_written_as_a_mesh() {
     }
     let open = bad.join("open.obj").display().to_string();
     assert!(bench.bad(&["import", &open, "-o", "x.obj"]).contains("3 edges are not shared"));
+}
+
+/// What `tools/check_meshes.py` asks of an independent reader, of the surface that is written.
+fn assert_sound(what: &str, surface: &Surface) {
+    let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
+    for (facet, t) in &surface.triangles {
+        let [a, b, c] = t.map(|i| surface.vertices[i].as_vec3());
+        let area = (b - a).cross(c - a);
+        assert!(area.length() > 0.0, "{what}: a triangle without area in f32");
+        assert!(area.as_dvec3().dot(surface.facets[*facet].1) > 0.0, "{what}: a triangle faces inward");
+        (0..3).for_each(|i| *edges.entry((t[i], t[(i + 1) % 3])).or_default() += 1);
+    }
+    for (&(a, b), &times) in &edges {
+        assert!(times == 1 && edges.get(&(b, a)) == Some(&1), "{what}: edge {a}–{b}");
+    }
+    let corners = surface.polygons.iter().map(|(_, p)| p.len()).sum::<usize>();
+    let triangles: usize = surface.polygons.iter().map(|(_, p)| p.len() - 2).sum();
+    assert_eq!(triangles, surface.triangles.len(), "{what}");
+    // V − E + F
+    assert_eq!(surface.vertices.len() + surface.polygons.len(), corners / 2 + 2, "{what}");
+}
+
+#[test]
+fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
+    let drawn =
+        library::names().filter(|n| cutlab::formats::stone::open(&format!("{n}:length-to-width=2")).is_ok());
+    let specs = library::names().map(String::from).chain(drawn.map(|n| format!("{n}:length-to-width=2")));
+    for spec in specs {
+        let design = cutlab::formats::stone::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;
+        let facets = design.facets().count();
+        let surface = Surface::of_design(&design).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(surface.facets.len(), facets, "{spec}: a facet is too small to be written");
+        assert_sound(&spec, &surface);
+    }
+}
+
+/// A table whose distance has nine decimals passes the point of a pyramid 1e-9 below it: no corner
+/// of the four that it cuts is as far from the next as `f32` can tell.
+#[test]
+fn corners_that_nearly_meet_are_written_as_one() {
+    let mut design = cutlab::formats::stone::open("octahedron").expect("a library cut").design;
+    let top = design.solid().expect("closed").bounds().1.z;
+    let plane = Plane { normal: DVec3::Z, distance: top * (1.0 - 1e-9) };
+    let facet = Facet { name: "table".into(), index: None, plane };
+    let (name, instructions) = ("table".to_string(), String::new());
+    design.tiers.push(Tier { name, angle_deg: Some(0.0), instructions, facets: vec![facet] });
+    assert_eq!(design.solid().expect("closed").faces.len(), 9);
+    let surface = Surface::of_design(&design).expect("is written");
+    assert_eq!((surface.polygons.len(), surface.vertices.len()), (8, 6));
+    assert_sound("octahedron", &surface);
 }

@@ -314,7 +314,7 @@ impl Sheet {
         line(
             "ratios",
             format!(
-                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner if round)",
+                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner)",
                 r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
             ),
         );

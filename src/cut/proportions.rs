@@ -49,8 +49,8 @@ pub struct Proportions {
     pub brilliant: Option<Lengths>,
 }
 
-/// What GemCad and the faceting guilds print below a design: ratios to the width W, which for a
-/// round stone is taken corner to corner ([`wheel_size`]). Checked in `tests/library.rs` against
+/// What GemCad and the faceting guilds print below a design: ratios to the width W, taken corner to
+/// corner ([`wheel_size`]). Checked in `tests/library.rs` against
 /// the figures that the US Faceters Guild published for Classic and First Stone.
 #[derive(Debug, Clone, Serialize)]
 pub struct Ratios {

@@ -21,7 +21,7 @@ use values::Values;
 pub static BINARY: Format = Format {
     name: "ply",
     extensions: &["ply"],
-    about: "PLY mesh in binary: written with f64 corners, one polygon a facet",
+    about: "PLY mesh in binary: written with f64 corners and facets' normals",
     sniff: |source| if header::begins(source.bytes) { 97 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_binary)),
@@ -31,7 +31,7 @@ pub static BINARY: Format = Format {
 pub static TEXT: Format = Format {
     name: "ply-text",
     extensions: &["ply"],
-    about: "PLY mesh as text: one polygon a facet; written for `--to ply-text`",
+    about: "PLY mesh as text: facets' normals; written for `--to ply-text`",
     sniff: |source| if header::begins(source.bytes) && header::says_text(source) { 98 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_text)),
@@ -140,18 +140,19 @@ fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatEr
         .ok_or_else(|| source.at_line(element.line, "property list … vertex_indices of face", "none"))
 }
 
+/// Triangles, as some readers know no polygons of several lengths in one file.
 fn header_of(surface: &Surface, storage: &str) -> String {
     let ascii = |text: &str| text.replace(|c| !(' '..='~').contains(&c), "?");
-    let name = |(facet, _): &(usize, Vec<usize>)| ascii(&surface.facets[*facet].0);
-    let names: String = surface.polygons.iter().map(|p| format!("comment facet {}\n", name(p))).collect();
+    let name = |(facet, _): &(usize, [usize; 3])| ascii(&surface.facets[*facet].0);
+    let names: String = surface.triangles.iter().map(|t| format!("comment facet {}\n", name(t))).collect();
     format!(
         "ply\nformat {storage} 1.0\ncomment cutlab: {}\n{names}element vertex {}\n\
          property double x\nproperty double y\nproperty double z\nelement face {}\n\
-         property list uint int vertex_indices\n\
+         property list uchar int vertex_indices\n\
          property double nx\nproperty double ny\nproperty double nz\nend_header\n",
         ascii(&surface.name),
         surface.vertices.len(),
-        surface.polygons.len()
+        surface.triangles.len()
     )
 }
 
@@ -159,8 +160,8 @@ fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
     let mut bytes = header_of(surface, "binary_little_endian").into_bytes();
     let put = |p: DVec3| p.to_array().into_iter().flat_map(f64::to_le_bytes);
     surface.vertices.iter().for_each(|&v| bytes.extend(put(v)));
-    for (facet, corners) in &surface.polygons {
-        bytes.extend((corners.len() as u32).to_le_bytes());
+    for (facet, corners) in &surface.triangles {
+        bytes.push(3);
         corners.iter().for_each(|&c| bytes.extend((c as i32).to_le_bytes()));
         bytes.extend(put(surface.facets[*facet].1));
     }
@@ -173,11 +174,9 @@ fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
     for v in &surface.vertices {
         let _ = writeln!(text, "{} {} {}", v.x, v.y, v.z);
     }
-    for (facet, corners) in &surface.polygons {
-        let _ = write!(text, "{}", corners.len());
-        corners.iter().for_each(|c| text += &format!(" {c}"));
+    for (facet, [a, b, c]) in &surface.triangles {
         let n = surface.facets[*facet].1;
-        let _ = writeln!(text, " {} {} {}", n.x, n.y, n.z);
+        let _ = writeln!(text, "3 {a} {b} {c} {} {} {}", n.x, n.y, n.z);
     }
     Ok(text.into_bytes())
 }

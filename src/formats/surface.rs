@@ -6,6 +6,11 @@ use crate::cut::{Design, Unit};
 use crate::solid::Body;
 use glam::DVec3;
 
+/// Corners nearer than this, in parts of the stone's diagonal, are written as one: planes of a design
+/// with so many decimals miss their common corners by about as much, and nearer corners would
+/// coincide in `f32` and leave triangles without area.
+const ONE_CORNER: f64 = 2e-7;
+
 /// Polygons and triangles of one closed surface, each part of a facet.
 #[derive(Debug)]
 pub struct Surface {
@@ -26,8 +31,10 @@ pub struct Surface {
 impl Surface {
     /// The solid of the design's planes: one polygon a facet.
     pub fn of_design(design: &Design) -> Result<Surface, FormatError> {
-        let solid =
+        let exact =
             design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+        let (low, high) = exact.bounds();
+        let solid = exact.welded(ONE_CORNER * (high - low).length());
         let (labels, planes, mesh) = (facet_labels(design), design.planes(), solid.triangulate());
         Ok(Surface {
             name: design.name.clone(),

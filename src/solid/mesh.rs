@@ -1,9 +1,11 @@
 //! Triangles of a solid's facets, by constrained Delaunay triangulation.
 
-use super::polyhedron::Polyhedron;
+use super::polyhedron::{Face, Fate, Polyhedron};
+use super::surface::{welded, without_repeats};
 use crate::math::sample;
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use std::collections::HashMap;
 
 /// A triangulated surface.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +19,34 @@ pub struct Mesh {
 }
 
 impl Polyhedron {
+    /// The solid with corners nearer than `distance` to each other made one. Faces that shrink to an
+    /// edge or a point go, and count as redundant.
+    pub fn welded(&self, distance: f64) -> Polyhedron {
+        let first = welded(&self.vertices, distance);
+        if first.iter().enumerate().all(|(i, &f)| i == f) {
+            return self.clone();
+        }
+        let mut number: HashMap<usize, usize> = HashMap::new();
+        let mut solid = Polyhedron { vertices: Vec::new(), faces: Vec::new(), fates: self.fates.clone() };
+        for face in &self.faces {
+            let corners = without_repeats(face.corners.iter().map(|&c| first[c]));
+            if corners.len() < 3 {
+                solid.fates[face.plane] = Fate::Redundant;
+                continue;
+            }
+            solid.fates[face.plane] = Fate::Facet(solid.faces.len());
+            let mut numbered = |c: usize| {
+                *number.entry(c).or_insert_with(|| {
+                    solid.vertices.push(self.vertices[c]);
+                    solid.vertices.len() - 1
+                })
+            };
+            let corners = corners.into_iter().map(&mut numbered).collect();
+            solid.faces.push(Face { plane: face.plane, corners });
+        }
+        solid
+    }
+
     /// The facets as triangles: no sliver where a better diagonal exists, every edge shared by two.
     ///
     /// Each facet's corners are laid into its plane and triangulated with the outline as

@@ -53,7 +53,7 @@ pub(super) fn welded(vertices: &[DVec3], distance: f64) -> Vec<usize> {
 }
 
 /// The ring without repeated corners and without spikes (`a b a`).
-fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize> {
+pub(super) fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut ring: Vec<usize> = Vec::new();
     for c in corners {
         ring.push(c);
