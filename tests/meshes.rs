@@ -124,6 +124,8 @@ fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
         let facets = design.facets().count();
         let surface = Surface::of_design(&design).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(surface.facets.len(), facets, "{spec}: a facet is too small to be written");
+        let corners = design.solid().expect("closed").vertices.len();
+        assert_eq!(surface.vertices.len(), corners, "{spec}: facets miss the corner they should meet in");
         assert_sound(&spec, &surface);
     }
 }
