@@ -49,7 +49,7 @@ impl<'s> Values<'s> {
                 self.at = line;
                 // confidence, shading normals and the like may be nan
                 let none = word.to_ascii_lowercase().contains("nan").then_some(f64::NAN);
-                return number(word).or(none).ok_or_else(|| self.wrong(format!("a number for {name}"), word));
+                number(word).or(none).ok_or_else(|| self.wrong(format!("a number for {name}"), word))
             }
             _ => match kind {
                 Kind::I8 => self.bytes::<1>(name).map(|b| i8::from_le_bytes(b).into()),
