@@ -19,6 +19,17 @@ const ON_PLANE: [f64; 5] = [1e-10, 1e-9, 1e-8, 1e-7, 1e-6];
 /// called open.
 const BOX: f64 = 1e4;
 
+/// A stone so many times smaller than the largest distance of its planes is carved again by its own
+/// measure.
+const SMALL: f64 = 16.0;
+
+/// So many times its own radius a solid may lie from the origin.
+const AFAR: f64 = 1e5;
+
+/// A solid of less volume than this, times the cube of its radius, is refused: a needle a thousand
+/// times as long as it is wide has more.
+const SLIVER: f64 = 1e-7;
+
 /// One facet of a polyhedron.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
@@ -77,6 +88,24 @@ pub enum SolidError {
         /// Its distance as given.
         distance: f64,
     },
+    /// A solid so far from the origin that `f64` has too few digits left for its shape.
+    #[error(
+        "the planes bound a solid of radius {radius:.1e} at {distance:.1e} from the origin, too far to be resolved"
+    )]
+    Afar {
+        /// Radius of the solid.
+        radius: f64,
+        /// Distance of its centre from the origin.
+        distance: f64,
+    },
+    /// A needle or a film, whose corners `f64` cannot tell apart.
+    #[error("the planes bound a sliver: its volume is {:.1e} of the cube of its radius", .volume / .cube)]
+    Sliver {
+        /// Its volume.
+        volume: f64,
+        /// The cube of its radius.
+        cube: f64,
+    },
     /// A cut whose outline did not close: the planes are too nearly degenerate for `f64`.
     #[error("plane {plane} meets the others too nearly degenerately to be resolved")]
     Degenerate {
@@ -108,6 +137,19 @@ impl Polyhedron {
             }
         }
         let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
+        let solid = Self::resolved(planes, size)?;
+        let (centre, radius) = solid.bounding_sphere();
+        let distance = centre.length();
+        if distance > AFAR * radius {
+            return Err(SolidError::Afar { radius, distance });
+        }
+        if radius * SMALL < size { Self::near(planes, centre, radius) } else { Ok(solid) }
+    }
+
+    /// Carved with the least tolerance that leaves every outline closed.
+    ///
+    /// - `size`: what tolerance and box are measured by
+    fn resolved(planes: &[Plane], size: f64) -> Result<Self, SolidError> {
         let mut outcome = Err(SolidError::Degenerate { plane: 0 });
         for on_plane in ON_PLANE {
             outcome = Self::carved(planes, size, on_plane);
@@ -125,7 +167,29 @@ impl Polyhedron {
             fates.push(cut.by(i, planes)?);
         }
         cut.refuse_open(size)?;
-        Ok(cut.finish(planes, fates))
+        let solid = cut.finish(planes, fates);
+        let (volume, cube) = (solid.volume(), solid.bounding_sphere().1.powi(3));
+        if volume > SLIVER * cube { Ok(solid) } else { Err(SolidError::Sliver { volume, cube }) }
+    }
+
+    /// The solid again, for a stone that is small beside some plane's distance: seen from its own
+    /// centre, so that the tolerance is the stone's, and without the planes that lie far beyond it.
+    fn near(planes: &[Plane], centre: DVec3, radius: f64) -> Result<Self, SolidError> {
+        let reach = 2.0 * radius;
+        let (numbers, moved): (Vec<usize>, Vec<Plane>) = planes
+            .iter()
+            .map(|p| p.moved(-centre))
+            .enumerate()
+            .filter(|(_, p)| p.distance.abs() <= reach)
+            .unzip();
+        let mut solid = Self::resolved(&moved, reach)?;
+        solid.vertices.iter_mut().for_each(|v| *v += centre);
+        solid.faces.iter_mut().for_each(|f| f.plane = numbers[f.plane]);
+        let mut fates = vec![Fate::Redundant; planes.len()];
+        for (number, fate) in numbers.iter().zip(solid.fates) {
+            fates[*number] = if let Fate::Duplicate(of) = fate { Fate::Duplicate(numbers[of]) } else { fate };
+        }
+        Ok(Self { fates, ..solid })
     }
 
     /// Number of edges.
@@ -178,7 +242,8 @@ impl Carving {
             .collect();
         let used = || self.faces.iter().flat_map(|f| f.corners.iter().map(|&c| side[c]));
         if !used().any(|s| s > 0) {
-            let twin = self.faces.iter().find(|f| f.corners.iter().all(|&c| side[c] == 0));
+            let mut given = self.faces.iter().filter(|f| f.plane != OF_THE_BOX);
+            let twin = given.find(|f| f.corners.iter().all(|&c| side[c] == 0));
             return Ok(twin.map_or(Fate::Redundant, |f| Fate::Duplicate(f.plane)));
         }
         if !used().any(|s| s < 0) {
