@@ -1,5 +1,6 @@
 //! Convex solids: planes, their intersection, triangles, measures.
 
+mod carving;
 pub mod measure;
 pub mod mesh;
 pub mod plane;

@@ -94,7 +94,7 @@ fn stands_or_says_why(design: &Design) {
 /// Half-spaces: correct, and the same however they are shuffled and turned; or an error.
 pub fn solids(data: &[u8]) {
     let mut bytes = Bytes(data);
-    let (whole, scale) = (bytes.byte() % 2 == 0, 10f64.powi(i32::from(bytes.byte() % 13) - 6));
+    let (whole, scale) = (bytes.byte().is_multiple_of(2), 10f64.powi(i32::from(bytes.byte() % 13) - 6));
     let mut planes = Vec::new();
     while !bytes.is_empty() && planes.len() < 100 {
         let mut number = || if whole { bytes.small() } else { bytes.float() };
@@ -159,7 +159,7 @@ fn entry(bytes: &mut Bytes) -> (&'static str, String) {
         6 => ("width", (bytes.small() / 32.0).to_string()),
         7 => ("table", (bytes.small() / 100.0).to_string()),
         8 => ("repeat", bytes.byte().to_string()),
-        _ => ("mirror", (bytes.byte() % 2 == 0).to_string()),
+        _ => ("mirror", bytes.byte().is_multiple_of(2).to_string()),
     }
 }
 
