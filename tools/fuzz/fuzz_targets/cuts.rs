@@ -1,3 +1,5 @@
+//! libFuzzer on [`targets::cuts`].
+
 #![no_main]
 
 #[path = "../targets.rs"]

@@ -1,3 +1,5 @@
+//! libFuzzer on [`targets::meets`].
+
 #![no_main]
 
 #[path = "../targets.rs"]

@@ -1,3 +1,5 @@
+//! libFuzzer on [`targets::readers`].
+
 #![no_main]
 
 #[path = "../targets.rs"]

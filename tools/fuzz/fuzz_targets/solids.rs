@@ -1,3 +1,5 @@
+//! libFuzzer on [`targets::solids`].
+
 #![no_main]
 
 #[path = "../targets.rs"]
