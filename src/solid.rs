@@ -1,6 +1,7 @@
 //! Convex solids: planes, their intersection, triangles, measures; closed meshes that are not convex.
 
 pub mod body;
+mod carving;
 pub mod measure;
 pub mod mesh;
 pub mod plane;
