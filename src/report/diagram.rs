@@ -49,7 +49,7 @@ pub fn draw(design: &Design, index: Option<f64>) -> Result<String, SolidError> {
     let stone = Stone::new(&solid, &rows, design.gear);
     let wide = PAGE.x - 2.0 * MARGIN;
     let above = facts::above(design, &measures, index, wide);
-    let below = facts::below(design, rows::is_measured(design), wide);
+    let below = facts::below(design, &rows, wide);
     let top = MARGIN + above.height() + SPACE;
     let foot = PAGE.y - MARGIN - below.height();
 
@@ -118,7 +118,13 @@ impl Layout {
                 format!("Pavilion, from below, turned over left to right; indices {}", runs.1),
             ),
         ] {
-            stone.plan(pen, view, DVec2::new(middle, plan), self.side);
+            let nowhere = stone.plan(pen, view, DVec2::new(middle, plan), self.side);
+            let small = if nowhere.is_empty() {
+                String::new()
+            } else {
+                format!("; no room to name {}", nowhere.join(", "))
+            };
+            let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * PAGE.x - MARGIN);
             pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);
         }
         let sides = caption + 1.0 + SPACE;

@@ -1,6 +1,7 @@
 //! What stands above and below the drawings: title, the design file's own lines, the figures.
 
 use super::pen::{Anchor, Pen, fitted, wrapped};
+use super::rows::{self, Row};
 use crate::cut::proportions::Proportions;
 use crate::cut::{Design, Unit};
 use glam::DVec2;
@@ -65,10 +66,16 @@ pub fn above(design: &Design, p: &Proportions, index: Option<f64>, wide: f64) ->
 }
 
 /// Footnotes, source, and who drew it.
-pub fn below(design: &Design, measured: bool, wide: f64) -> Lines {
+pub fn below(design: &Design, rows: &[Row], wide: f64) -> Lines {
     let source = if design.source.is_empty() { String::new() } else { format!("Source: {}", design.source) };
-    let note = if measured { "Angles and indices are measured on the planes of a mesh. " } else { "" };
-    let drawn = format!("{note}Drawn by cutlab {}", env!("CARGO_PKG_VERSION"));
+    let mesh = if rows::is_measured(design) {
+        "Angles and indices are measured on the planes of a mesh. "
+    } else {
+        ""
+    };
+    let cheater = rows.iter().any(|r| r.cheater);
+    let between = if cheater { "Cheater: some indices lie between teeth. " } else { "" };
+    let drawn = format!("{mesh}{between}Drawn by cutlab {}", env!("CARGO_PKG_VERSION"));
     let own = design.footers.iter().map(String::as_str).chain([source.as_str()]);
     let mut lines = said(own, SMALL, wide);
     lines.push((SMALL, false, drawn));

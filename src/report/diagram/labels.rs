@@ -1,13 +1,16 @@
 //! Names inside facets: the largest that fits, in the middle of the room there is for it.
 
+use super::pen::CAPITAL;
 use crate::report::raster::text_width;
 use glam::DVec2;
 
-/// Height of capitals and figures in the fonts of the binary, in units of the font size.
-pub const CAPITAL: f64 = 0.729;
-
-/// Largest and least size of a name, in mm: about 8 and 4 points.
+/// Largest and least size of a name in mm, about 8 and 4 points; the least of one that would
+/// otherwise stand nowhere.
 const SIZES: (f64, f64) = (2.8, 1.4);
+const LAST: f64 = 1.0;
+
+/// Facets that take a name of this part of the largest size are named alike, smaller ones smaller.
+const ALIKE: f64 = 0.7;
 
 /// Space kept to the edges, in units of the font size.
 const CLEAR: f64 = 0.16;
@@ -21,6 +24,8 @@ pub struct Label {
     pub at: DVec2,
     /// Font size.
     pub size: f64,
+    /// Direction of its line; to the right if it is level.
+    pub along: DVec2,
 }
 
 /// Half the box of a text of font size 1.
@@ -28,34 +33,74 @@ pub fn half_box(text: &str) -> DVec2 {
     DVec2::new(0.5 * text_width(text, false), 0.5 * CAPITAL)
 }
 
-/// Places one text in as many of the polygons as have room for it, at one size: the largest that all
-/// of them take.
+/// Places one text in as many of the polygons as have room for it. Large facets have it at one size,
+/// small ones at another; if it fits nowhere level, along the longest edges; if not even so, once
+/// in small print.
 ///
 /// - `polygons`: convex, either way round, in mm
 pub fn place(text: &str, polygons: &[&[DVec2]]) -> Vec<Label> {
     let half = half_box(text) + CLEAR;
-    let fits: Vec<(usize, f64)> =
-        polygons.iter().enumerate().filter_map(|(i, p)| Some((i, largest(p, half)?))).collect();
-    let size = fits.iter().map(|(_, size)| *size).fold(SIZES.0, f64::min);
+    let level = |_: &[DVec2]| DVec2::X;
+    let mut fits = all_fits(polygons, half, SIZES.1, level);
+    if fits.is_empty() {
+        fits = all_fits(polygons, half, SIZES.1, longest_edge);
+    }
+    if fits.is_empty() {
+        fits = all_fits(polygons, half, LAST, longest_edge);
+        fits.sort_by(|a, b| b.size.total_cmp(&a.size));
+        fits.truncate(1);
+    }
+    let largest = fits.iter().map(|f| f.size).fold(0.0, f64::max);
+    let alike = |size: f64| size >= ALIKE * largest;
+    let least = |group: bool| {
+        let sizes = fits.iter().map(|f| f.size).filter(|s| alike(*s) == group);
+        sizes.fold(SIZES.0, f64::min)
+    };
+    let sizes = (least(true), least(false));
     fits.iter()
-        .filter_map(|&(polygon, _)| {
-            Some(Label { polygon, at: middle(&room(polygons[polygon], half * size)), size })
-                .filter(|label| label.at.is_finite())
+        .map(|fit| {
+            let size = if alike(fit.size) { sizes.0 } else { sizes.1 };
+            let turned = turned(polygons[fit.polygon], fit.along);
+            let at = middle(&room(&turned, half * size)).rotate(fit.along);
+            Label { at, size, ..*fit }
         })
+        .filter(|label| label.at.is_finite())
         .collect()
 }
 
-/// The largest size at which a box of half size `half` at size 1 fits; none below the least.
-fn largest(polygon: &[DVec2], half: DVec2) -> Option<f64> {
+/// In which polygons a box of half size `half` at size 1 fits, and how large.
+fn all_fits(polygons: &[&[DVec2]], half: DVec2, least: f64, line: fn(&[DVec2]) -> DVec2) -> Vec<Label> {
+    let fit = |(polygon, corners): (usize, &&[DVec2])| {
+        let along = line(corners);
+        let size = largest(&turned(corners, along), half, least)?;
+        Some(Label { polygon, at: DVec2::ZERO, size, along })
+    };
+    polygons.iter().enumerate().filter_map(fit).collect()
+}
+
+/// The polygon turned so that `along` comes to lie level.
+fn turned(polygon: &[DVec2], along: DVec2) -> Vec<DVec2> {
+    polygon.iter().map(|p| DVec2::new(along.x, -along.y).rotate(*p)).collect()
+}
+
+/// Direction of the longest edge, so that what stands along it is not read upside down.
+fn longest_edge(polygon: &[DVec2]) -> DVec2 {
+    let edges = (0..polygon.len()).map(|i| polygon[(i + 1) % polygon.len()] - polygon[i]);
+    let longest = edges.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let along = longest.unwrap_or(DVec2::X).normalize_or(DVec2::X);
+    if along.x < -1e-9 || (along.x < 1e-9 && along.y > 0.0) { -along } else { along }
+}
+
+/// The largest size at which a box fits; none below `least`.
+fn largest(polygon: &[DVec2], half: DVec2, least: f64) -> Option<f64> {
     let fits = |size: f64| !room(polygon, half * size).is_empty();
     if fits(SIZES.0) {
         return Some(SIZES.0);
     }
-    if !fits(SIZES.1) {
+    if !fits(least) {
         return None;
     }
-    let (mut low, mut high) = SIZES;
-    std::mem::swap(&mut low, &mut high);
+    let (mut low, mut high) = (least, SIZES.0);
     for _ in 0..12 {
         let size = 0.5 * (low + high);
         if fits(size) { low = size } else { high = size }
@@ -114,10 +159,21 @@ mod tests {
         let label = place("P1", &[&small])[0];
         let width = 2.0 * label.size * (half_box("P1").x + CLEAR);
         assert!((width - 2.25).abs() < 1e-3, "{width}");
-        // one too small for it is left out, the others share the least size
+        // one too small for it is left out
         let tiny = square.map(|p| p * 0.1);
         let labels = place("P1", &[&square, &tiny, &small]);
         assert_eq!(labels.iter().map(|l| l.polygon).collect::<Vec<_>>(), [0, 2]);
-        assert!(labels.iter().all(|l| l.size == label.size));
+        assert!(labels.iter().all(|l| l.along == DVec2::X));
+    }
+
+    #[test]
+    fn a_name_too_wide_for_a_sliver_stands_along_it_and_last_of_all_once() {
+        let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 20.0), (0.0, 20.0)].map(|(x, y)| DVec2::new(x, y));
+        let label = place("P12", &[&corners])[0];
+        assert!((label.along - DVec2::NEG_Y).length() < 1e-12, "{label:?}"); // upwards on the page
+        assert!((label.at - DVec2::new(1.0, 10.0)).length() < 1e-9);
+        let thin = corners.map(|p| p * DVec2::new(0.6, 1.0));
+        let labels = place("P12", &[&thin, &thin]);
+        assert!(labels.len() == 1 && labels[0].size < SIZES.1);
     }
 }

@@ -15,6 +15,9 @@ pub const FACET: f64 = 0.2;
 /// See [`OUTLINE`].
 pub const HAIR: f64 = 0.12;
 
+/// Height of capitals and figures in the fonts of the binary, in units of the font size.
+pub const CAPITAL: f64 = 0.729;
+
 /// Which point of a text is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
@@ -63,6 +66,23 @@ impl Pen {
             at.x,
             at.y,
             escaped(text)
+        );
+    }
+
+    /// A name with its middle at `at`, its line along `along`.
+    pub fn name(&mut self, at: DVec2, size: f64, along: DVec2, name: &str) {
+        if along.y.abs() < 1e-9 {
+            return self.text(at + DVec2::new(0.0, 0.5 * CAPITAL * size), size, Anchor::Middle, false, name);
+        }
+        let _ = writeln!(
+            self.svg,
+            "<text transform=\"translate({:.2} {:.2}) rotate({:.1})\" y=\"{:.2}\" font-size=\"{size:.2}\" \
+             text-anchor=\"middle\">{}</text>",
+            at.x,
+            at.y,
+            along.to_angle().to_degrees(),
+            0.5 * CAPITAL * size,
+            escaped(name)
         );
     }
 

@@ -24,6 +24,8 @@ pub struct Row {
     pub count: usize,
     /// Faces of the solid that are left of them.
     pub faces: Vec<usize>,
+    /// Whether some index lies between teeth, so that the machine's cheater is needed.
+    pub cheater: bool,
     /// The tier's own name where the code is not it, instructions, what needs care.
     pub notes: String,
 }
@@ -120,26 +122,30 @@ fn row(design: &Design, solid: &Polyhedron, tiers: &[Tier], angle_deg: f64, cuts
         left += 1;
     }
     let own = [tiers[0].name.trim(), cuts.first()?.name.trim()];
-    let own = own.into_iter().find(|name| !name.is_empty()).unwrap_or_default();
+    // the names in a mesh are of no use to a cutter
+    let own = own.into_iter().find(|name| !name.is_empty() && tiers[0].angle_deg.is_some());
     let mut notes: Vec<String> = Vec::new();
     for said in tiers.iter().map(|t| t.instructions.trim()).filter(|said| !said.is_empty()) {
         if !notes.iter().any(|n| n == said) {
             notes.push(said.into());
         }
     }
-    if !level && tiers[0].angle_deg.is_some() && indices.iter().any(|i| (i - i.round()).abs() > 0.005) {
-        notes.push("cheater: indices between teeth".into());
+    let between = |i: &f64| (i - i.round()).abs() > 0.005;
+    let cheater = !level && tiers[0].angle_deg.is_some() && indices.iter().any(between);
+    if cheater {
+        notes.push("cheater".into());
     }
     if left < cuts.len() {
         notes.push(format!("{} of {} cut away later", cuts.len() - left, cuts.len()));
     }
     Some(Row {
-        code: own.into(), // until `name` has seen them all
+        code: own.unwrap_or_default().into(), // until `name` has seen them all
         zone: Zone::of(cuts.first()?.normal),
         angle_deg,
         indices: if level { Vec::new() } else { indices },
         count: cuts.len(),
         faces,
+        cheater,
         notes: notes.join("; "),
     })
 }
@@ -168,7 +174,6 @@ fn name(rows: &mut [Row]) {
         let numbered = (1..).map(|n| format!("{letter}{n}"));
         let code = alone.into_iter().chain(numbered).find(|code| !taken.contains(code)).unwrap_or_default();
         taken.insert(code.clone());
-        // a mesh's facets carry names of no use to a cutter
         let said = std::mem::replace(&mut row.code, code);
         let parts = [said, std::mem::take(&mut row.notes)];
         row.notes = parts.into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>().join(": ");

@@ -9,6 +9,9 @@ use glam::DVec2;
 /// Font sizes from the largest to the smallest that a cutter still reads, in mm (9.1 to 5.1 points).
 const SIZES: [f64; 15] = [3.2, 3.1, 3.0, 2.9, 2.8, 2.7, 2.6, 2.5, 2.4, 2.3, 2.2, 2.1, 2.0, 1.9, 1.8];
 
+/// From this size on one column is better than two of larger print.
+const EASY: f64 = 2.5;
+
 /// Distance of lines, and of columns within a row, in units of the font size.
 const LEAD: f64 = 1.36;
 const GAP: f64 = 1.1;
@@ -21,15 +24,17 @@ const HEADS: [&str; 5] = ["Facet", "Angle", "n", "Index", "Notes"];
 
 /// A row as lines of text.
 struct Block {
-    /// Pavilion or crown, where it begins.
-    head: Option<&'static str>,
+    /// Pavilion or crown.
+    side: &'static str,
     cells: [Vec<String>; 5],
 }
 
+/// Lines that a head takes, with the space above it.
+const HEAD: usize = 2;
+
 impl Block {
     fn lines(&self) -> usize {
-        let text = self.cells.iter().map(Vec::len).max().unwrap_or_default();
-        text + if self.head.is_some() { 2 } else { 0 }
+        self.cells.iter().map(Vec::len).max().unwrap_or_default()
     }
 }
 
@@ -48,10 +53,9 @@ pub struct Set {
 /// Sets the table into a box of `room` mm at the largest size of at least `least` mm at which all of
 /// it fits; none if it does not.
 pub fn fit(rows: &[Row], gear: Gear, room: DVec2, least: f64) -> Option<Set> {
-    SIZES
-        .iter()
-        .filter(|size| **size >= least)
-        .flat_map(|size| [1, 2].map(|halves| (*size, halves)))
+    let sizes = SIZES.iter().filter(|size| **size >= least);
+    let one = sizes.clone().filter(|size| **size >= EASY).map(|size| (*size, 1));
+    one.chain(sizes.flat_map(|size| [1, 2].map(|halves| (*size, halves))))
         .filter_map(|(size, halves)| set(rows, gear, room, size, halves))
         .find(|set| set.left_out == 0)
 }
@@ -89,8 +93,7 @@ fn set(rows: &[Row], gear: Gear, room: DVec2, size: f64, halves: usize) -> Optio
     for c in 1..5 {
         lefts[c] = lefts[c - 1] + widths[c - 1] + gap;
     }
-    let heads = heads(rows);
-    let blocks = texts.into_iter().zip(heads).map(|(texts, head)| {
+    let blocks = texts.into_iter().zip(sides(rows)).map(|(texts, side)| {
         let mut c = 0;
         let cells = texts.map(|text| {
             c += 1;
@@ -100,7 +103,7 @@ fn set(rows: &[Row], gear: Gear, room: DVec2, size: f64, halves: usize) -> Optio
                 _ => vec![text],
             }
         });
-        Block { head, cells }
+        Block { side, cells }
     });
     let blocks: Vec<Block> = blocks.collect();
     let most = (room.y / (LEAD * size)).floor() as usize;
@@ -108,35 +111,37 @@ fn set(rows: &[Row], gear: Gear, room: DVec2, size: f64, halves: usize) -> Optio
     Some(Set { size, lefts, width: wide, halves, left_out })
 }
 
-/// Where the pavilion and the crown begin: a head for the row, if it is the first of its side. The
-/// girdle goes with what is cut with it.
-fn heads(rows: &[Row]) -> Vec<Option<&'static str>> {
+/// For each row whether it is the pavilion's or the crown's. The girdle goes with what is cut before
+/// it, or after it if it is the first.
+fn sides(rows: &[Row]) -> Vec<&'static str> {
     let side = |r: &Row| match r.zone {
         Zone::Pavilion | Zone::Culet => Some("PAVILION"),
         Zone::Crown | Zone::Table => Some("CROWN"),
         Zone::Girdle => None,
     };
-    let mut now = None;
-    let mut heads = Vec::with_capacity(rows.len());
-    for (i, row) in rows.iter().enumerate() {
-        let here = side(row).or_else(|| if i == 0 { rows.iter().find_map(side) } else { None });
-        heads.push(here.filter(|_| here != now));
-        now = here.or(now);
+    let mut now = rows.iter().find_map(side).unwrap_or("GIRDLE");
+    let mut sides = Vec::with_capacity(rows.len());
+    for row in rows {
+        now = side(row).unwrap_or(now);
+        sides.push(now);
     }
-    heads
+    sides
 }
 
 /// Pours the blocks into halves of at most `most` lines, as even as it goes; the second figure is
 /// how many blocks had no room.
 fn poured(blocks: Vec<Block>, halves: usize, most: usize) -> (Vec<Vec<Block>>, usize) {
     let lines: Vec<usize> = blocks.iter().map(Block::lines).collect();
+    let head = |at: usize, first: bool| {
+        if first || at == 0 || blocks[at].side != blocks[at - 1].side { HEAD } else { 0 }
+    };
     // lengths of the halves for a height, and what is left
     let split = |height: usize| {
         let (mut at, mut ends) = (0, Vec::new());
         for _ in 0..halves {
-            let mut used = 0;
-            while at < lines.len() && used + lines[at] <= height {
-                used += lines[at];
+            let (mut used, start) = (0, at);
+            while at < lines.len() && used + head(at, at == start) + lines[at] <= height {
+                used += head(at, at == start) + lines[at];
                 at += 1;
             }
             ends.push(at);
@@ -144,7 +149,7 @@ fn poured(blocks: Vec<Block>, halves: usize, most: usize) -> (Vec<Vec<Block>>, u
         (ends, lines.len() - at)
     };
     let even = lines.iter().sum::<usize>().div_ceil(halves);
-    let height = (even.min(most)..most).find(|h| split(*h).1 == 0).unwrap_or(most);
+    let height = (even.min(most)..=most).find(|h| split(*h).1 == 0).unwrap_or(most);
     // a line for saying what is missing
     let (ends, left_out) = match split(height) {
         (_, left) if left > 0 => split(height.saturating_sub(1)),
@@ -181,10 +186,12 @@ impl Set {
             }
             pen.rule(DVec2::new(left, y + 0.35 * size), self.width);
             y += 0.35 * size;
+            let mut side = "";
             for block in blocks {
-                if let Some(head) = block.head {
+                if block.side != side {
+                    side = block.side;
                     y += 1.5 * lead;
-                    pen.text(DVec2::new(left, y), size, Anchor::Start, true, head);
+                    pen.text(DVec2::new(left, y), size, Anchor::Start, true, side);
                     y += 0.25 * lead;
                 }
                 for (c, lines) in block.cells.iter().enumerate() {
@@ -192,7 +199,7 @@ impl Set {
                         self.cell(pen, left, y + (i + 1) as f64 * lead, c, c == 0, line);
                     }
                 }
-                y += lead * block.cells.iter().map(Vec::len).max().unwrap_or_default() as f64;
+                y += lead * block.lines() as f64;
             }
             lowest = lowest.max(y);
         }

@@ -1,7 +1,7 @@
 //! The drawings: two plans with the wheel around them, two side views, names in the facets.
 
-use super::labels::{self, CAPITAL};
-use super::pen::{Anchor, FACET, OUTLINE, Pen};
+use super::labels;
+use super::pen::{FACET, OUTLINE, Pen};
 use super::projection::{self, Seen, View};
 use super::rows::{LISTED, Row};
 use super::wheel;
@@ -25,10 +25,10 @@ pub struct Stone<'a> {
     pub rows: &'a [Row],
     /// Its wheel.
     pub gear: Gear,
-    /// The wheel's axis, in the design's unit.
-    axis: DVec3,
-    /// Farthest corner from the axis.
-    radius: f64,
+    /// Middle of its box, in the design's unit. The wheel stands about it: an index is a direction.
+    middle: DVec3,
+    /// Farthest corner from there, seen from above.
+    reach: f64,
     /// For each face the number of its row.
     row_of: Vec<Option<usize>>,
 }
@@ -41,26 +41,21 @@ struct Placed {
 }
 
 impl<'a> Stone<'a> {
-    /// The stone about the wheel's axis; one that does not stand on the axis (a mesh) about its own
-    /// middle.
+    /// The stone with its tiers.
     pub fn new(solid: &'a Polyhedron, rows: &'a [Row], gear: Gear) -> Stone<'a> {
         let (lo, hi) = solid.bounds();
-        let outline = solid.outline();
-        let sides = (0..outline.len()).map(|i| (outline[i], outline[(i + 1) % outline.len()]));
-        let on_axis = sides.into_iter().all(|(a, b)| (b - a).perp_dot(-a) > 0.0);
         let middle = (lo + hi) * 0.5;
-        let axis = if on_axis { DVec3::new(0.0, 0.0, middle.z) } else { middle };
-        let radius = outline.iter().map(|p| p.distance(axis.truncate())).fold(f64::MIN_POSITIVE, f64::max);
+        let reach = solid.outline().iter().map(|p| p.distance(middle.truncate())).fold(0.0, f64::max);
         let mut row_of = vec![None; solid.faces.len()];
         for (number, row) in rows.iter().enumerate() {
             row.faces.iter().for_each(|&face| row_of[face] = Some(number));
         }
-        Stone { solid, rows, gear, axis, radius, row_of }
+        Stone { solid, rows, gear, middle, reach, row_of }
     }
 
     /// Scale in mm to the design's unit at which a plan with its wheel is `side` mm wide.
     pub fn scale(&self, side: f64) -> f64 {
-        (0.5 * side - wheel::OUTSIDE - wheel::INSIDE - RING) / self.radius
+        (0.5 * side - wheel::OUTSIDE - wheel::INSIDE - RING) / self.reach
     }
 
     /// Extent of a side view in the design's unit.
@@ -69,18 +64,19 @@ impl<'a> Stone<'a> {
         (view.project(hi) - view.project(lo)).abs()
     }
 
-    /// The view with `origin` (of the design) at `at` on the page.
-    fn placed(&self, view: View, origin: DVec3, at: DVec2, scale: f64) -> Placed {
-        let place = |p: DVec2| at + (p - view.project(origin)) * scale;
+    /// The view with the stone's middle at `at` on the page.
+    fn placed(&self, view: View, at: DVec2, scale: f64) -> Placed {
+        let place = |p: DVec2| at + (p - view.project(self.middle)) * scale;
         let mut facets = view.facets(self.solid);
         facets.iter_mut().flat_map(|f| &mut f.corners).for_each(|p| *p = place(*p));
         let outline = convex_hull(self.solid.vertices.iter().map(|v| place(view.project(*v))).collect());
         Placed { view, facets, outline }
     }
 
-    /// A plan with its wheel, `side` mm wide, its middle at `at`.
-    pub fn plan(&self, pen: &mut Pen, view: View, at: DVec2, side: f64) {
-        let placed = self.placed(view, self.axis, at, self.scale(side));
+    /// A plan with its wheel, `side` mm wide, its middle at `at`; the codes of tiers that are too
+    /// small for a name there are given back.
+    pub fn plan(&self, pen: &mut Pen, view: View, at: DVec2, side: f64) -> Vec<&'a str> {
+        let placed = self.placed(view, at, self.scale(side));
         let side_of = |zone| match view {
             View::Pavilion => matches!(zone, Zone::Pavilion | Zone::Culet | Zone::Girdle),
             _ => matches!(zone, Zone::Crown | Zone::Table | Zone::Girdle),
@@ -92,14 +88,13 @@ impl<'a> Stone<'a> {
         cut.dedup_by(|a, b| (*a - *b).abs() < 0.005);
         wheel::draw(pen, self.gear, view, at, 0.5 * side - wheel::OUTSIDE, &cut);
         self.lines(pen, &placed);
-        self.names(pen, &placed);
         self.girdle_names(pen, view, at, self.scale(side));
+        self.names(pen, &placed)
     }
 
     /// A side view, its middle at `at`.
     pub fn side(&self, pen: &mut Pen, view: View, at: DVec2, scale: f64) {
-        let (lo, hi) = self.solid.bounds();
-        let placed = self.placed(view, (lo + hi) * 0.5, at, scale);
+        let placed = self.placed(view, at, scale);
         self.lines(pen, &placed);
         self.names(pen, &placed);
     }
@@ -111,15 +106,19 @@ impl<'a> Stone<'a> {
         pen.named_lines(&format!("{name}-outline"), &projection::path([placed.outline.as_slice()]), OUTLINE);
     }
 
-    /// The codes of the tiers inside their facets.
-    fn names(&self, pen: &mut Pen, placed: &Placed) {
+    /// The codes of the tiers inside their facets; those that found no room are given back.
+    fn names(&self, pen: &mut Pen, placed: &Placed) -> Vec<&'a str> {
+        let mut nowhere = Vec::new();
         for (number, row) in self.rows.iter().enumerate() {
             let own = placed.facets.iter().filter(|f| self.row_of[f.face] == Some(number));
             let polygons: Vec<&[DVec2]> = own.map(|f| f.corners.as_slice()).collect();
-            for label in labels::place(&row.code, &polygons) {
-                text(pen, label.at, label.size, &row.code);
+            let labels = labels::place(&row.code, &polygons);
+            if labels.is_empty() && !polygons.is_empty() {
+                nowhere.push(row.code.as_str());
             }
+            labels.iter().for_each(|l| pen.name(l.at, l.size, l.along, &row.code));
         }
+        nowhere
     }
 
     /// The codes of girdle facets outside the edges that they are in a plan. Where a name would run
@@ -138,21 +137,16 @@ impl<'a> Stone<'a> {
                 let out = view.project(self.solid.area_vector(face)).normalize_or_zero();
                 let half = labels::half_box(&row.code) * GIRDLE;
                 let middle =
-                    at + view.project(middle - self.axis) * scale + out * (out.abs().dot(half) + 0.7);
+                    at + view.project(middle - self.middle) * scale + out * (out.abs().dot(half) + 0.7);
                 let apart = |(other, its): &(DVec2, DVec2)| {
                     let gap = (*other - middle).abs() - *its - half;
                     gap.max_element() > 0.5
                 };
                 if boxes.iter().all(apart) {
-                    text(pen, middle, GIRDLE, &row.code);
+                    pen.name(middle, GIRDLE, DVec2::X, &row.code);
                     boxes.push((middle, half));
                 }
             }
         }
     }
-}
-
-/// A name with its middle at `at`.
-fn text(pen: &mut Pen, at: DVec2, size: f64, code: &str) {
-    pen.text(at + DVec2::new(0.0, 0.5 * CAPITAL * size), size, Anchor::Middle, false, code);
 }

@@ -1,7 +1,6 @@
 //! The index wheel around a plan: ticks, numbers, and a longer tick at every index that is cut.
 
-use super::labels::CAPITAL;
-use super::pen::{Anchor, HAIR, Pen, width};
+use super::pen::{Anchor, CAPITAL, HAIR, Pen, width};
 use super::projection::View;
 use crate::cut::Gear;
 use glam::{DVec2, DVec3};
@@ -33,7 +32,7 @@ pub fn index_name(index: f64, gear: Gear) -> String {
     if rest == 0.0 {
         return name;
     }
-    format!("{name}.{rest:02.0}").trim_end_matches('0').into()
+    format!("{name}.{rest:02.0}")
 }
 
 /// Direction of an index on the page.
@@ -99,7 +98,7 @@ mod tests {
         let read = |i| index_name(i, gear);
         assert_eq!(
             [0.0, 3.0, 2.5, 95.999, 96.0, -3.0, 8.25].map(read),
-            ["96", "03", "02.5", "96", "96", "93", "08.25"]
+            ["96", "03", "02.50", "96", "96", "93", "08.25"]
         );
         assert_eq!(index_name(7.0, Gear { teeth: -120.0, offset: 0.0 }), "007");
     }
