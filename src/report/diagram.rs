@@ -122,7 +122,7 @@ impl Layout {
             let small = if nowhere.is_empty() {
                 String::new()
             } else {
-                format!("; no room to name {}", nowhere.join(", "))
+                format!("; too small: {}", nowhere.join(", "))
             };
             let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * PAGE.x - MARGIN);
             pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);

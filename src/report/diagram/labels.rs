@@ -34,18 +34,19 @@ pub fn half_box(text: &str) -> DVec2 {
 }
 
 /// Places one text in as many of the polygons as have room for it. Large facets have it at one size,
-/// small ones at another; if it fits nowhere level, along the longest edges; if not even so, once
-/// in small print.
+/// small ones at another.
 ///
 /// - `polygons`: convex, either way round, in mm
-pub fn place(text: &str, polygons: &[&[DVec2]]) -> Vec<Label> {
+/// - `pressed`: what fits nowhere level is placed along the longest edges, and if not even so, once
+///   in small print
+pub fn place(text: &str, polygons: &[&[DVec2]], pressed: bool) -> Vec<Label> {
     let half = half_box(text) + CLEAR;
     let level = |_: &[DVec2]| DVec2::X;
     let mut fits = all_fits(polygons, half, SIZES.1, level);
-    if fits.is_empty() {
+    if fits.is_empty() && pressed {
         fits = all_fits(polygons, half, SIZES.1, longest_edge);
     }
-    if fits.is_empty() {
+    if fits.is_empty() && pressed {
         fits = all_fits(polygons, half, LAST, longest_edge);
         fits.sort_by(|a, b| b.size.total_cmp(&a.size));
         fits.truncate(1);
@@ -152,16 +153,16 @@ mod tests {
     #[test]
     fn a_name_stands_in_the_middle_of_a_square_and_is_as_large_as_fits() {
         let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| DVec2::new(x, y));
-        let label = place("P1", &[&square])[0];
+        let label = place("P1", &[&square], true)[0];
         assert!((label.at - DVec2::splat(4.5)).length() < 1e-9 && label.size == SIZES.0);
         let mut small = square.map(|p| p * 0.25);
         small.reverse();
-        let label = place("P1", &[&small])[0];
+        let label = place("P1", &[&small], true)[0];
         let width = 2.0 * label.size * (half_box("P1").x + CLEAR);
         assert!((width - 2.25).abs() < 1e-3, "{width}");
         // one too small for it is left out
         let tiny = square.map(|p| p * 0.1);
-        let labels = place("P1", &[&square, &tiny, &small]);
+        let labels = place("P1", &[&square, &tiny, &small], true);
         assert_eq!(labels.iter().map(|l| l.polygon).collect::<Vec<_>>(), [0, 2]);
         assert!(labels.iter().all(|l| l.along == DVec2::X));
     }
@@ -169,11 +170,12 @@ mod tests {
     #[test]
     fn a_name_too_wide_for_a_sliver_stands_along_it_and_last_of_all_once() {
         let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 20.0), (0.0, 20.0)].map(|(x, y)| DVec2::new(x, y));
-        let label = place("P12", &[&corners])[0];
+        let label = place("P12", &[&corners], true)[0];
         assert!((label.along - DVec2::NEG_Y).length() < 1e-12, "{label:?}"); // upwards on the page
         assert!((label.at - DVec2::new(1.0, 10.0)).length() < 1e-9);
         let thin = corners.map(|p| p * DVec2::new(0.6, 1.0));
-        let labels = place("P12", &[&thin, &thin]);
+        let labels = place("P12", &[&thin, &thin], true);
         assert!(labels.len() == 1 && labels[0].size < SIZES.1);
+        assert!(place("P12", &[&corners], false).is_empty());
     }
 }

@@ -86,6 +86,16 @@ impl Pen {
         );
     }
 
+    /// Begins a group of that name, to be closed by [`Pen::end`].
+    pub fn group(&mut self, id: &str) {
+        let _ = writeln!(self.svg, "<g id=\"{id}\">");
+    }
+
+    /// Ends a group.
+    pub fn end(&mut self) {
+        self.svg += "</g>\n";
+    }
+
     /// Path data as lines.
     pub fn lines(&mut self, data: &str, width: f64) {
         self.path("", data, width);

@@ -2,6 +2,7 @@
 
 use super::wheel::index_name;
 use crate::cut::design::read_alike;
+use crate::cut::proportions::SLIVER;
 use crate::cut::{Design, Gear, Tier, Zone};
 use crate::solid::Polyhedron;
 use crate::solid::polyhedron::Fate;
@@ -113,8 +114,10 @@ fn row(design: &Design, solid: &Polyhedron, tiers: &[Tier], angle_deg: f64, cuts
     indices.sort_by(f64::total_cmp);
     let mut faces: Vec<usize> = Vec::new();
     let mut left = 0;
+    let sliver = SLIVER * solid.width().powi(2);
     for fate in cuts.iter().filter_map(|c| solid.fates.get(c.number)) {
         match fate {
+            Fate::Facet(face) if solid.area(*face) <= sliver => continue,
             Fate::Facet(face) => faces.push(*face),
             Fate::Duplicate(_) => (),
             Fate::Redundant => continue,
@@ -136,7 +139,9 @@ fn row(design: &Design, solid: &Polyhedron, tiers: &[Tier], angle_deg: f64, cuts
         notes.push("cheater".into());
     }
     if left < cuts.len() {
-        notes.push(format!("{} of {} cut away later", cuts.len() - left, cuts.len()));
+        let some =
+            if left == 0 { String::new() } else { format!("{} of {} ", cuts.len() - left, cuts.len()) };
+        notes.push(format!("{some}cut away later"));
     }
     Some(Row {
         code: own.unwrap_or_default().into(), // until `name` has seen them all

@@ -166,12 +166,6 @@ fn poured(blocks: Vec<Block>, halves: usize, most: usize) -> (Vec<Vec<Block>>, u
 }
 
 impl Set {
-    /// The size it is set at, in mm.
-    #[cfg(test)]
-    pub fn size(&self) -> f64 {
-        self.size
-    }
-
     /// Draws it with its upper left corner at `corner`.
     pub fn draw(&self, pen: &mut Pen, corner: DVec2) {
         let (size, lead) = (self.size, self.size * LEAD);

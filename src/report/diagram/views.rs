@@ -109,15 +109,22 @@ impl<'a> Stone<'a> {
     /// The codes of the tiers inside their facets; those that found no room are given back.
     fn names(&self, pen: &mut Pen, placed: &Placed) -> Vec<&'a str> {
         let mut nowhere = Vec::new();
+        pen.group(&format!("{}-names", placed.view.name()));
         for (number, row) in self.rows.iter().enumerate() {
             let own = placed.facets.iter().filter(|f| self.row_of[f.face] == Some(number));
             let polygons: Vec<&[DVec2]> = own.map(|f| f.corners.as_slice()).collect();
-            let labels = labels::place(&row.code, &polygons);
+            let plan = matches!(placed.view, View::Crown | View::Pavilion);
+            let mut labels = labels::place(&row.code, &polygons, plan);
+            if row.zone == Zone::Girdle && row.faces.len() > GIRDLE_NAMES {
+                labels.sort_by(|a, b| b.size.total_cmp(&a.size));
+                labels.truncate(1);
+            }
             if labels.is_empty() && !polygons.is_empty() {
                 nowhere.push(row.code.as_str());
             }
             labels.iter().for_each(|l| pen.name(l.at, l.size, l.along, &row.code));
         }
+        pen.end();
         nowhere
     }
 
