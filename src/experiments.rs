@@ -18,6 +18,18 @@ pub use beam::Beam;
 pub use hemisphere::Hemisphere;
 pub use view::View;
 
+use crate::optics::Material;
+
+/// What a stone is made of, and how light is followed in it.
+#[derive(Debug, Clone, Copy)]
+pub struct Medium<'a> {
+    /// The material.
+    pub material: &'a Material,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
+    /// each (scalar Fresnel).
+    pub polarised: bool,
+}
+
 /// A stone or material that cannot be lit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExperimentError {

@@ -3,7 +3,7 @@
 use cutlab::cut::{families, library};
 use cutlab::experiments::exact::{self, Effort};
 use cutlab::experiments::separation;
-use cutlab::experiments::{Beam, Traced, View};
+use cutlab::experiments::{Beam, Medium, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::optics::Material;
 use cutlab::solid::{Plane, Polyhedron};
@@ -190,7 +190,8 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
             let axis = DMat3::from_rotation_z(0.3) * DVec3::X;
             let turned = design.turned(DMat3::from_axis_angle(axis, tilt.to_radians()));
             let stone = Stone::new(turned.solid().expect("closed"));
-            let mut view = Traced::new(View::new(&stone, material, false).expect("lit"), SEED);
+            let mut view =
+                Traced::new(View::new(&stone, &Medium { material, polarised: false }).expect("lit"), SEED);
             view.extend_to(100_000);
             let effort = Effort { seed: SEED, ..Effort::default() };
             let beams = Beams::new(&stone);
@@ -242,7 +243,8 @@ fn the_separation_of_colours_agrees_with_photons() {
     ] {
         let material = Material::named(material).expect("in the catalogue");
         let stone = Stone::new(brilliant(overrides));
-        let mut photons = Traced::new(Beam::new(&stone, material, false).expect("lit"), SEED);
+        let mut photons =
+            Traced::new(Beam::new(&stone, &Medium { material, polarised: false }).expect("lit"), SEED);
         photons.extend_to(100_000);
         let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
         for stop_power in [1e-4, 1e-5] {

@@ -1,7 +1,7 @@
 //! Polarised light: the Mueller matrices against field components, the lanes against the twin,
 //! energy, and what polarisation does to a view.
 
-use cutlab::experiments::{Traced, View};
+use cutlab::experiments::{Medium, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::math::sample;
 use cutlab::optics::Material;
@@ -162,7 +162,10 @@ fn polarisation_changes_a_view_by_as_much_as_is_known() {
     let stone = brilliant(Isa::best());
     let material = Material::of_index(2.417298);
     let up = |polarised| {
-        let mut traced = Traced::new(View::new(&stone, &material, polarised).expect("a crown"), SEED);
+        let mut traced = Traced::new(
+            View::new(&stone, &Medium { material: &material, polarised }).expect("a crown"),
+            SEED,
+        );
         traced.extend_to(1 << 17);
         traced.estimate(|t| (t.up(), t.rays))
     };

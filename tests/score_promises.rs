@@ -4,7 +4,7 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, stone, subject};
-use cutlab::experiments::{Beam, Hemisphere, Traced, View};
+use cutlab::experiments::{Beam, Hemisphere, Medium, Traced, View};
 use cutlab::math::stats::Estimate;
 use cutlab::metrics::METRICS;
 use cutlab::optics::Material;
@@ -53,12 +53,18 @@ fn errors_cover_the_truth_as_often_as_they_say() {
     let stone = stone(&named("reference"));
     let material = n2417();
     let dome = |seed, samples| {
-        let mut traced = Traced::new(Hemisphere::new(&stone, &material, false).expect("lit"), seed);
+        let mut traced = Traced::new(
+            Hemisphere::new(&stone, &Medium { material: &material, polarised: false }).expect("lit"),
+            seed,
+        );
         traced.extend_to(samples);
         traced.estimate(|t| (t.returned_cos2, t.arrived))
     };
     let look = |seed, samples| {
-        let mut traced = Traced::new(View::new(&stone, &material, false).expect("lit"), seed);
+        let mut traced = Traced::new(
+            View::new(&stone, &Medium { material: &material, polarised: false }).expect("lit"),
+            seed,
+        );
         traced.extend_to(samples);
         traced.estimate(|t| (t.bands[1], t.rays))
     };
@@ -121,7 +127,8 @@ fn rows_hold_what_applies_and_say_what_failed() {
 #[test]
 fn a_constant_index_separates_nothing() {
     let stone = stone(&named("reference"));
-    let mut beam = Traced::new(Beam::new(&stone, &n2417(), false).expect("lit"), SEED);
+    let mut beam =
+        Traced::new(Beam::new(&stone, &Medium { material: &n2417(), polarised: false }).expect("lit"), SEED);
     beam.extend_to(1000);
     assert_eq!(beam.estimate(|t| (t.power_angle_deg, t.paired_power)).value, 0.0);
     assert_eq!(beam.estimate(|t| (t.streak_deg, t.points)).value, 0.0);

@@ -8,7 +8,7 @@ mod brilliants;
 
 use brilliants::{SEED, design, diamond, n2417, named, scores, stone};
 use cutlab::cut::library;
-use cutlab::experiments::{Hemisphere, Traced, View, hemisphere, view};
+use cutlab::experiments::{Hemisphere, Medium, Traced, View, hemisphere, view};
 use cutlab::math::stats::Estimate;
 use cutlab::optics::Material;
 use std::collections::BTreeMap;
@@ -51,7 +51,10 @@ fn wlr_of_the_other_stones() {
 #[test]
 fn wlr_by_other_normalisations() {
     let stone = stone(&named("reference"));
-    let mut dome = Traced::new(Hemisphere::new(&stone, &n2417(), false).expect("lit"), SEED);
+    let mut dome = Traced::new(
+        Hemisphere::new(&stone, &Medium { material: &n2417(), polarised: false }).expect("lit"),
+        SEED,
+    );
     dome.extend_to(1 << 18);
     let drawn = dome.estimate(|t: &hemisphere::Tally| (t.returned_cos2, t.drawn));
     assert_near("rejected counted", drawn, 0.264, 0.001);
@@ -234,7 +237,8 @@ fn fire_of_the_reference_stone_and_the_nailhead_s_separation() {
 #[test]
 fn vertical_view_splits_as_the_reference_tracer_says() {
     let stone = stone(&named("reference"));
-    let view = View::new(&stone, &Material::of_index(2.417298), false).expect("lit");
+    let view = View::new(&stone, &Medium { material: &Material::of_index(2.417298), polarised: false })
+        .expect("lit");
     let mut seen = Traced::new(view, SEED);
     seen.extend_to(1 << 18);
     let share = |of: fn(&view::Tally) -> f64| seen.estimate(|t| (of(t), t.rays));

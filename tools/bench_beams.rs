@@ -4,7 +4,7 @@
 
 use cutlab::cut::families;
 use cutlab::experiments::exact::{self, Effort};
-use cutlab::experiments::{Traced, View};
+use cutlab::experiments::{Medium, Traced, View};
 use cutlab::optics::Material;
 use cutlab::walk::Stone;
 use cutlab::walk::beams::{Beams, Exit, Lit, Scalar, Watch};
@@ -91,7 +91,7 @@ fn errors(material: &Material, runs: usize) -> Result<(), Box<dyn Error>> {
     }
     for samples in [4096, 16_384, 65_536, 262_144] {
         let trace = || {
-            let mut view = Traced::new(View::new(&stone, material, false)?, 1);
+            let mut view = Traced::new(View::new(&stone, &Medium { material, polarised: false })?, 1);
             view.extend_to(samples);
             Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| (t.up(), t.rays)))
         };

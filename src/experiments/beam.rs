@@ -2,10 +2,10 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::{ExperimentError, check_index};
+use super::{ExperimentError, Medium, check_index};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
-use crate::optics::{Material, dispersion::lines};
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::{DVec3, Vec3};
@@ -58,15 +58,15 @@ pub struct Tally {
 
 impl<'a> Beam<'a> {
     /// Lights a stone; a material without dispersion gives no angles.
-    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
+    pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
         let mut indices = [[0.0; LINES]; 2];
         for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
             for (n, um) in into.iter_mut().zip(lines) {
-                *n = check_index(material.index(um))?;
+                *n = check_index(medium.material.index(um))?;
             }
         }
         let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
-        Ok(Self { stone, polarised, indices, outline, crown })
+        Ok(Self { stone, polarised: medium.polarised, indices, outline, crown })
     }
 }
 

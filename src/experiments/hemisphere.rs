@@ -2,10 +2,9 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::{ExperimentError, check_index};
+use super::{ExperimentError, Medium, check_index};
 use crate::math::points::Points;
 use crate::math::{random::Purpose, sample};
-use crate::optics::Material;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -52,12 +51,12 @@ pub struct Tally {
 
 impl<'a> Hemisphere<'a> {
     /// Lights a stone at the material's D line.
-    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
+    pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
         let entrance = Crown::new(stone)?;
         Ok(Self {
             stone,
-            polarised,
-            index: check_index(material.index_d())?,
+            polarised: medium.polarised,
+            index: check_index(medium.material.index_d())?,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone)?.area(),
             entrance,

@@ -2,10 +2,9 @@
 
 use super::batches::Experiment;
 use super::entrance::Outline;
-use super::{ExperimentError, check_index};
+use super::{ExperimentError, Medium, check_index};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
-use crate::optics::Material;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::Vec3;
@@ -68,8 +67,13 @@ impl Tally {
 
 impl<'a> View<'a> {
     /// Looks at a stone at the material's D line.
-    pub fn new(stone: &'a Stone, material: &Material, polarised: bool) -> Result<Self, ExperimentError> {
-        Ok(Self { stone, polarised, index: check_index(material.index_d())?, outline: Outline::new(stone)? })
+    pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
+        Ok(Self {
+            stone,
+            polarised: medium.polarised,
+            index: check_index(medium.material.index_d())?,
+            outline: Outline::new(stone)?,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
-use crate::experiments::{Beam, Experiment, ExperimentError, Hemisphere, Traced, View};
+use crate::experiments::{Beam, Experiment, ExperimentError, Hemisphere, Medium, Traced, View};
 use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading};
 use crate::optics::Material;
@@ -128,17 +128,18 @@ pub fn score_all(subjects: &[Subject], plan: &Plan) -> Vec<Row> {
 }
 
 fn fill(row: &mut Row, stone: &Stone, material: &Material, plan: &Plan) -> Result<(), ExperimentError> {
+    let medium = Medium { material, polarised: plan.polarised };
     let hemisphere = readings(plan, |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None });
     let view = readings(plan, |r| if let Reading::View(f) = r { Some(f) } else { None });
     let beam = readings(plan, |r| if let Reading::Beam(f) = r { Some(f) } else { None });
     if !hemisphere.is_empty() {
-        run(row, Hemisphere::new(stone, material, plan.polarised)?, &hemisphere, plan, 1);
+        run(row, Hemisphere::new(stone, &medium)?, &hemisphere, plan, 1);
     }
     if !view.is_empty() {
-        run(row, View::new(stone, material, plan.polarised)?, &view, plan, 1);
+        run(row, View::new(stone, &medium)?, &view, plan, 1);
     }
     if !beam.is_empty() && material.is_dispersive() {
-        run(row, Beam::new(stone, material, plan.polarised)?, &beam, plan, BEAM_COST);
+        run(row, Beam::new(stone, &medium)?, &beam, plan, BEAM_COST);
     }
     Ok(())
 }
