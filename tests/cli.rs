@@ -280,7 +280,9 @@ fn report_leaves_everything_about_a_stone() {
     {
         assert!(said.contains(word), "{word}: {said}");
     }
-    for name in ["stone.obj", "stone.toml", "table.png", "aset.png", "scores.csv", "index.html"] {
+    for name in
+        ["stone.obj", "stone.toml", "table.png", "aset.png", "diagram.svg", "scores.csv", "index.html"]
+    {
         assert!(bench.path("out").join(name).exists(), "{name}");
     }
     let page = std::fs::read_to_string(bench.path("out/index.html")).expect("written");

@@ -72,7 +72,7 @@ pub struct Ratios {
 
 /// A facet smaller than this share of the squared width (0.2 µm square on a stone of 6 mm) is what
 /// the rounding of a design file leaves between planes that are meant to meet in a point.
-const SLIVER: f64 = 1e-9;
+pub const SLIVER: f64 = 1e-9;
 
 /// Measures a design whose solid is already known.
 pub fn measure(solid: &Polyhedron) -> Proportions {
