@@ -159,7 +159,7 @@ fn a_turned_stone_in_turned_light_is_the_same() {
 /// library, nearly face-up and tilted. Nearly: in a stone of cubic symmetry light that comes straight
 /// down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
 /// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron sends a tenth of its
-/// light out within 3e-6 of the horizon, four percent of that on the wrong side of it: up is off by
+/// light out within 3e-5 of the horizon, four percent of that on the wrong side of it: up is off by
 /// 1 %; tests/walk/thin.rs).
 /// Of some thousand comparisons none may be off by more than five errors (of 64 batches, α = .005 for
 /// all together); of 144 views 2.2 are expected off by more than three: nine have a chance of .001.

@@ -105,7 +105,7 @@ pub fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 
 /// Least width over all directions, and the extent across it. The least width has one side of the
 /// hull flush with a caliper.
-fn calipers(hull: &[DVec2]) -> (f64, f64) {
+pub fn calipers(hull: &[DVec2]) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0);
     for i in 0..hull.len() {
         let along = hull[(i + 1) % hull.len()] - hull[i];

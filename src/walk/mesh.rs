@@ -256,7 +256,7 @@ fn planes_of(triangles: &[Triangle]) -> Result<Vec<Plane>, MeshError> {
         corners[t.facet] += 3.0;
     }
     planes.iter_mut().zip(sums.iter().zip(&corners)).for_each(|(p, (sum, n))| p.distance = sum / n);
-    let off = |t: &&Triangle| t.corners.iter().any(|c| !(planes[t.facet].height(*c).abs() <= FLAT));
+    let off = |t: &&Triangle| !t.corners.iter().all(|c| planes[t.facet].height(*c).abs() <= FLAT);
     match triangles.iter().find(off) {
         Some(t) => Err(MeshError::NotFlat(t.facet)),
         None => Ok(planes),

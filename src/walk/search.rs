@@ -141,20 +141,20 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
             end2[l] = x * x + y * y;
         }
         let Some(belt) = &stone.belt else { continue };
-        let mut within = true;
+        let mut within = [false; W];
         for l in 0..W {
-            within &= end2[l] < belt.radius2;
+            within[l] = end2[l] < belt.radius2;
         }
-        if within {
+        if within == [true; W] {
             continue;
         }
         for l in 0..W {
-            if !(end2[l] < belt.radius2) {
-                let flat = nearest_flat::<FUSED>(belt, p, lane + l);
-                let so_far = out.distance[lane + l];
-                if flat.0 < so_far || best.facet[l] == NO_FACET {
-                    (out.distance[lane + l], out.facet[lane + l]) = flat;
-                }
+            if within[l] {
+                continue;
+            }
+            let (distance, flat) = nearest_flat::<FUSED>(belt, p, lane + l);
+            if distance < out.distance[lane + l] || best.facet[l] == NO_FACET {
+                (out.distance[lane + l], out.facet[lane + l]) = (distance, flat);
             }
         }
     }
