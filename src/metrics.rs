@@ -1,5 +1,6 @@
 //! The catalogue of scores, one a file. A score reads one experiment and is a ratio of its sums.
 
+mod absorbed;
 mod aset_blue;
 mod aset_blue_strongest;
 mod aset_green;
@@ -79,6 +80,7 @@ pub static METRICS: &[&Metric] = &[
     &light_return::LIGHT_RETURN,
     &glare::GLARE,
     &leakage::LEAKAGE,
+    &absorbed::ABSORBED,
     &lost::LOST,
     &fire_lit::FIRE_LIT,
     &fire_streak::FIRE_STREAK,

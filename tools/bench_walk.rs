@@ -15,6 +15,8 @@ use std::time::Instant;
 
 const SEED: u64 = 1;
 const INDEX: f32 = 2.417;
+/// Per walking unit, weak: rays live nearly as long as in a clear stone.
+const ABSORPTION: f32 = 0.01;
 const STOP_POWER: f32 = 1e-4;
 
 /// Vertical and slanting rays on a stone, counted.
@@ -24,6 +26,7 @@ struct Shower<'a> {
     left: u64,
     meetings: u64,
     polarised: bool,
+    absorbing: bool,
 }
 
 impl Rays for Shower<'_> {
@@ -31,6 +34,10 @@ impl Rays for Shower<'_> {
 
     fn polarised(&self) -> bool {
         self.polarised
+    }
+
+    fn absorbing(&self) -> bool {
+        self.absorbing
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
@@ -42,6 +49,7 @@ impl Rays for Shower<'_> {
                 let entry = self.stone.enter(hit.facet, toward, INDEX);
                 let point = target + (hit.distance - 3.0) * toward;
                 packet.enter(lane, point, &entry, INDEX);
+                packet.absorption[lane] = ABSORPTION;
                 return true;
             }
         }
@@ -68,14 +76,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("round brilliant, {} facets", solid.faces.len());
         for isa in Isa::all() {
             let stone = Stone::with_isa(solid.clone(), isa);
-            for polarised in [false, true] {
+            for (what, polarised, absorbing) in
+                [("", false, false), (", Stokes", true, false), (", Stokes, absorbing", true, true)]
+            {
                 let stream = Stream::new(SEED, Purpose::Test, 0);
-                let mut shower = Shower { stone: &stone, stream, left: rays, meetings: 0, polarised };
+                let mut shower = Shower { stone: &stone, stream, left: rays, meetings: 0, polarised, absorbing };
                 let start = Instant::now();
                 feed::walk_all(&stone, STOP_POWER, &mut shower);
                 let seconds = start.elapsed().as_secs_f64();
                 let meetings = shower.meetings as f64 * LANES as f64;
-                let name = format!("{}{}", isa.name(), if polarised { ", Stokes" } else { "" });
+                let name = format!("{}{what}", isa.name());
                 report(&name, meetings, rays as f64, stone.facet_count(), seconds);
             }
         }
@@ -88,6 +98,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             left: few,
             meetings: 0,
             polarised: false,
+            absorbing: false,
         };
         let mut packet = Packet::default();
         while shower.next(&mut packet, 0) {
@@ -96,6 +107,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 direction: packet.direction(0).as_dvec3(),
                 power: packet.power[0].into(),
                 index: INDEX.into(),
+                absorption: 0.0,
                 stokes: None,
             };
             scalar::walk(&stone.planes, ray, STOP_POWER.into(), |_| meetings += 1.0);
@@ -108,7 +120,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn report(name: &str, meetings: f64, rays: f64, facets: usize, seconds: f64) {
     println!(
-        "  {name:>16}: {:7.2} million meetings/s, {:5.2}e9 facet tests/s, {:7.1} thousand rays/s",
+        "  {name:>26}: {:7.2} million meetings/s, {:5.2}e9 facet tests/s, {:7.1} thousand rays/s",
         meetings / seconds / 1e6,
         meetings * facets as f64 / seconds / 1e9,
         rays / seconds / 1e3

@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
+use crate::optics::dispersion::VISIBLE_UM;
 use crate::photons::{self, Shots, file};
 use crate::render::{self, Maps, Pass, tone};
 use crate::scene::{Pose, Preset, SCENES, Scene};
@@ -24,7 +25,7 @@ pub struct Args {
     scene: &'static Preset,
     #[command(flatten)]
     substance: stones::Substance,
-    /// Girdle width in millimetres
+    /// Girdle width in millimetres; the colour depends on it
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
     /// How it stands: lying (as a loose stone comes to rest) or table-up; the scene has a default
@@ -95,7 +96,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let imported = stones::open(spec)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let material = args.substance.of(&imported.design);
-    let design = stones::sized(imported.design, args.size)?;
+    args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
+    let design = stones::sized_for_colour(imported.design, args.size, &material, console)?;
     let stone = Stone::new(design.solid()?);
     let pose = args.pose.unwrap_or(args.scene.default_pose);
     let (width, height) =

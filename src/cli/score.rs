@@ -5,6 +5,7 @@ use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
 use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
+use crate::optics::dispersion::lines;
 use crate::store::replace;
 use crate::study::score::{Effort, Plan, Row, Subject, score};
 use crate::study::table;
@@ -39,7 +40,7 @@ pub struct Args {
     seed: u64,
     #[command(flatten)]
     substance: stones::Substance,
-    /// Girdle width in millimetres; scores of a clear stone do not depend on it
+    /// Girdle width in millimetres; the scores depend on it if the material absorbs
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
 }
@@ -62,12 +63,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(error) = args.error {
         plan.effort = Effort::Error(error);
     }
+    let six = plan.metrics.iter().any(|m| m.needs_dispersion());
+    let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
+    args.substance.note_range(from, to, console);
     let specs = expanded(&args.stones)?;
     let bar = console.progress(specs.len(), "scoring");
     let rows: Vec<(Row, Option<Code>)> = specs
         .iter()
         .map(|spec| {
-            let row = row(spec, args, &plan);
+            let row = row(spec, args, &plan, console);
             bar.inc(1);
             row
         })
@@ -94,10 +98,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// Scores one stone; with the code if it could not be opened.
-fn row(spec: &str, args: &Args, plan: &Plan) -> (Row, Option<Code>) {
+fn row(spec: &str, args: &Args, plan: &Plan, console: &Console) -> (Row, Option<Code>) {
     let opened = stones::open(spec).and_then(|imported| {
         let material = args.substance.of(&imported.design);
-        let design = stones::sized(imported.design, args.size)?;
+        let design = stones::sized_for_colour(imported.design, args.size, &material, console)?;
         Ok((material, design.solid()?))
     });
     let (material, solid, code) = match opened {

@@ -2,7 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::{ExperimentError, Medium, check_index};
+use super::{ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::optics::dispersion::lines;
@@ -34,7 +34,8 @@ const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
 pub struct Beam<'a> {
     stone: &'a Stone,
     polarised: bool,
-    indices: [[f32; LINES]; 2],
+    absorbing: bool,
+    optics: [[Optics; LINES]; 2],
     outline: Outline,
     crown: Vec<f32>,
 }
@@ -59,14 +60,15 @@ pub struct Tally {
 impl<'a> Beam<'a> {
     /// Lights a stone; a material without dispersion gives no angles.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
-        let mut indices = [[0.0; LINES]; 2];
-        for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
-            for (n, um) in into.iter_mut().zip(lines) {
-                *n = check_index(medium.material.index(um))?;
+        let mut optics = [[Optics::default(); LINES]; 2];
+        for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
+            for (optics, um) in into.iter_mut().zip(lines) {
+                *optics = medium.optics(stone, um)?;
             }
         }
         let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
-        Ok(Self { stone, polarised: medium.polarised, indices, outline, crown })
+        let absorbing = !medium.material.is_clear();
+        Ok(Self { stone, polarised: medium.polarised, absorbing, optics, outline, crown })
     }
 }
 
@@ -80,7 +82,7 @@ struct Shine<'a> {
     experiment: &'a Beam<'a>,
     points: Points<2>,
     tally: &'a mut Tally,
-    indices: [f32; LINES],
+    optics: [Optics; LINES],
     /// Whether the lines are those that are compared.
     paired: bool,
     /// cos t / cos i at entry.
@@ -96,13 +98,18 @@ impl Rays for Shine<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.experiment.absorbing
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Beam { stone, outline, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
-        for (lane, index) in (lane..).zip(self.indices) {
-            let entry = stone.enter(facet, -Vec3::Z, index);
-            packet.enter(lane, point, &entry, index);
+        for (lane, optics) in (lane..).zip(self.optics) {
+            let entry = stone.enter(facet, -Vec3::Z, optics.index);
+            packet.enter(lane, point, &entry, optics.index);
+            packet.absorption[lane] = optics.absorption;
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         self.together[lane] = self.paired;
@@ -142,12 +149,12 @@ impl Experiment for Beam<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        for (indices, paired) in [(self.indices[0], true), (self.indices[1], false)] {
+        for (optics, paired) in [(self.optics[0], true), (self.optics[1], false)] {
             let mut shine = Shine {
                 experiment: self,
                 points: Points::new(seed, Purpose::Beam, batch, points.clone()),
                 tally: &mut *tally,
-                indices,
+                optics,
                 paired,
                 widening: [0.0; LANES],
                 together: [false; LANES],

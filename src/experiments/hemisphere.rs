@@ -2,9 +2,10 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::{ExperimentError, Medium, check_index};
+use super::{ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::{random::Purpose, sample};
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -21,7 +22,8 @@ const STOP_POWER: f32 = 1e-4;
 pub struct Hemisphere<'a> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    absorbing: bool,
+    optics: Optics,
     entrance: Crown,
     crown: Vec<f32>,
     /// Area of the crown, walking units squared.
@@ -45,6 +47,8 @@ pub struct Tally {
     pub returned_cos2: f64,
     /// Left otherwise.
     pub leaked: f64,
+    /// Taken by the stone.
+    pub absorbed: f64,
     /// Given up inside.
     pub lost: f64,
 }
@@ -56,7 +60,8 @@ impl<'a> Hemisphere<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            absorbing: !medium.material.is_clear(),
+            optics: medium.optics(stone, lines::D)?,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone)?.area(),
             entrance,
@@ -73,6 +78,7 @@ struct Dome<'a> {
     returned: Lanes,
     returned_cos2: Lanes,
     left: Lanes,
+    absorbed: Lanes,
 }
 
 impl Rays for Dome<'_> {
@@ -82,17 +88,22 @@ impl Rays for Dome<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.experiment.absorbing
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Hemisphere { stone, index, entrance, .. } = self.experiment;
+        let Hemisphere { stone, optics, entrance, .. } = self.experiment;
         for [a, b, c, d] in &mut self.points {
             self.tally.drawn += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
             if sky.z > 0.0 {
-                let entry = stone.enter(facet, -sky, *index);
+                let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
-                packet.enter(lane, point, &entry, *index);
+                packet.enter(lane, point, &entry, optics.index);
+                packet.absorption[lane] = optics.absorption;
                 return true;
             }
         }
@@ -107,6 +118,7 @@ impl Rays for Dome<'_> {
             self.returned[l] += returned;
             self.returned_cos2[l] += returned * up * up;
             self.left[l] += m.power[l];
+            self.absorbed[l] += m.absorbed[l];
         }
     }
 
@@ -116,6 +128,7 @@ impl Rays for Dome<'_> {
         self.tally.returned += returned;
         self.tally.returned_cos2 += take(&mut self.returned_cos2);
         self.tally.leaked += take(&mut self.left) - returned;
+        self.tally.absorbed += take(&mut self.absorbed);
     }
 }
 
@@ -131,6 +144,7 @@ impl Experiment for Hemisphere<'_> {
             returned: zero,
             returned_cos2: zero,
             left: zero,
+            absorbed: zero,
         };
         let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);
         tally.lost += lost;

@@ -2,9 +2,10 @@
 
 use super::batches::Experiment;
 use super::entrance::Outline;
-use super::{ExperimentError, Medium, check_index};
+use super::{ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use glam::Vec3;
@@ -37,7 +38,8 @@ pub enum Band {
 pub struct View<'a> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    absorbing: bool,
+    optics: Optics,
     outline: Outline,
 }
 
@@ -52,6 +54,8 @@ pub struct Tally {
     pub bands: [f64; 4],
     /// Power that leaves upward, weighted by cos² from zenith.
     pub up_cos2: f64,
+    /// Taken by the stone.
+    pub absorbed: f64,
     /// Given up inside.
     pub lost: f64,
     /// Rays by the [`Band`] of their strongest path (reflection at entry aside).
@@ -71,7 +75,8 @@ impl<'a> View<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            absorbing: !medium.material.is_clear(),
+            optics: medium.optics(stone, lines::D)?,
             outline: Outline::new(stone)?,
         })
     }
@@ -97,6 +102,7 @@ struct Gaze<'a> {
     tally: &'a mut Tally,
     bands: [Lanes; 4],
     up_cos2: Lanes,
+    absorbed: Lanes,
     strongest: Lanes,
     strongest_z: Lanes,
 }
@@ -108,14 +114,19 @@ impl Rays for Gaze<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.experiment.absorbing
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let View { stone, index, outline, .. } = self.experiment;
+        let View { stone, optics, outline, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
-        let entry = stone.enter(facet, -Vec3::Z, *index);
+        let entry = stone.enter(facet, -Vec3::Z, optics.index);
         self.tally.rays += 1.0;
         self.tally.reflected += f64::from(entry.reflectance);
-        packet.enter(lane, point, &entry, *index);
+        packet.enter(lane, point, &entry, optics.index);
+        packet.absorption[lane] = optics.absorption;
         true
     }
 
@@ -124,6 +135,7 @@ impl Rays for Gaze<'_> {
             let (z, power) = (m.dz[l], m.power[l]);
             let up = z.max(0.0);
             self.up_cos2[l] += power * up * up;
+            self.absorbed[l] += m.absorbed[l];
             let above = |floor: bool| if floor { power } else { 0.0 };
             let (sky, high, zenith) = (above(z > 0.0), above(z >= BAND_ENDS[0]), above(z >= BAND_ENDS[1]));
             self.bands[Band::Green as usize][l] += sky - high;
@@ -142,6 +154,7 @@ impl Rays for Gaze<'_> {
             *sum += take(lanes);
         }
         self.tally.up_cos2 += take(&mut self.up_cos2);
+        self.tally.absorbed += take(&mut self.absorbed);
         if take(&mut self.strongest) > 0.0 {
             self.tally.strongest[band(self.strongest_z[lane]) as usize] += 1.0;
         }
@@ -159,6 +172,7 @@ impl Experiment for View<'_> {
             tally,
             bands: [zero; 4],
             up_cos2: zero,
+            absorbed: zero,
             strongest: zero,
             strongest_z: zero,
         };

@@ -76,7 +76,8 @@ pub struct Subject {
     pub stone: String,
     /// What it is made of.
     pub material: Material,
-    /// Its shape, or why it has none: the row then carries the message.
+    /// Its shape, in millimetres if the material absorbs; or why it has none: the row then carries
+    /// the message.
     pub solid: Result<Polyhedron, String>,
 }
 
