@@ -8,8 +8,12 @@ use cutlab::optics::absorption::{Absorption, Band};
 use cutlab::optics::fresnel::unpolarised;
 use cutlab::optics::stokes::Stokes;
 use cutlab::optics::{Material, dispersion::lines};
+use cutlab::photons::{self, Shots};
+use cutlab::render::{self, Maps};
+use cutlab::scene::{Pose, Preset, Scene};
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::study::score::{Effort, Plan, Subject, score};
+use cutlab::transport::crossing::{Arrival, cross};
 use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
@@ -114,6 +118,12 @@ fn lanes_absorb_as_their_twin_does() {
     }
 }
 
+/// A cube.
+fn cube(side: f64) -> Polyhedron {
+    let planes = DVec3::AXES.map(|n| [Plane::new(n, side / 2.0), Plane::new(-n, side / 2.0)]).concat();
+    Polyhedron::from_planes(&planes).expect("closed")
+}
+
 /// A material that absorbs `per_mm` at the D line.
 fn grey(per_mm: f64) -> Material {
     let band = Band {
@@ -131,8 +141,7 @@ fn grey(per_mm: f64) -> Material {
 #[test]
 fn a_plate_follows_its_closed_form() {
     let side = 3.0;
-    let planes = DVec3::AXES.map(|n| [Plane::new(n, side / 2.0), Plane::new(-n, side / 2.0)]).concat();
-    let stone = Stone::new(Polyhedron::from_planes(&planes).expect("closed"));
+    let stone = Stone::new(cube(side));
     for per_mm in [0.01, 0.2, 1.0] {
         let material = grey(per_mm);
         let view = View::new(&stone, &Medium { material: &material, polarised: true }).expect("lit");
@@ -177,4 +186,64 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
     let (clear, same) = (scores("corundum", 2.0), scores("corundum", 10.0));
     assert_eq!(clear["absorbed"], 0.0);
     assert!((clear["light_return"] - same["light_return"]).abs() < 1e-4, "a clear stone has no size");
+}
+
+/// A scene with a stone of the given solid (mm) and material, upright on the table.
+fn scene(solid: Polyhedron, material: Material) -> Scene {
+    let preset = Preset::named("table").expect("in the catalogue");
+    (preset.build)(Stone::new(solid), material, Pose::TableUp, 1.0)
+}
+
+/// [D] The plate's closed form again, with photons that each leave by one way.
+#[test]
+fn photons_through_a_plate_keep_what_it_does_not_absorb() {
+    let (side, per_mm) = (3.0, 0.2);
+    let placed = scene(cube(side), grey(per_mm)).stone;
+    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let top = placed.stone.hit(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
+    let arrivals: Vec<Arrival> = (0..20_000)
+        .map(|_| Arrival {
+            facet: top.facet,
+            point: Vec3::Z * (2.0 - top.distance),
+            direction: Vec3::NEG_Z,
+            index: INDEX,
+            absorption: placed.absorption(589.0),
+            choice: stream.unit64(),
+        })
+        .collect();
+    let departures = cross(&placed, &arrivals);
+    let r = unpolarised(1.0, INDEX.into()).0;
+    let x = (-per_mm * side).exp();
+    let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
+    let all = r + through * (1.0 + r * x);
+    // 1e-3 of the power is where a photon is given up
+    assert!(departures.iter().all(|d| (f64::from(d.share) - all).abs() < 1.1e-3), "{all}");
+    let down = departures.iter().filter(|d| d.direction.z < 0.0).count() as f64 / 20_000.0;
+    let sigma = (through / all * (1.0 - through / all) / 20_000.0).sqrt();
+    assert!((down - through / all).abs() < 4.0 * sigma + 1e-3, "{down} {}", through / all);
+}
+
+/// Pictures: a ruby is red, an emerald green, and a larger ruby deeper.
+#[test]
+fn pictures_show_the_colour_and_the_size() {
+    let mean = |material: &str, mm: f64| -> Vec3 {
+        let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let solid = design.sized(mm).and_then(|d| d.solid()).expect("closed");
+        let scene = scene(solid, Material::named(material).expect("in the catalogue").clone());
+        let shots = Shots::shoot(&scene, &photons::Settings { photons: 2000, nearest: 50, seed: SEED });
+        let maps = Maps::new(&scene, &shots, 50);
+        let settings = render::Settings { width: 48, height: 48, rays: 4, seed: SEED };
+        let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
+        // the middle of the picture, which the stone fills
+        let middle = (18..30).flat_map(|y| (18..30).map(move |x| y * 48 + x));
+        let light = film.linear(None);
+        middle.map(|i| light[i].min(Vec3::ONE)).sum::<Vec3>() / 144.0
+    };
+    let (small, large) = (mean("ruby", 2.0), mean("ruby", 8.0));
+    assert!(small.x > 1.3 * small.y && large.x > 1.5 * large.y.max(large.z), "{small} {large}");
+    assert!(large.y < small.y && large.z < small.z && large.x < small.x, "{small} {large}");
+    let emerald = mean("emerald", 6.0);
+    assert!(emerald.y > 1.3 * emerald.x.max(emerald.z), "{emerald}");
+    let clear = mean("corundum", 6.0);
+    assert!((clear.max_element() - clear.min_element()) < 0.1 * clear.max_element(), "{clear}");
 }

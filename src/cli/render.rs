@@ -61,6 +61,9 @@ pub struct Args {
     /// Go around the stone in this many pictures, numbered from 000
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
     /// Exposure in stops
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     exposure: f32,
@@ -103,7 +106,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let (width, height) =
         (args.width.unwrap_or(args.scene.default_size.0), args.height.unwrap_or(args.scene.default_size.1));
     let aspect = width as f32 / height as f32;
-    let scene = (args.scene.build)(stone, material, pose, aspect);
+    let mut scene = (args.scene.build)(stone, material, pose, aspect);
+    scene.stone.polarised = args.polarisation;
     let maps = maps(args, &scene, console)?;
 
     let frames = args.frames.unwrap_or(1);

@@ -56,6 +56,15 @@ pub fn millimetres(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Value parser of `--polarisation`.
+pub fn on_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("polarisation is on or off".into()),
+    }
+}
+
 /// Value parser of `--material`.
 pub fn material(name: &str) -> Result<&'static Material, String> {
     Material::named(name).ok_or_else(|| {
