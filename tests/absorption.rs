@@ -247,3 +247,36 @@ fn pictures_show_the_colour_and_the_size() {
     let clear = mean("corundum", 6.0);
     assert!((clear.max_element() - clear.min_element()) < 0.1 * clear.max_element(), "{clear}");
 }
+
+/// Standard output and standard error of the program.
+fn cutlab(arguments: &str) -> (String, String) {
+    let out = std::process::Command::new(env!("CARGO_BIN_EXE_cutlab"))
+        .args(arguments.split(' '))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the program starts");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    let (said, noted) = (text(out.stdout), text(out.stderr));
+    assert!(out.status.success(), "{arguments}: {noted}");
+    (said, noted)
+}
+
+#[test]
+fn the_program_says_what_size_it_took_for_a_coloured_stone_without_one() {
+    let stone = "score tests/data/good/square.asc --metrics absorbed --error 0.05 --material";
+    let (said, noted) = cutlab(&format!("{stone} ruby"));
+    assert!(noted.contains("taken as 6.5 mm wide") && noted.lines().count() == 1, "{noted}");
+    let (same, quiet) = cutlab(&format!("{stone} ruby --size 6.5"));
+    assert_eq!((said, quiet.as_str()), (same, ""));
+    let (clear, quiet) = cutlab(&format!("{stone} corundum"));
+    assert!(clear.contains(",0.0,0.0,") && quiet.is_empty(), "{clear} {quiet}");
+}
+
+#[test]
+fn the_program_notes_once_that_an_index_is_a_guess() {
+    let score = |metric| {
+        cutlab(&format!("score tolkowsky cube --material moissanite --metrics {metric} --error 1")).1
+    };
+    assert_eq!(score("fire_lit"), "note: index of moissanite extrapolated below 436 nm\n");
+    assert_eq!(score("wlr"), "");
+}

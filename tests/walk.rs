@@ -114,7 +114,6 @@ fn assert_nearest(planes: &[Plane], before: &Packet, lane: usize, met: usize) {
 }
 
 /// Entered = left + given up, lane by lane, and the walk's own total of what it gave up.
-///
 /// A lane's own loss is what it last held: lanes are put to rest between meetings.
 fn assert_energy(stone: &Stone, mut packet: Packet, reflected: [f32; LANES], stop: f32) -> f64 {
     let entered = packet.power;
