@@ -31,13 +31,13 @@ fn brilliant() -> Polyhedron {
 fn rain(stone: &Stone, stream: &mut Stream, polarised: bool) -> (Packet, [f32; LANES]) {
     let mut packet = Packet { absorbing: true, ..Packet::new(polarised) };
     let mut reflected = [0.0; LANES];
-    for lane in 0..LANES {
+    for (lane, reflected) in reflected.iter_mut().enumerate() {
         let target = (sample::disc(stream.pair()) * 0.9).extend(2.0);
         let hit = stone.hit(target, Vec3::NEG_Z).expect("over the stone");
         let entry = stone.enter(hit.facet, Vec3::NEG_Z, INDEX);
         packet.enter(lane, target - Vec3::Z * hit.distance, &entry, INDEX);
         packet.absorption[lane] = 0.3 * lane as f32;
-        reflected[lane] = entry.reflectance;
+        *reflected = entry.reflectance;
     }
     (packet, reflected)
 }
@@ -59,8 +59,8 @@ fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
                     }
                 });
                 assert!(lost < 1e-5);
-                for l in 0..LANES {
-                    assert!((sums[l] - 1.0).abs() < 1e-5, "{} lane {l}: {}", isa.name(), sums[l]);
+                for (lane, sum) in sums.iter().enumerate() {
+                    assert!((sum - 1.0).abs() < 1e-5, "{} lane {lane}: {sum}", isa.name());
                 }
                 assert!(absorbed[0] == 0.0 && absorbed[LANES - 1] > 0.3, "{absorbed:?}");
             }
