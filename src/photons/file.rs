@@ -78,7 +78,7 @@ impl Origin {
         Origin {
             scene: scene.name.into(),
             stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
-            material: format!("{} ({:08x})", scene.stone.material.name, material_checksum(scene)),
+            material: substance(scene),
             polarised: scene.stone.polarised,
             surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
@@ -117,16 +117,16 @@ fn stone_checksum(scene: &Scene) -> u32 {
         let world = placed.point_to_world(placed.stone.from_design(*v).as_vec3());
         world.to_array().iter().for_each(|x| crc.update(&x.to_le_bytes()));
     }
-    if !placed.material.is_clear() {
-        crc.update(&placed.stone.unit.to_le_bytes()); // how deep its colour is
-    }
     crc.finalize()
 }
 
-/// Checksum of the laws by which the stone refracts and absorbs.
-fn material_checksum(scene: &Scene) -> u32 {
+/// The material with a checksum of the laws by which it refracts and absorbs, and with the size of
+/// the stone if its colour depends on it.
+fn substance(scene: &Scene) -> String {
     let material = &scene.stone.material;
-    crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes())
+    let laws = crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes());
+    let radius = format!(", {:.6} mm in radius", scene.stone.stone.unit);
+    format!("{} ({laws:08x}{})", material.name, if material.is_clear() { "" } else { &radius })
 }
 
 /// Checksum of surfaces and lights.
