@@ -37,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             for (what, polarised, absorption) in
                 [("", false, 0.0), (", Stokes", true, 0.0), (", Stokes, absorbing", true, ABSORPTION)]
             {
-                let (seconds, meetings) = timing::best_of(runs, || walked(&stone, rays, polarised, absorption));
+                let (seconds, meetings) =
+                    timing::best_of(runs, || walked(&stone, rays, polarised, absorption));
                 report(&format!("{}{what}", isa.name()), meetings, rays as f64, seconds);
             }
         }
@@ -61,7 +62,8 @@ fn brilliant(overrides: &[(&str, f64)]) -> Result<Polyhedron, Box<dyn Error>> {
 
 /// Meetings of a shower, counted by the lane.
 fn walked(stone: &Stone, rays: u64, polarised: bool, absorption: f32) -> f64 {
-    let mut shower = Shower { absorption, ..Shower::new(stone, rays, polarised) };
+    let mut shower = Shower::new(stone, rays, polarised);
+    shower.absorption = absorption;
     feed::walk_all(stone, STOP_POWER, &mut shower);
     shower.meetings as f64 * LANES as f64
 }

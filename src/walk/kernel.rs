@@ -6,7 +6,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::packet::{LANES, Meeting, NextFacets, Packet};
-use super::search;
+use super::search::{self, mul_add};
 use super::stone::Stone;
 
 /// Advances every lane to its next facet, splits its power there and reflects it.
