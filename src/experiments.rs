@@ -35,8 +35,10 @@ pub use scintillation::Scintillation;
 pub use view::View;
 
 use crate::optics::Material;
+use crate::walk::Stone;
 
-/// What a stone is made of, and how light is followed in it.
+/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is
+/// in millimetres: its size shows.
 #[derive(Debug, Clone, Copy)]
 pub struct Medium<'a> {
     /// The material.
@@ -44,6 +46,28 @@ pub struct Medium<'a> {
     /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
     /// each (scalar Fresnel).
     pub polarised: bool,
+}
+
+/// A stone's optics at one wavelength.
+#[derive(Debug, Clone, Copy, Default)]
+struct Optics {
+    index: f32,
+    /// Absorption coefficient per walking unit.
+    absorption: f32,
+}
+
+impl Optics {
+    fn absorbs(&self) -> bool {
+        self.absorption > 0.0
+    }
+}
+
+impl Medium<'_> {
+    /// Optics of a stone at `um` (µm); refuses indices at which the formulas mean nothing.
+    fn optics(&self, stone: &Stone, um: f64) -> Result<Optics, ExperimentError> {
+        let index = check_index(self.material.index(um))?;
+        Ok(Optics { index, absorption: (self.material.absorption_per_mm(um) * stone.unit) as f32 })
+    }
 }
 
 /// A stone or material that cannot be lit.

@@ -1,5 +1,6 @@
 //! The catalogue of scores, one a file. A score reads one experiment and is a function of its sums.
 
+mod absorbed;
 mod aset_blue;
 mod aset_blue_strongest;
 mod aset_green;
@@ -118,6 +119,7 @@ pub static METRICS: &[&Metric] = &[
     &leakage::LEAKAGE,
     &leakage_strongest::LEAKAGE_STRONGEST,
     &glare::GLARE,
+    &absorbed::ABSORBED,
     &lost::LOST,
     &brightness::BRIGHTNESS,
     &aset_green::ASET_GREEN,

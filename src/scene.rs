@@ -20,10 +20,13 @@ pub use surface::{Reflectance, Surface};
 /// A stone placed in the world.
 #[derive(Debug, Clone)]
 pub struct PlacedStone {
-    /// The stone, ready to walk.
+    /// The stone, ready to walk; made from a solid in millimetres if the material absorbs.
     pub stone: Stone,
     /// What it is made of.
     pub material: Material,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
+    /// each (scalar Fresnel).
+    pub polarised: bool,
     /// Rotation from the walking frame to the world.
     pub world_from_stone: Mat3,
     /// World position of the walking frame's origin.
@@ -56,6 +59,12 @@ impl PlacedStone {
     /// Index of refraction at `nm`.
     pub fn index(&self, nm: f32) -> f32 {
         self.material.index(f64::from(nm) / 1000.0) as f32
+    }
+
+    /// Absorption coefficient at `nm`, per walking unit: the stone's own size in millimetres counts,
+    /// not how large it is shown.
+    pub fn absorption(&self, nm: f32) -> f32 {
+        (self.material.absorption_per_mm(f64::from(nm) / 1000.0) * self.stone.unit) as f32
     }
 }
 

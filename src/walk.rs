@@ -29,10 +29,11 @@ impl Stone {
     /// - `packet`: lanes with positions inside or on the stone, unit directions, index of
     ///   refraction and power; lanes without power stand still
     /// - `stop_power`: a lane with less is stopped, its power added to the returned loss
-    /// - `visit`: called after each meeting with what left the stone there
+    /// - `visit`: called after each meeting with what left the stone there and what the stone
+    ///   absorbed on the way there
     ///
-    /// Returns the power given up, summed over the lanes. What entered = Σ exits + lost to
-    /// rounding. Checked in `tests/walk.rs` against the `f64` twin and by energy balance.
+    /// Returns the power given up, summed over the lanes. What entered = Σ exits + Σ absorbed +
+    /// lost to rounding. Checked in `tests/walk.rs` against the `f64` twin and by energy balance.
     pub fn walk(
         &self,
         packet: &mut Packet,

@@ -23,6 +23,84 @@ fn diamond_at_eight_fraunhofer_lines() {
     }
 }
 
+/// Index at D and B–G separation of the project's table; errors are a unit of the last
+/// digit printed there (it rounds the lines G and B too).
+#[test]
+fn indices_and_dispersions_match_the_published_ones() {
+    for (name, n_d, b_g, digits) in [
+        ("diamond", 2.41726, 0.04444, 5e-6),
+        ("corundum", 1.76808, 0.0181, 5e-5),
+        ("quartz", 1.54421, 0.0133, 5e-5),
+        ("spinel", 1.71610, 0.0202, 5e-5),
+        ("moissanite", 2.64743, 0.112, 5e-4),
+        ("cubic-zirconia", 2.15846, 0.0604, 5e-5),
+        ("yag", 1.83265, 0.0272, 5e-5),
+        ("strontium-titanate", 2.40799, 0.2096, 5e-5),
+        ("rutile", 2.61291, 0.31, 5e-3),
+    ] {
+        let m = Material::named(name).expect("in the catalogue");
+        assert!((m.index_d() - n_d).abs() < 1e-5, "{name}: {}", m.index_d());
+        let separation = m.index(lines::G) - m.index(lines::B);
+        assert!((separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
+    }
+}
+
+/// The same of the extraordinary ray.
+#[test]
+fn extraordinary_indices_match_the_published_ones() {
+    for (name, n_d, b_g, digits) in [
+        ("corundum", 1.76000, 0.0177, 5e-5),
+        ("ruby", 1.76000, 0.0177, 5e-5),
+        ("quartz", 1.55331, 0.0138, 5e-5),
+        ("moissanite", 2.68897, f64::NAN, 0.0),
+        ("rutile", 2.90865, 0.40, 5e-3),
+    ] {
+        let law = Material::named(name).and_then(|m| m.extraordinary).expect("uniaxial");
+        assert!((law.index(lines::D) - n_d).abs() < 7e-6, "{name}: {}", law.index(lines::D));
+        let separation = law.index(lines::G) - law.index(lines::B);
+        assert!(b_g.is_nan() || (separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
+    }
+    for (name, birefringence) in [("beryl", -0.006), ("tourmaline", -0.021)] {
+        let m = Material::named(name).expect("in the catalogue");
+        let law = m.extraordinary.expect("uniaxial");
+        assert!((law.index(lines::D) - m.index_d() - birefringence).abs() < 1e-12, "{name}");
+    }
+    let cubic = Material::named("spinel").expect("in the catalogue");
+    assert_eq!(cubic.extraordinary, None);
+}
+
+/// [P] Schott's data sheet of N-BK7 (n_d 1.51680, n_F − n_C .008054), Malitson's tables of fused
+/// silica and fluorite, calcite of any handbook; chrysoberyl between the least and the greatest of
+/// a gem's three indices. Cauchy laws go through the n_D and B–G of gemmological tables.
+#[test]
+fn the_materials_beside_the_table_have_their_indices() {
+    let named = |name: &str| Material::named(name).expect("in the catalogue");
+    for (name, n, tolerance) in [
+        ("n-bk7", 1.51680, 1e-5),
+        ("fused-silica", 1.45846, 1e-5),
+        ("fluorite", 1.43385, 2e-5),
+        ("calcite", 1.65846, 1e-3),
+        ("chrysoberyl", 1.7475, 2.5e-3),
+        ("zircon", 1.925, 1e-3),
+        ("topaz", 1.62725, 1e-3),
+        ("beryl", 1.579, 1e-3),
+        ("tourmaline", 1.6395, 1e-3),
+    ] {
+        let found = named(name).index(lines::D_HELIUM);
+        assert!((found - n).abs() < tolerance, "{name}: {found}");
+    }
+    let glass = named("n-bk7");
+    assert!((glass.index(lines::F) - glass.index(lines::C) - 0.008054).abs() < 2e-6);
+    let calcite = named("calcite").extraordinary.expect("uniaxial").index(lines::D);
+    assert!((calcite - 1.4864).abs() < 1e-3, "{calcite}");
+    // [P] B–G of gemmological tables: zircon .039, topaz .014, beryl .014, tourmaline .017
+    for (name, b_g) in [("zircon", 0.039), ("topaz", 0.014), ("beryl", 0.014), ("tourmaline", 0.017)] {
+        let m = named(name);
+        let separation = m.index(lines::G) - m.index(lines::B);
+        assert!((separation - b_g).abs() < 6e-4, "{name}: {separation}");
+    }
+}
+
 #[test]
 fn the_three_colours_of_the_original_project() {
     let rgb = Material::named("diamond-rgb").expect("in the catalogue");

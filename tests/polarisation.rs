@@ -121,6 +121,7 @@ fn lanes_agree_with_the_twin_on_every_instruction_set() {
                     direction: start.direction(lane).as_dvec3().normalize(),
                     power,
                     index: INDEX,
+                    absorption: 0.0,
                     stokes: Some(stokes),
                 };
                 let mut meetings = seen.iter();

@@ -86,6 +86,7 @@ fn twin_and_dented_stones_allocate_nothing() {
                 direction: packet.direction(0).as_dvec3(),
                 power: packet.power[0].into(),
                 index: INDEX.into(),
+                absorption: 0.0,
                 stokes: None,
             };
             scalar::walk(&stone.planes, ray, 1e-4, |_| meetings += 1);

@@ -21,6 +21,9 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
 
+/// Per walking unit, weak: rays live nearly as long as in a clear stone.
+const ABSORPTION: f32 = 0.01;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let real = std::env::args().any(|a| a == "--bench");
     let (rays, runs) = if real { (50_000, 5) } else { (100, 1) };
@@ -31,10 +34,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("round brilliant, {} facets", solid.faces.len());
         for isa in Isa::all() {
             let stone = Stone::with_isa(solid.clone(), isa);
-            for polarised in [false, true] {
-                let (seconds, meetings) = timing::best_of(runs, || walked(&stone, rays, polarised));
-                let name = format!("{}{}", isa.name(), if polarised { ", Stokes" } else { "" });
-                report(&name, meetings, rays as f64, seconds);
+            for (what, polarised, absorption) in
+                [("", false, 0.0), (", Stokes", true, 0.0), (", Stokes, absorbing", true, ABSORPTION)]
+            {
+                let (seconds, meetings) =
+                    timing::best_of(runs, || walked(&stone, rays, polarised, absorption));
+                report(&format!("{}{what}", isa.name()), meetings, rays as f64, seconds);
             }
         }
         let stone = Stone::new(solid);
@@ -56,8 +61,9 @@ fn brilliant(overrides: &[(&str, f64)]) -> Result<Polyhedron, Box<dyn Error>> {
 }
 
 /// Meetings of a shower, counted by the lane.
-fn walked(stone: &Stone, rays: u64, polarised: bool) -> f64 {
+fn walked(stone: &Stone, rays: u64, polarised: bool, absorption: f32) -> f64 {
     let mut shower = Shower::new(stone, rays, polarised);
+    shower.absorption = absorption;
     feed::walk_all(stone, STOP_POWER, &mut shower);
     shower.meetings as f64 * LANES as f64
 }
@@ -70,6 +76,7 @@ fn twin_meetings(stone: &Stone, rays: u64) -> f64 {
             direction: packet.direction(0).as_dvec3(),
             power: packet.power[0].into(),
             index: INDEX.into(),
+            absorption: 0.0,
             stokes: None,
         };
         scalar::walk(&stone.planes, ray, STOP_POWER.into(), |_| meetings += 1.0);
@@ -79,7 +86,7 @@ fn twin_meetings(stone: &Stone, rays: u64) -> f64 {
 
 fn report(name: &str, meetings: f64, rays: f64, seconds: f64) {
     let (m, r) = (meetings / seconds / 1e6, rays / seconds / 1e3);
-    println!("  {name:>16}: {m:6.1} million meetings/s, {r:7.1} thousand rays/s");
+    println!("  {name:>26}: {m:6.1} million meetings/s, {r:7.1} thousand rays/s");
 }
 
 /// Rays from outside that look for their first facet.
@@ -134,7 +141,7 @@ fn spheres() -> Result<Vec<Stone>, Box<dyn Error>> {
 fn costs(title: &str, stones: &[Stone], rays: u64, runs: usize) {
     println!("  {title}");
     for stone in stones {
-        let (seconds, meetings) = timing::best_of(runs, || walked(stone, rays, false));
+        let (seconds, meetings) = timing::best_of(runs, || walked(stone, rays, false, 0.0));
         let (ns, facets) = (seconds / meetings * 1e9, stone.facet_count());
         println!("    {facets:3} facets: {ns:6.1} ns a meeting, {:.3} ns a facet", ns / facets as f64);
     }
@@ -146,7 +153,7 @@ fn two_threads(stone: &Stone, rays: u64, runs: usize) {
     let rates = |threads: usize| {
         let start = Instant::now();
         let had: Vec<(f64, f64)> = std::thread::scope(|scope| {
-            let work = || timing::best_of(1, || walked(stone, 2 * rays, false));
+            let work = || timing::best_of(1, || walked(stone, 2 * rays, false, 0.0));
             let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
             started.into_iter().filter_map(|thread| thread.join().ok()).collect()
         });

@@ -19,6 +19,8 @@ pub struct Shower<'a> {
     stream: Stream,
     left: u64,
     polarised: bool,
+    /// What the stone takes, per walking unit.
+    pub absorption: f32,
     /// Meetings of whole packets so far.
     pub meetings: u64,
     /// Packets as they leave their facets, while there is room.
@@ -29,7 +31,7 @@ impl<'a> Shower<'a> {
     /// - `rays`: how many are aimed; some miss
     pub fn new(stone: &'a Stone, rays: u64, polarised: bool) -> Self {
         let stream = Stream::new(1, Purpose::Test, 0);
-        Shower { stone, stream, left: rays, polarised, meetings: 0, kept: Vec::new() }
+        Shower { stone, stream, left: rays, polarised, absorption: 0.0, meetings: 0, kept: Vec::new() }
     }
 }
 
@@ -40,6 +42,10 @@ impl Rays for Shower<'_> {
         self.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.absorption > 0.0
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         while self.left > 0 {
             self.left -= 1;
@@ -48,6 +54,7 @@ impl Rays for Shower<'_> {
             if let Some(hit) = self.stone.hit(target - 3.0 * toward, toward) {
                 let entry = self.stone.enter(hit.facet, toward, INDEX);
                 packet.enter(lane, target + (hit.distance - 3.0) * toward, &entry, INDEX);
+                packet.absorption[lane] = self.absorption;
                 return true;
             }
         }

@@ -5,7 +5,10 @@ use super::outcome::{Code, Failure};
 use crate::cut::library;
 use crate::formats::FORMATS;
 use crate::metrics::METRICS;
+use crate::optics::dispersion::lines;
+use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
+use crate::optics::{Illuminant, Material, colour};
 use crate::scene::SCENES;
 use serde::Serialize;
 
@@ -21,6 +24,8 @@ enum Kind {
     Cuts,
     /// Materials
     Materials,
+    /// Lights by which colours are judged
+    Illuminants,
     /// Scores
     Metrics,
     /// File formats
@@ -39,10 +44,10 @@ struct Entry {
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let entries = match args.kind {
         Kind::Cuts => cuts(),
-        Kind::Materials => entries(MATERIALS.iter().map(|m| {
-            let weight = m.specific_gravity.map_or(String::new(), |sg| format!(", density {sg} g/cm³"));
-            (m.name.to_string(), format!("{}, n_D {:.4}{weight}", m.about, m.index_d()))
-        })),
+        Kind::Materials => entries(MATERIALS.iter().map(|m| (m.name.to_string(), material(m)))),
+        Kind::Illuminants => {
+            entries(ILLUMINANTS.iter().map(|i| (i.name.to_string(), format!("{} [{}]", i.about, i.source))))
+        }
         Kind::Metrics => entries(METRICS.iter().map(|m| {
             let unit = if m.unit.is_empty() { String::new() } else { format!(" [{}]", m.unit) };
             let beams = if m.by_beams { " By beams with --exact." } else { "" };
@@ -62,6 +67,29 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print(&lines.join("\n"))?;
     }
     Ok(Code::Done)
+}
+
+/// Indices, range, density, colour and sources of a material.
+fn material(m: &Material) -> String {
+    /// Depth at which a material shows its colour, mm: what light goes through in a small stone.
+    const DEPTH_MM: f64 = 10.0;
+    let mut text = format!("{}: n_D {:.4}", m.about, m.index_d());
+    if let Some(law) = m.extraordinary {
+        text += &format!(", n_e {:.4}", law.index(lines::D));
+    }
+    text += &format!(", B–G {:.4}", m.index(lines::G) - m.index(lines::B));
+    text += &format!(", {:.0}–{:.0} nm", 1000.0 * m.valid_um.0, 1000.0 * m.valid_um.1);
+    if let Some(sg) = m.specific_gravity {
+        text += &format!(", {sg} g/cm³");
+    }
+    if let Some(absorption) = m.absorption {
+        let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm) / 1000.0)).exp() as f32;
+        let byte = |x| (255.0 * colour::srgb_encode(x)).round() as u8;
+        let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
+        text += &format!(", #{r:02x}{g:02x}{b:02x} through {DEPTH_MM} mm by daylight");
+        text += &format!(" ({}; {})", absorption.about, absorption.source);
+    }
+    text + &format!(" [{}]", m.source)
 }
 
 fn entries(pairs: impl Iterator<Item = (String, String)>) -> Vec<Entry> {

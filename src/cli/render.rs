@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
+use crate::optics::dispersion::VISIBLE_UM;
 use crate::photons::{self, Shots, file};
 use crate::render::{self, Maps, Pass, tone};
 use crate::scene::{Pose, Preset, SCENES, Scene};
@@ -24,7 +25,7 @@ pub struct Args {
     scene: &'static Preset,
     #[command(flatten)]
     substance: stones::Substance,
-    /// Girdle width in millimetres
+    /// Girdle width in millimetres; the colour depends on it
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
     /// How it stands: lying (as a loose stone comes to rest) or table-up; the scene has a default
@@ -60,6 +61,9 @@ pub struct Args {
     /// Go around the stone in this many pictures, numbered from 000
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
     /// Exposure in stops
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     exposure: f32,
@@ -95,13 +99,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let imported = stones::open(spec)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let material = args.substance.of(&imported.design);
-    let design = stones::sized(imported.design, args.size)?;
+    args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
+    let design = stones::sized_for_colour(imported.design, args.size, &material, console)?;
     let stone = Stone::new(design.solid()?);
     let pose = args.pose.unwrap_or(args.scene.default_pose);
     let (width, height) =
         (args.width.unwrap_or(args.scene.default_size.0), args.height.unwrap_or(args.scene.default_size.1));
     let aspect = width as f32 / height as f32;
-    let scene = (args.scene.build)(stone, material, pose, aspect);
+    let mut scene = (args.scene.build)(stone, material, pose, aspect);
+    scene.stone.polarised = args.polarisation;
     let maps = maps(args, &scene, console)?;
 
     let frames = args.frames.unwrap_or(1);

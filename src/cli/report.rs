@@ -5,15 +5,13 @@ use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
+use crate::optics::dispersion::VISIBLE_UM;
 use crate::report::bundle::STEPS;
 use crate::report::page::number;
 use crate::report::{self, ReportError, Request};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-
-/// Girdle width of a stone whose file has no unit, in millimetres.
-const USUAL_SIZE: f64 = 6.5;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -46,7 +44,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let imported = stones::open(&args.stone)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let material = args.substance.of(&imported.design);
-    let size = args.size.or((imported.design.unit == Unit::Free).then_some(USUAL_SIZE));
+    args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
+    let size = args.size.or((imported.design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(imported.design, size)?;
     let request = Request { stone: args.stone.clone(), design, material, seed: args.seed, command: typed() };
 

@@ -5,6 +5,7 @@ use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
 use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
+use crate::optics::dispersion::lines;
 use crate::store::replace;
 use crate::study::score::{Effort, Plan, Row, Subject, score};
 use crate::study::table;
@@ -32,25 +33,16 @@ pub struct Args {
     #[arg(long, value_name = "E", value_parser = error)]
     error: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = on_off, action = clap::ArgAction::Set)]
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
     polarisation: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     #[command(flatten)]
     substance: stones::Substance,
-    /// Girdle width in millimetres; scores of a clear stone do not depend on it
+    /// Girdle width in millimetres; the scores depend on it if the material absorbs
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-}
-
-/// Value parser of `--polarisation`.
-fn on_off(text: &str) -> Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("polarisation is on or off".into()),
-    }
 }
 
 /// Scores every stone and writes the table.
@@ -62,12 +54,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(error) = args.error {
         plan.effort = Effort::Error(error);
     }
+    let six = plan.metrics.iter().any(|m| m.needs_dispersion());
+    let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
+    args.substance.note_range(from, to, console);
     let specs = expanded(&args.stones)?;
     let bar = console.progress(specs.len(), "scoring");
     let rows: Vec<(Row, Option<Code>)> = specs
         .iter()
         .map(|spec| {
-            let row = row(spec, args, &plan);
+            let row = row(spec, args, &plan, console);
             bar.inc(1);
             row
         })
@@ -94,10 +89,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// Scores one stone; with the code if it could not be opened.
-fn row(spec: &str, args: &Args, plan: &Plan) -> (Row, Option<Code>) {
+fn row(spec: &str, args: &Args, plan: &Plan, console: &Console) -> (Row, Option<Code>) {
     let opened = stones::open(spec).and_then(|imported| {
         let material = args.substance.of(&imported.design);
-        let design = stones::sized(imported.design, args.size)?;
+        let design = stones::sized_for_colour(imported.design, args.size, &material, console)?;
         Ok((material, design.solid()?))
     });
     let (material, solid, code) = match opened {

@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
-use crate::cut::Design;
+use crate::cut::{Design, Unit};
 use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
@@ -56,6 +56,15 @@ pub fn millimetres(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Value parser of `--polarisation`.
+pub fn on_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("polarisation is on or off".into()),
+    }
+}
+
 /// Value parser of `--material`.
 pub fn material(name: &str) -> Result<&'static Material, String> {
     Material::named(name).ok_or_else(|| {
@@ -84,6 +93,13 @@ pub struct Substance {
 }
 
 impl Substance {
+    /// Says once if the index of the material asked for is a guess within `from`..=`to` (µm).
+    pub fn note_range(&self, from: f64, to: f64, console: &Console) {
+        if let Some(guess) = self.material.and_then(|m| m.extrapolated(from, to)) {
+            console.note(&format!("note: {guess}"));
+        }
+    }
+
     /// What the design is made of: the material asked for, or the bare index asked for, or the
     /// index that its file was drawn for, or diamond.
     pub fn of(&self, design: &Design) -> Material {
@@ -99,6 +115,27 @@ impl Substance {
 pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
     let likeness = |c: &&str| strsim::normalized_damerau_levenshtein(c, name);
     candidates.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or_default()
+}
+
+/// Girdle width of a stone of which nobody says how large it is, in millimetres.
+pub const USUAL_SIZE: f64 = 6.5;
+
+/// The stone's design as large as its colour needs to know: with `--size` applied, or as it is, or
+/// 6.5 mm wide if its file has no unit and the material absorbs, which is noted.
+pub fn sized_for_colour(
+    design: Design,
+    size: Option<f64>,
+    material: &Material,
+    console: &Console,
+) -> Result<Design, Failure> {
+    let unknown = size.is_none() && design.unit == Unit::Free && !material.is_clear();
+    if unknown {
+        console.note(&format!(
+            "note: {} has no size, which its colour depends on: taken as {USUAL_SIZE} mm wide; --size MM sets it",
+            design.name
+        ));
+    }
+    sized(design, size.or(unknown.then_some(USUAL_SIZE)))
 }
 
 /// The stone's design, with `--size` applied.

@@ -3,7 +3,7 @@
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
 use super::together::Together;
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::histogram::Histogram;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -41,7 +41,7 @@ pub struct Beam<'a> {
     stone: &'a Stone,
     aspect: Aspect,
     polarised: bool,
-    indices: [[f32; LINES]; 2],
+    optics: [[Optics; LINES]; 2],
     outline: Outline,
     crown: Vec<f32>,
 }
@@ -84,14 +84,15 @@ impl<'a> Beam<'a> {
 
     /// Lights a stone from the viewer's side.
     pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
-        let mut indices = [[0.0; LINES]; 2];
-        for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
-            for (n, um) in into.iter_mut().zip(lines) {
-                *n = check_index(medium.material.index(um))?;
+        let mut optics = [[Optics::default(); LINES]; 2];
+        for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
+            for (optics, um) in into.iter_mut().zip(lines) {
+                *optics = medium.optics(stone, um)?;
             }
         }
         let (outline, crown) = (Outline::new(stone, aspect)?, entrance::crown_flags(stone));
-        Ok(Self { stone, aspect, polarised: medium.polarised, indices, outline, crown })
+        let polarised = medium.polarised;
+        Ok(Self { stone, aspect, polarised, optics, outline, crown })
     }
 }
 
@@ -105,7 +106,7 @@ struct Shine<'a> {
     experiment: &'a Beam<'a>,
     points: Points<2>,
     tally: &'a mut Tally,
-    indices: [f32; LINES],
+    optics: [Optics; LINES],
     /// Whether the lines are those that are compared.
     paired: bool,
     /// cos t / cos i at entry.
@@ -120,14 +121,19 @@ impl Rays for Shine<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.optics.iter().any(Optics::absorbs)
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Beam { stone, outline, aspect, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
         let toward = -aspect.axis.as_vec3();
-        for (lane, index) in (lane..).zip(self.indices) {
-            let entry = stone.enter(facet, toward, index);
-            packet.enter(lane, point, &entry, index);
+        for (lane, optics) in (lane..).zip(self.optics) {
+            let entry = stone.enter(facet, toward, optics.index);
+            packet.enter(lane, point, &entry, optics.index);
+            packet.absorption[lane] = optics.absorption;
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         if self.paired {
@@ -168,12 +174,12 @@ impl Experiment for Beam<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        for (indices, paired) in [(self.indices[0], true), (self.indices[1], false)] {
+        for (optics, paired) in [(self.optics[0], true), (self.optics[1], false)] {
             let mut shine = Shine {
                 experiment: self,
                 points: Points::new(seed, Purpose::Beam, batch, points.clone()),
                 tally: &mut *tally,
-                indices,
+                optics,
                 paired,
                 widening: [0.0; LANES],
                 together: Together::NONE,

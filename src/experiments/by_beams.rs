@@ -48,6 +48,7 @@ pub fn view(
         reflected: weighed.reflected,
         bands: std::array::from_fn(|b| sums[b]),
         up_cos2: sums[COS2],
+        absorbed: 0.0,
         lost,
         strongest: shares.bands,
         scope_bright: sums[SCOPE],

@@ -4,9 +4,9 @@
 //! noise of a mean of few points would pass for structure; the experiments multiply or compare
 //! points of one cell in ways whose expectation is free of it.
 
-use super::Aspect;
 use super::entrance::Outline;
 use super::view::Sky;
+use super::{Aspect, Optics};
 use crate::math::random::{Purpose, Stream};
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
@@ -99,7 +99,7 @@ struct Seat {
 struct Gaze<'a, G> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    optics: Optics,
     sky: Sky,
     groups: &'a mut G,
     /// The last group's sights, and how many of them are on their way.
@@ -114,12 +114,12 @@ struct Gaze<'a, G> {
 }
 
 /// Walks all groups.
-pub(super) fn walk_all(stone: &Stone, medium: (f32, bool), sky: Sky, groups: &mut impl Groups) {
+pub(super) fn walk_all(stone: &Stone, optics: Optics, polarised: bool, sky: Sky, groups: &mut impl Groups) {
     let zero = [0.0; LANES];
     let mut gaze = Gaze {
         stone,
-        index: medium.0,
-        polarised: medium.1,
+        optics,
+        polarised,
         sky,
         groups,
         sights: Vec::new(),
@@ -161,13 +161,18 @@ impl<G: Groups> Rays for Gaze<'_, G> {
         self.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.optics.absorbs()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         if self.begun == self.sights.len() && !self.begin() {
             return false;
         }
         let Some(sight) = self.sights.get(self.begun) else { return false };
-        let entry = self.stone.enter(sight.facet, -sight.axis, self.index);
-        packet.enter(lane, sight.point, &entry, self.index);
+        let entry = self.stone.enter(sight.facet, -sight.axis, self.optics.index);
+        packet.enter(lane, sight.point, &entry, self.optics.index);
+        packet.absorption[lane] = self.optics.absorption;
         self.luminance[lane] = self.sky.mirrored(&entry);
         for (axis, value) in self.axis.iter_mut().zip(sight.axis.to_array()) {
             axis[lane] = value;

@@ -4,10 +4,11 @@ use super::batches::Experiment;
 use super::cells::{self, Cell, Groups, SIDE, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::stats::Sum;
+use crate::optics::dispersion::lines;
 use crate::walk::Stone;
 use std::ops::Range;
 
@@ -19,7 +20,7 @@ use std::ops::Range;
 pub struct Contrast<'a> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    optics: Optics,
     sky: Sky,
     aspect: Aspect,
     outline: Outline,
@@ -64,7 +65,7 @@ impl<'a> Contrast<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            optics: medium.optics(stone, lines::D)?,
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,
@@ -111,6 +112,6 @@ impl Experiment for Contrast<'_> {
             points: Points::new(seed, Purpose::Contrast, batch, points),
             tally,
         };
-        cells::walk_all(self.stone, (self.index, self.polarised), self.sky, &mut pairs);
+        cells::walk_all(self.stone, self.optics, self.polarised, self.sky, &mut pairs);
     }
 }

@@ -2,9 +2,10 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::{random::Purpose, sample, stats::Sum};
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -23,7 +24,7 @@ pub struct Hemisphere<'a> {
     stone: &'a Stone,
     aspect: Aspect,
     polarised: bool,
-    index: f32,
+    optics: Optics,
     entrance: Crown,
     crown: Vec<f32>,
     /// Area of the crown, walking units squared.
@@ -47,6 +48,8 @@ pub struct Tally {
     pub returned_cos2: f64,
     /// Left otherwise.
     pub leaked: f64,
+    /// Taken by the stone.
+    pub absorbed: f64,
     /// Given up inside.
     pub lost: f64,
 }
@@ -59,6 +62,7 @@ impl Sum for Tally {
         self.returned += other.returned;
         self.returned_cos2 += other.returned_cos2;
         self.leaked += other.leaked;
+        self.absorbed += other.absorbed;
         self.lost += other.lost;
     }
 }
@@ -76,7 +80,7 @@ impl<'a> Hemisphere<'a> {
             stone,
             aspect,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            optics: medium.optics(stone, lines::D)?,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone, aspect)?.area(),
             entrance,
@@ -93,6 +97,7 @@ struct Dome<'a> {
     returned: Lanes,
     returned_cos2: Lanes,
     left: Lanes,
+    absorbed: Lanes,
 }
 
 impl Rays for Dome<'_> {
@@ -102,17 +107,22 @@ impl Rays for Dome<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.experiment.optics.absorbs()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Hemisphere { stone, aspect, index, entrance, .. } = self.experiment;
+        let Hemisphere { stone, aspect, optics, entrance, .. } = self.experiment;
         for [a, b, c, d] in &mut self.points {
             self.tally.drawn += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
             if aspect.height(sky) > 0.0 {
-                let entry = stone.enter(facet, -sky, *index);
+                let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
-                packet.enter(lane, point, &entry, *index);
+                packet.enter(lane, point, &entry, optics.index);
+                packet.absorption[lane] = optics.absorption;
                 return true;
             }
         }
@@ -128,6 +138,7 @@ impl Rays for Dome<'_> {
             self.returned[l] += returned;
             self.returned_cos2[l] += returned * up * up;
             self.left[l] += m.power[l];
+            self.absorbed[l] += m.absorbed[l];
         }
     }
 
@@ -137,6 +148,7 @@ impl Rays for Dome<'_> {
         self.tally.returned += returned;
         self.tally.returned_cos2 += take(&mut self.returned_cos2);
         self.tally.leaked += take(&mut self.left) - returned;
+        self.tally.absorbed += take(&mut self.absorbed);
     }
 }
 
@@ -152,6 +164,7 @@ impl Experiment for Hemisphere<'_> {
             returned: zero,
             returned_cos2: zero,
             left: zero,
+            absorbed: zero,
         };
         let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);
         tally.lost += lost;

@@ -3,10 +3,11 @@
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::math::stats::Sum;
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -28,7 +29,7 @@ const STOP_POWER: f32 = 1e-7;
 #[derive(Debug, Clone)]
 pub struct Iso<'a> {
     stone: &'a Stone,
-    index: f32,
+    optics: Optics,
     sky: Sky,
     aspect: Aspect,
     outline: Outline,
@@ -102,7 +103,7 @@ impl<'a> Iso<'a> {
     ) -> Result<Self, ExperimentError> {
         Ok(Self {
             stone,
-            index: check_index(medium.material.index_d())?,
+            optics: medium.optics(stone, lines::D)?,
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,
@@ -125,12 +126,17 @@ struct Gaze<'a> {
 impl Rays for Gaze<'_> {
     const WIDTH: usize = 1;
 
+    fn absorbing(&self) -> bool {
+        self.experiment.optics.absorbs()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let Iso { stone, index, sky, aspect, outline, facing, table } = self.experiment;
+        let Iso { stone, optics, sky, aspect, outline, facing, table } = self.experiment;
         let (facet, point) = outline.sample(u);
-        let entry = stone.enter(facet, -aspect.axis.as_vec3(), *index);
-        packet.enter(lane, point, &entry, *index);
+        let entry = stone.enter(facet, -aspect.axis.as_vec3(), optics.index);
+        packet.enter(lane, point, &entry, optics.index);
+        packet.absorption[lane] = optics.absorption;
         let mirrored = sky.mirrored(&entry) * facing[facet];
         let height = Sky::mirror_height(&entry);
         for (power, weight) in self.power.iter_mut().zip(weights(height)) {

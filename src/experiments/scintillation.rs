@@ -4,10 +4,11 @@ use super::batches::Experiment;
 use super::cells::{self, Cell, Groups, SIDE, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::stats::Sum;
+use crate::optics::dispersion::lines;
 use crate::walk::Stone;
 use std::ops::Range;
 
@@ -36,7 +37,7 @@ const RARER: f64 = 1.25;
 pub struct Scintillation<'a> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    optics: Optics,
     sky: Sky,
     /// Before and after each step.
     steps: Vec<[(Aspect, Outline); 2]>,
@@ -86,7 +87,7 @@ impl<'a> Scintillation<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            optics: medium.optics(stone, lines::D)?,
             sky,
             steps,
             side: SIDE * stone.solid.width() / stone.unit,
@@ -174,7 +175,7 @@ impl Experiment for Scintillation<'_> {
             tally,
             changes: Vec::new(),
         };
-        cells::walk_all(self.stone, (self.index, self.polarised), self.sky, &mut changes);
+        cells::walk_all(self.stone, self.optics, self.polarised, self.sky, &mut changes);
     }
 }
 

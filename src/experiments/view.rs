@@ -2,10 +2,11 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::{Aspect, ExperimentError, Medium, check_index};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::math::stats::Sum;
+use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{Entry, LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -94,7 +95,7 @@ pub const DARK: f32 = 0.1;
 pub struct View<'a> {
     stone: &'a Stone,
     polarised: bool,
-    index: f32,
+    optics: Optics,
     aspect: Aspect,
     surroundings: Surroundings,
     outline: Outline,
@@ -112,6 +113,8 @@ pub struct Tally {
     pub bands: [f64; 4],
     /// Power that leaves upward, weighted by cos² from zenith.
     pub up_cos2: f64,
+    /// Taken by the stone.
+    pub absorbed: f64,
     /// Given up inside.
     pub lost: f64,
     /// Rays by the [`Band`] of their strongest path (reflection at entry aside).
@@ -132,6 +135,7 @@ impl Sum for Tally {
         self.reflected += other.reflected;
         self.bands.add(&other.bands);
         self.up_cos2 += other.up_cos2;
+        self.absorbed += other.absorbed;
         self.lost += other.lost;
         self.strongest.add(&other.strongest);
         self.scope_bright += other.scope_bright;
@@ -164,7 +168,7 @@ impl<'a> View<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            index: check_index(medium.material.index_d())?,
+            optics: medium.optics(stone, lines::D)?,
             aspect,
             surroundings,
             outline: Outline::new(stone, aspect)?,
@@ -193,6 +197,7 @@ struct Gaze<'a> {
     tally: &'a mut Tally,
     bands: [Lanes; 4],
     up_cos2: Lanes,
+    absorbed: Lanes,
     strongest: Lanes,
     strongest_z: Lanes,
     scope_bright: Lanes,
@@ -210,16 +215,21 @@ impl Rays for Gaze<'_> {
         self.experiment.polarised
     }
 
+    fn absorbing(&self) -> bool {
+        self.experiment.optics.absorbs()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let View { stone, index, aspect, outline, surroundings, .. } = self.experiment;
+        let View { stone, optics, aspect, outline, surroundings, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
-        let entry = stone.enter(facet, -aspect.axis.as_vec3(), *index);
+        let entry = stone.enter(facet, -aspect.axis.as_vec3(), optics.index);
         self.luminance[lane] = surroundings.dome.mirrored(&entry);
         self.been_below[lane] = 0.0;
         self.tally.rays += 1.0;
         self.tally.reflected += f64::from(entry.reflectance);
-        packet.enter(lane, point, &entry, *index);
+        packet.enter(lane, point, &entry, optics.index);
+        packet.absorption[lane] = optics.absorption;
         true
     }
 
@@ -231,6 +241,7 @@ impl Rays for Gaze<'_> {
             let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
             let up = z.max(0.0);
             self.up_cos2[l] += power * up * up;
+            self.absorbed[l] += m.absorbed[l];
             let above = |counts: bool| if counts { power } else { 0.0 };
             let (sky, high, zenith) = (above(z > 0.0), above(z >= BAND_ENDS[0]), above(z >= BAND_ENDS[1]));
             self.bands[Band::Green as usize][l] += sky - high;
@@ -255,6 +266,7 @@ impl Rays for Gaze<'_> {
             *sum += take(lanes);
         }
         self.tally.up_cos2 += take(&mut self.up_cos2);
+        self.tally.absorbed += take(&mut self.absorbed);
         self.tally.scope_bright += take(&mut self.scope_bright);
         let (luminance, windowed) = (take(&mut self.luminance), take(&mut self.windowed));
         self.tally.luminance += luminance;
@@ -277,6 +289,7 @@ impl Experiment for View<'_> {
             tally,
             bands: [zero; 4],
             up_cos2: zero,
+            absorbed: zero,
             strongest: zero,
             strongest_z: zero,
             scope_bright: zero,

@@ -16,6 +16,6 @@ pub static GLARE: Metric = Metric {
         line. Power reflected at entry per power arriving. Directions are cosine-distributed about \
         the crown facets' normals, points uniform by crown area; those from below the horizon are \
         not counted.",
-    source: "defined by cutlab; light_return + glare + leakage + lost = 1",
+    source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
     reading: Reading::Hemisphere(|t| t.glare / t.arrived),
 };

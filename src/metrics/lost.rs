@@ -14,9 +14,9 @@ pub static LOST: Metric = Metric {
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that the tracer stopped following (a ray with less than 1e-4 of its light), per \
-        power arriving: the systematic error of the other three. Directions are cosine-distributed \
+        power arriving: the systematic error of the other four. Directions are cosine-distributed \
         about the crown facets' normals, points uniform by crown area; those from below the horizon \
         are not counted.",
-    source: "defined by cutlab; light_return + glare + leakage + lost = 1",
+    source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
     reading: Reading::Hemisphere(|t| t.lost / t.arrived),
 };

@@ -169,27 +169,61 @@ pub fn band_xyz(band: usize) -> Vec3 {
     TABLE[band]
 }
 
-/// XYZ under the equal-energy white to linear sRGB: Bradford adaptation to D65, then the sRGB
-/// matrix. Equal-energy light of luminance 1 comes out as (1, 1, 1).
+/// CIE 1931 x, y of a colour.
+pub fn chromaticity(xyz: Vec3) -> [f32; 2] {
+    [xyz.x / xyz.element_sum(), xyz.y / xyz.element_sum()]
+}
+
+/// The wavelengths of the table, 380, 385 … 730 nm.
+pub fn nodes() -> impl Iterator<Item = f32> {
+    (0..MATCHING.len()).map(|i| RANGE_NM.0 + STEP_NM * i as f32)
+}
+
+/// XYZ of a chromaticity, Y = 1.
+fn of_chromaticity(x: f32, y: f32) -> Vec3 {
+    Vec3::new(x / y, 1.0, (1.0 - x - y) / y)
+}
+
+/// The white of sRGB: D65.
+fn srgb_white() -> Vec3 {
+    of_chromaticity(0.3127, 0.3290)
+}
+
+/// XYZ under D65 to linear sRGB, from the chromaticities of its primaries and its white.
 ///
-/// Source: IEC 61966-2-1 (sRGB); Lam 1985 (Bradford cone responses). Checked below.
+/// Source: IEC 61966-2-1. Checked in `tests/colour.rs` against the matrix printed there.
+pub fn srgb_matrix() -> Mat3 {
+    let primaries = Mat3::from_cols(
+        of_chromaticity(0.64, 0.33),
+        of_chromaticity(0.30, 0.60),
+        of_chromaticity(0.15, 0.06),
+    );
+    let shares = primaries.inverse() * srgb_white();
+    (primaries * Mat3::from_diagonal(shares)).inverse()
+}
+
+/// XYZ to linear sRGB for an eye adapted to `white` (XYZ, Y = 1), which comes out as (1, 1, 1):
+/// Bradford adaptation to D65, then the sRGB matrix.
+///
+/// Source: Lam 1985 (Bradford cone responses). Checked in `tests/colour.rs`.
+pub fn adapted_srgb(xyz: Vec3, white: Vec3) -> Vec3 {
+    to_adapted_srgb(white) * xyz
+}
+
+fn to_adapted_srgb(white: Vec3) -> Mat3 {
+    let bradford = Mat3::from_cols(
+        Vec3::new(0.8951, -0.7502, 0.0389),
+        Vec3::new(0.2664, 1.7135, -0.0685),
+        Vec3::new(-0.1614, 0.0367, 1.0296),
+    );
+    let gain = (bradford * srgb_white()) / (bradford * white);
+    srgb_matrix() * bradford.inverse() * Mat3::from_diagonal(gain) * bradford
+}
+
+/// XYZ under the equal-energy white, the light of the scenes, to linear sRGB: equal-energy light of
+/// luminance 1 comes out as (1, 1, 1).
 pub fn linear_srgb(xyz: Vec3) -> Vec3 {
-    static TO_RGB: LazyLock<Mat3> = LazyLock::new(|| {
-        let bradford = Mat3::from_cols(
-            Vec3::new(0.8951, -0.7502, 0.0389),
-            Vec3::new(0.2664, 1.7135, -0.0685),
-            Vec3::new(-0.1614, 0.0367, 1.0296),
-        );
-        let white_e = bradford * (DENSITY.white / DENSITY.white.y);
-        let white_d65 = bradford * Vec3::new(0.950_456, 1.0, 1.089_058);
-        let adapt = bradford.inverse() * Mat3::from_diagonal(white_d65 / white_e) * bradford;
-        let rgb = Mat3::from_cols(
-            Vec3::new(3.240_454_2, -0.969_266, 0.055_643_4),
-            Vec3::new(-1.537_138_5, 1.876_010_8, -0.204_025_9),
-            Vec3::new(-0.498_531_4, 0.041_556, 1.057_225_2),
-        );
-        rgb * adapt
-    });
+    static TO_RGB: LazyLock<Mat3> = LazyLock::new(|| to_adapted_srgb(DENSITY.white / DENSITY.white.y));
     *TO_RGB * xyz
 }
 

@@ -22,6 +22,9 @@ pub mod lines {
     pub const SIX: [f64; 6] = [B, C, D, E, F, G];
 }
 
+/// The wavelengths of a picture, µm: those of [`super::colour::RANGE_NM`].
+pub const VISIBLE_UM: (f64, f64) = (0.380, 0.730);
+
 /// A dispersion law; λ in µm, result dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Dispersion {

@@ -1,12 +1,30 @@
 //! The catalogue of materials, one a file.
 
+mod beryl;
+mod calcite;
+mod cape_diamond;
+mod chrysoberyl;
 mod corundum;
 mod cubic_zirconia;
 mod diamond;
 mod diamond_rgb;
+mod emerald;
+mod fluorite;
+mod fused_silica;
 mod moissanite;
+mod n_bk7;
 mod quartz;
+mod ruby;
+mod rutile;
+mod sapphire;
+mod spinel;
+mod strontium_titanate;
+mod topaz;
+mod tourmaline;
+mod yag;
+mod zircon;
 
+use super::absorption::Absorption;
 use super::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
 
@@ -19,22 +37,45 @@ pub struct Material {
     pub about: &'static str,
     /// Where the figures are from.
     pub source: &'static str,
-    /// Index against wavelength; for a uniaxial crystal the ordinary ray.
+    /// Index against wavelength; for a uniaxial crystal the ordinary ray, with which light is
+    /// traced.
     pub dispersion: Dispersion,
+    /// Index of the extraordinary ray across the axis of a uniaxial crystal, if it is known. Light
+    /// is not traced with it yet.
+    pub extraordinary: Option<Dispersion>,
     /// Wavelengths for which the law was measured, µm.
     pub valid_um: (f64, f64),
     /// Mass per volume, g/cm³; none for a bare index.
     pub specific_gravity: Option<f64>,
+    /// What it absorbs; none if it is clear.
+    pub absorption: Option<Absorption>,
 }
 
 /// Every material, by name.
 pub static MATERIALS: &[&Material] = &[
     &diamond::DIAMOND,
+    &cape_diamond::CAPE_DIAMOND,
     &diamond_rgb::DIAMOND_RGB,
     &corundum::CORUNDUM,
+    &ruby::RUBY,
+    &sapphire::SAPPHIRE,
+    &beryl::BERYL,
+    &emerald::EMERALD,
     &quartz::QUARTZ,
+    &topaz::TOPAZ,
+    &tourmaline::TOURMALINE,
+    &zircon::ZIRCON,
+    &chrysoberyl::CHRYSOBERYL,
+    &spinel::SPINEL,
+    &fluorite::FLUORITE,
+    &calcite::CALCITE,
     &moissanite::MOISSANITE,
     &cubic_zirconia::CUBIC_ZIRCONIA,
+    &yag::YAG,
+    &strontium_titanate::STRONTIUM_TITANATE,
+    &rutile::RUTILE,
+    &n_bk7::N_BK7,
+    &fused_silica::FUSED_SILICA,
 ];
 
 impl Material {
@@ -43,15 +84,17 @@ impl Material {
         MATERIALS.iter().copied().find(|m| m.name == name)
     }
 
-    /// A material known by one index alone, without dispersion or weight.
+    /// A material known by one index alone, without dispersion, colour or weight.
     pub fn of_index(n: f64) -> Material {
         Material {
             name: format!("n={n}").into(),
             about: "one refractive index, no dispersion",
             source: "given",
             dispersion: Dispersion::Constant(n),
+            extraordinary: None,
             valid_um: (0.0, f64::INFINITY),
             specific_gravity: None,
+            absorption: None,
         }
     }
 
@@ -70,6 +113,27 @@ impl Material {
         self.index(lines::B) != self.index(lines::G)
     }
 
+    /// What is said of wavelengths (µm) at which the index is a guess; none if `from`..=`to` lies
+    /// within what was measured.
+    pub fn extrapolated(&self, from: f64, to: f64) -> Option<String> {
+        let (least, greatest) = self.valid_um;
+        let nm = |um: f64| format!("{:.0} nm", 1000.0 * um);
+        let below = (from < least).then(|| format!("below {}", nm(least)));
+        let above = (to > greatest).then(|| format!("above {}", nm(greatest)));
+        let places: Vec<String> = below.into_iter().chain(above).collect();
+        (!places.is_empty()).then(|| format!("index of {} extrapolated {}", self.name, places.join(" and ")))
+    }
+
+    /// Whether it absorbs nothing.
+    pub fn is_clear(&self) -> bool {
+        self.absorption.is_none()
+    }
+
+    /// Absorption coefficient at `um` (µm), natural logarithm, 1/mm.
+    pub fn absorption_per_mm(&self, um: f64) -> f64 {
+        self.absorption.map_or(0.0, |a| a.per_mm(um))
+    }
+
     /// Mass in carats of `volume_mm3`, if the material's weight is known.
     pub fn carats(&self, volume_mm3: f64) -> Option<f64> {
         self.specific_gravity.map(|sg| volume_mm3 * sg / 200.0)
@@ -85,26 +149,37 @@ mod tests {
         for m in MATERIALS {
             assert!(!m.source.is_empty() && !m.about.is_empty(), "{}", m.name);
             let (from, to) = (m.valid_um.0.max(0.38), m.valid_um.1.min(0.73));
-            let n: Vec<f64> = (0..=100).map(|i| m.index(from + (to - from) * f64::from(i) / 100.0)).collect();
-            assert!(n.iter().all(|n| *n > 1.0), "{}", m.name);
-            assert!(n.windows(2).all(|w| w[1] <= w[0]), "{}", m.name);
+            for law in [Some(m.dispersion), m.extraordinary].into_iter().flatten() {
+                let n: Vec<f64> =
+                    (0..=100).map(|i| law.index(from + (to - from) * f64::from(i) / 100.0)).collect();
+                assert!(n.iter().all(|n| *n > 1.0), "{}", m.name);
+                assert!(n.windows(2).all(|w| w[1] <= w[0]), "{}", m.name);
+            }
         }
     }
 
-    /// Index at D and B–G separation as listed in the project's sources.
     #[test]
-    fn indices_and_dispersions_match_the_published_ones() {
-        for (name, n_d, b_g, tolerance) in [
-            ("diamond", 2.41726, 0.04444, 5e-5),
-            ("corundum", 1.76808, 0.0181, 6e-5),
-            ("quartz", 1.54421, 0.0133, 6e-5),
-            ("moissanite", 2.64743, 0.112, 6e-4),
-            ("cubic-zirconia", 2.15846, 0.0604, 6e-5),
-        ] {
-            let m = Material::named(name).expect("in the catalogue");
-            assert!((m.index_d() - n_d).abs() < 2e-5, "{name}: {}", m.index_d());
-            let separation = m.index(lines::G) - m.index(lines::B);
-            assert!((separation - b_g).abs() < tolerance, "{name}: {separation}");
+    fn every_absorption_says_what_it_is_and_lets_some_light_pass() {
+        let mut coloured = 0;
+        for (m, a) in MATERIALS.iter().filter_map(|m| Some((m, m.absorption?))) {
+            coloured += 1;
+            assert!(!m.is_clear() && !a.source.is_empty() && !a.about.is_empty(), "{}", m.name);
+            let spectrum: Vec<f64> = (380..=730).map(|nm| a.per_mm(f64::from(nm) / 1000.0)).collect();
+            assert!(spectrum.iter().all(|a| (0.0..5.0).contains(a)), "{}", m.name);
+            let (least, most) = spectrum.iter().fold((f64::MAX, 0f64), |(l, m), a| (l.min(*a), m.max(*a)));
+            assert!(least < 0.2 * most, "{}: {least} {most}", m.name);
         }
+        assert!(coloured >= 4);
+    }
+
+    #[test]
+    fn a_guess_is_called_one() {
+        let said = |name: &str, from, to| Material::named(name).and_then(|m| m.extrapolated(from, to));
+        let note = said("strontium-titanate", 0.38, 0.73);
+        assert_eq!(note.as_deref(), Some("index of strontium-titanate extrapolated below 430 nm"));
+        assert_eq!(said("strontium-titanate", lines::G, lines::B), None);
+        let note = said("topaz", 0.38, 0.73);
+        assert_eq!(note.as_deref(), Some("index of topaz extrapolated below 431 nm and above 687 nm"));
+        assert_eq!(said("diamond", 0.38, 0.73), None);
     }
 }

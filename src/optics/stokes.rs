@@ -42,6 +42,11 @@ impl Stokes {
         Stokes { q: cos2 * self.q + sin2 * self.u, u: cos2 * self.u - sin2 * self.q, axis, ..self }
     }
 
+    /// The same light with `share` of its power.
+    pub fn dimmed(self, share: f64) -> Stokes {
+        Stokes { i: share * self.i, q: share * self.q, u: share * self.u, v: share * self.v, ..self }
+    }
+
     /// What passes a facet of light given about its plane of incidence: what is not reflected.
     #[inline]
     pub fn transmitted(self, f: &Facing) -> Stokes {

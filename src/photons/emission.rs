@@ -166,9 +166,10 @@ fn fly(
     loop {
         match scene.first(flight.point, flight.direction, flight.last == Last::Stone) {
             Event::Stone { facet, point, direction } => {
-                let index = scene.stone.index(flight.light.single_wavelength(flight.hue));
+                let nm = flight.light.single_wavelength(flight.hue);
+                let (index, absorption) = (scene.stone.index(nm), scene.stone.absorption(nm));
                 let choice = flight.stream.unit64();
-                return Some((flight, Arrival { facet, point, direction, index, choice }));
+                return Some((flight, Arrival { facet, point, direction, index, absorption, choice }));
             }
             Event::Surface(number, point) => {
                 let wanted = match flight.last {

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"CUTLABPM";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Bytes of one stored photon.
 const PHOTON: usize = 26;
 /// A header is a few hundred bytes; more is not one of ours.
@@ -63,6 +63,7 @@ pub struct Origin {
     scene: String,
     stone: String,
     material: String,
+    polarised: bool,
     surroundings: String,
     photons: usize,
     seed: u64,
@@ -77,7 +78,8 @@ impl Origin {
         Origin {
             scene: scene.name.into(),
             stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
-            material: format!("{} ({:08x})", scene.stone.material.name, material_checksum(scene)),
+            material: substance(scene),
+            polarised: scene.stone.polarised,
             surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
             seed: settings.seed,
@@ -94,12 +96,17 @@ impl Origin {
             ("the scene", &self.scene, &wanted.scene),
             ("the stone", &self.stone, &wanted.stone),
             ("the material", &self.material, &wanted.material),
+            ("--polarisation", &on_off(self.polarised), &on_off(wanted.polarised)),
             ("the surroundings", &self.surroundings, &wanted.surroundings),
             ("--photons", &self.photons.to_string(), &wanted.photons.to_string()),
             ("--seed", &self.seed.to_string(), &wanted.seed.to_string()),
         ];
         pairs.into_iter().find(|(_, a, b)| a != b).map(|(what, a, b)| (what, a.clone(), b.clone()))
     }
+}
+
+fn on_off(on: bool) -> String {
+    (if on { "on" } else { "off" }).into()
 }
 
 /// Checksum of the stone's shape, size and place.
@@ -113,9 +120,13 @@ fn stone_checksum(scene: &Scene) -> u32 {
     crc.finalize()
 }
 
-/// Checksum of the law by which the stone refracts.
-fn material_checksum(scene: &Scene) -> u32 {
-    crc32fast::hash(format!("{:?}", scene.stone.material.dispersion).as_bytes())
+/// The material with a checksum of the laws by which it refracts and absorbs, and with the size of
+/// the stone if its colour depends on it.
+fn substance(scene: &Scene) -> String {
+    let material = &scene.stone.material;
+    let laws = crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes());
+    let radius = format!(", {:.6} mm in radius", scene.stone.stone.unit);
+    format!("{} ({laws:08x}{})", material.name, if material.is_clear() { "" } else { &radius })
 }
 
 /// Checksum of surfaces and lights.
@@ -225,6 +236,7 @@ mod tests {
             scene: "table".into(),
             stone: "s".into(),
             material: "m".into(),
+            polarised: true,
             surroundings: "r".into(),
             photons: 5,
             seed: 1,

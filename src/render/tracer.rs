@@ -243,6 +243,14 @@ struct Inside<'a, 'v> {
 impl Rays for Inside<'_, '_> {
     const WIDTH: usize = BANDS;
 
+    fn polarised(&self) -> bool {
+        self.view.scene.stone.polarised
+    }
+
+    fn absorbing(&self) -> bool {
+        !self.view.scene.stone.material.is_clear()
+    }
+
     /// Lets a camera ray in; what the facet mirrors is seen at once.
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(e) = self.entering.next() else { return false };
@@ -253,7 +261,8 @@ impl Rays for Inside<'_, '_> {
         for band in 0..BANDS {
             let index = placed.index(sight.nm[band]);
             let entry = placed.stone.enter(e.facet, e.direction, index);
-            packet.set(lane + band, e.point, entry.direction, 1.0 - entry.reflectance, index);
+            packet.enter(lane + band, e.point, &entry, index);
+            packet.absorption[lane + band] = placed.absorption(sight.nm[band]);
             let way = WayOut { point: e.point, direction: mirrored, band, power: entry.reflectance };
             self.view.look_out(way, sight, chance);
         }

@@ -17,5 +17,5 @@ fn placed(stone: Stone, material: Material, pose: Pose, radius: f32, at: Vec3) -
     // a hair above the floor, so that no point of the floor lies inside the stone
     const GAP: f32 = 1e-3;
     let position = at + Vec3::Z * radius * (GAP - lowest as f32);
-    PlacedStone { stone, material, world_from_stone: turn.as_mat3(), position, radius }
+    PlacedStone { stone, material, polarised: true, world_from_stone: turn.as_mat3(), position, radius }
 }

@@ -76,7 +76,8 @@ pub struct Plan {
     /// No experiment is traced further than so many samples in pursuit of an error (dearer ones
     /// fewer); where this ends one, the row says so.
     pub cap: u64,
-    /// Whether metrics that beams can give are taken from beams: the effort is then theirs.
+    /// Whether metrics that beams can give are taken from beams: the effort is then theirs. Not in a
+    /// stone that absorbs: the path differs across a beam.
     pub exact: bool,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have one
     /// ([`Metric::observer`]); none leaves each its own.
@@ -115,7 +116,8 @@ pub struct Subject {
     pub stone: String,
     /// What it is made of.
     pub material: Material,
-    /// Its shape, or why it has none: the row then carries the message.
+    /// Its shape, in millimetres if the material absorbs; or why it has none: the row then carries
+    /// the message.
     pub solid: Result<Polyhedron, String>,
     /// How it is turned; none for face-up.
     pub tilt: Option<Tilt>,
@@ -180,7 +182,8 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
             row.scores[column] = of(&stone.solid).map(Estimate::exact);
         }
     }
-    let mut sheet = Sheet { row, plan };
+    let exact = plan.exact && subject.material.is_clear();
+    let mut sheet = Sheet { row, plan, exact };
     let hemisphere = |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None };
     sheet.fill("hemisphere", hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
     let view = |r| if let Reading::View(f) = r { Some(f) } else { None };
@@ -203,7 +206,7 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     if dispersive {
         sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
     }
-    if plan.exact {
+    if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
         sheet.fill("quadrature", hemisphere, true, DIRECTION_COST, make)?;
         let beams = Beams::new(stone);
@@ -220,6 +223,8 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
 struct Sheet<'a> {
     row: &'a mut Row,
     plan: &'a Plan,
+    /// Whether beams are used.
+    exact: bool,
 }
 
 /// A column: its number, its metric's scale, and what it reads from a tally.
@@ -230,7 +235,7 @@ impl Sheet<'_> {
     ///
     /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
     fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
-        let asked = |m: &Metric| (self.plan.exact && m.by_beams) == by_beams;
+        let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams;
         let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
         metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
     }

@@ -16,6 +16,8 @@ pub struct Arrival {
     pub direction: Vec3,
     /// Index of the stone at the photon's wavelength.
     pub index: f32,
+    /// Absorption coefficient there, per walking unit.
+    pub absorption: f32,
     /// One uniform number, by which the exit is chosen.
     pub choice: f64,
 }
@@ -27,7 +29,7 @@ pub struct Departure {
     pub point: Vec3,
     /// Unit direction outside.
     pub direction: Vec3,
-    /// Share of its power that it keeps: all that leaves the stone by any way.
+    /// Share of its power that it keeps: all that is not absorbed and leaves the stone by any way.
     pub share: f32,
 }
 
@@ -69,11 +71,20 @@ struct Crossing<'a> {
 impl Rays for Crossing<'_> {
     const WIDTH: usize = 1;
 
+    fn polarised(&self) -> bool {
+        self.placed.polarised
+    }
+
+    fn absorbing(&self) -> bool {
+        !self.placed.material.is_clear()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(a) = self.arrivals.next() else { return false };
         let stone = &self.placed.stone;
         let entry = stone.enter(a.facet, a.direction, a.index);
-        packet.set(lane, a.point, entry.direction, 1.0 - entry.reflectance, a.index);
+        packet.enter(lane, a.point, &entry, a.index);
+        packet.absorption[lane] = a.absorption;
         self.photon[lane] = self.departures.len();
         self.choice[lane] = a.choice;
         self.total[lane] = entry.reflectance.into();

@@ -69,24 +69,31 @@ impl Isa {
     }
 }
 
+/// [`kernel::meet`] with what the packet's light needs.
+#[inline(always)]
+fn meet_as_needed<const FUSED: bool, const W: usize, const B: usize>(
+    stone: &Stone,
+    packet: &mut Packet,
+    out: &mut Meeting,
+) {
+    match (packet.polarised, packet.absorbing) {
+        (false, false) => kernel::meet::<FUSED, W, B, false, false>(stone, packet, out),
+        (false, true) => kernel::meet::<FUSED, W, B, false, true>(stone, packet, out),
+        (true, false) => kernel::meet::<FUSED, W, B, true, false>(stone, packet, out),
+        (true, true) => kernel::meet::<FUSED, W, B, true, true>(stone, packet, out),
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
 fn meet_avx512(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
-    if packet.polarised {
-        kernel::meet::<true, 16, 4, true>(stone, packet, out);
-    } else {
-        kernel::meet::<true, 16, 4, false>(stone, packet, out);
-    }
+    meet_as_needed::<true, 16, 4>(stone, packet, out);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn meet_avx2(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
-    if packet.polarised {
-        kernel::meet::<true, 8, 2, true>(stone, packet, out);
-    } else {
-        kernel::meet::<true, 8, 2, false>(stone, packet, out);
-    }
+    meet_as_needed::<true, 8, 2>(stone, packet, out);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -116,8 +123,7 @@ fn first_hit_avx2(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
 /// [`kernel::meet`] with the stone's instruction set.
 pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
     match stone.isa.0 {
-        Level::Portable if packet.polarised => kernel::meet::<false, 8, 1, true>(stone, packet, out),
-        Level::Portable => kernel::meet::<false, 8, 1, false>(stone, packet, out),
+        Level::Portable => meet_as_needed::<false, 8, 1>(stone, packet, out),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { meet_avx2(stone, packet, out) },

@@ -19,6 +19,11 @@ pub trait Rays {
         false
     }
 
+    /// Whether the stone absorbs: [`Packet::absorption`] then counts.
+    fn absorbing(&self) -> bool {
+        false
+    }
+
     /// Puts the next ray into the lanes from `lane` on; false if there is none left.
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool;
 
@@ -40,7 +45,7 @@ pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
     let mut lost = 0.0;
     let mut more = true;
     while more {
-        let mut packet = Packet::new(rays.polarised());
+        let mut packet = Packet { absorbing: rays.absorbing(), ..Packet::new(rays.polarised()) };
         let mut fed = 0;
         let lanes = || (0..LANES / R::WIDTH).map(|i| i * R::WIDTH);
         let mut alive = [false; LANES];

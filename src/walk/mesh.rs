@@ -132,6 +132,7 @@ impl MeshStone {
             let plane = &self.planes[facet];
             ray.point += ray.direction * distance;
             ray.point -= plane.normal * plane.height(ray.point);
+            let absorbed = if side == Side::Inside { ray.absorb(distance) } else { 0.0 };
             let split = Split::at(plane.normal, &ray, side);
             let leaves = split.power_outside > 0.0
                 && self.next_facet(ray.point, split.outside, Side::Outside).is_none();
@@ -148,6 +149,7 @@ impl MeshStone {
                 point: ray.point,
                 direction: if leaves { split.outside } else { DVec3::ZERO },
                 power,
+                absorbed,
                 cos_inside: split.cos_inside,
                 cos_outside: split.cos_outside,
             });

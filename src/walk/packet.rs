@@ -31,6 +31,11 @@ pub struct Packet {
     pub index: Lanes,
     /// Path length since entry, in units of the stone's frame.
     pub path: Lanes,
+    /// Whether the stone absorbs; if not, `absorption` counts for nothing.
+    pub absorbing: bool,
+    /// Absorption coefficient of the stone at the lane's wavelength, natural logarithm, per unit of
+    /// the stone's frame.
+    pub absorption: Lanes,
     /// Whether the walk follows polarisation; if not, light is taken as unpolarised at every facet.
     pub polarised: bool,
     /// Stokes vector besides the power, about the axis (see [`crate::optics::stokes`]).
@@ -60,6 +65,8 @@ impl Default for Packet {
             power: zero,
             index: [1.5; LANES],
             path: zero,
+            absorbing: false,
+            absorption: zero,
             polarised: false,
             q: zero,
             u: zero,
@@ -87,7 +94,7 @@ impl Packet {
         (self.ax[lane], self.ay[lane], self.az[lane]) = entry.axis.into();
     }
 
-    /// Sets a lane on its way.
+    /// Sets a lane on its way, without absorption: give the lane its `absorption` afterwards.
     ///
     /// - `point`, `direction` (unit): in the stone's frame, just inside
     /// - `power`: any unit; `index`: of the stone at the lane's wavelength
@@ -96,6 +103,7 @@ impl Packet {
         (self.dx[lane], self.dy[lane], self.dz[lane]) = direction.into();
         self.power[lane] = power;
         self.index[lane] = index;
+        self.absorption[lane] = 0.0;
         self.path[lane] = 0.0;
         (self.q[lane], self.u[lane], self.v[lane]) = (0.0, 0.0, 0.0);
         (self.ax[lane], self.ay[lane], self.az[lane]) = direction.any_orthonormal_vector().into();
@@ -155,6 +163,8 @@ pub struct Meeting {
     pub facet: [u32; LANES],
     /// Power that left the stone there; 0 at total reflection.
     pub power: Lanes,
+    /// Power that the stone took on the way there; 0 in a packet that is not absorbing.
+    pub absorbed: Lanes,
     /// Unit direction outside.
     pub dx: Lanes,
     /// Unit direction outside.
@@ -175,6 +185,7 @@ impl Default for Meeting {
         Self {
             facet: [0; LANES],
             power: zero,
+            absorbed: zero,
             dx: zero,
             dy: zero,
             dz: zero,

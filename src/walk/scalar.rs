@@ -16,8 +16,21 @@ pub struct Ray {
     pub power: f64,
     /// Refractive index of the stone at the ray's wavelength.
     pub index: f64,
+    /// Absorption coefficient of the stone at the ray's wavelength, natural logarithm, per unit of
+    /// length.
+    pub absorption: f64,
     /// Stokes vector (its power is `power`); none to take light as unpolarised at every facet.
     pub stokes: Option<Stokes>,
+}
+
+impl Ray {
+    /// Goes `distance` through the stone by the law of Beer and Lambert; returns the power taken.
+    pub(super) fn absorb(&mut self, distance: f64) -> f64 {
+        let (before, left) = (self.power, (-self.absorption * distance).exp());
+        self.power *= left;
+        self.stokes = self.stokes.map(|light| light.dimmed(left));
+        before - self.power
+    }
 }
 
 /// What a ray leaves at a meeting with a facet.
@@ -31,6 +44,8 @@ pub struct Meeting {
     pub direction: DVec3,
     /// Power that left; 0 at total reflection.
     pub power: f64,
+    /// Power that the stone took on the way there.
+    pub absorbed: f64,
     /// Cosine of the ray with the facet normal, inside.
     pub cos_inside: f64,
     /// Cosine outside; 0 at total reflection.
@@ -64,6 +79,7 @@ pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnM
         let normal = planes[facet].normal;
         ray.point += ray.direction * distance;
         ray.point -= normal * planes[facet].height(ray.point);
+        let absorbed = ray.absorb(distance);
         let cos_inside = ray.direction.dot(normal).clamp(0.0, 1.0);
         let facing = Facing::new(cos_inside, 1.0 / ray.index);
         let cos_outside = facing.cos_t;
@@ -75,7 +91,7 @@ pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnM
             DVec3::ZERO
         };
         let power = ray.power - kept;
-        visit(&Meeting { facet, point: ray.point, direction, power, cos_inside, cos_outside });
+        visit(&Meeting { facet, point: ray.point, direction, power, absorbed, cos_inside, cos_outside });
         ray.power = kept;
         ray.direction = (ray.direction - 2.0 * cos_inside * normal).normalize();
     }

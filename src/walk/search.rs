@@ -18,7 +18,7 @@ use glam::Vec3;
 const LEAST_HEIGHT: f32 = 1e-9;
 
 #[inline(always)]
-fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
+pub(super) fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
@@ -119,7 +119,7 @@ impl<const W: usize> Best<W> {
 /// It is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop has no
 /// division and no mask: a facet that the ray leaves has a negative numerator and never wins. All
 /// rays together try the sloping facets; a ray that would pass the cylinder inside the girdle's
-/// flats tries those, on its own: one in forty in a round brilliant.
+/// flats tries those at its azimuth, on its own: one in forty in a round brilliant.
 ///
 /// - `W`: lanes that fill a register; `B`: running bests that fit into the registers
 #[inline(always)]
@@ -131,13 +131,14 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
     for lane in (0..LANES).step_by(W) {
         let rays = Rays::<W>::of(p, lane);
         let best = Best::of_all::<FUSED, B>(&rays, &stone.rows);
-        let mut end2 = [0.0; W];
+        let (mut ends, mut end2) = ([[0.0; 2]; W], [0.0; W]);
         for l in 0..W {
             // a ray that has met nothing has no end: the quotient is infinite, or no number
             let t = best.height[l] / best.toward[l];
             let (x, y) = (t * rays.d[0][l] - rays.back[0][l], t * rays.d[1][l] - rays.back[1][l]);
             out.distance[lane + l] = t;
             out.facet[lane + l] = best.facet[l];
+            ends[l] = [x, y];
             end2[l] = x * x + y * y;
         }
         let Some(belt) = &stone.belt else { continue };
@@ -152,7 +153,7 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
             if within[l] {
                 continue;
             }
-            let (distance, flat) = nearest_flat::<FUSED>(belt, p, lane + l);
+            let (distance, flat) = nearest_flat::<FUSED>(belt, p, lane + l, ends[l]);
             if distance < out.distance[lane + l] || best.facet[l] == NO_FACET {
                 (out.distance[lane + l], out.facet[lane + l]) = (distance, flat);
             }
@@ -160,26 +161,48 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
     }
 }
 
-/// The flat that one ray meets first and its distance.
+/// The flat that one ray meets first and its distance, sought from the azimuth of its end outward.
+///
+/// The flats are the sides of a convex polygon, so that (nᵢ·d)/(dᵢ − nᵢ·x) has one hill as i goes
+/// around: a flat that is met before both its neighbours is met before all.
 #[inline(always)]
-fn nearest_flat<const FUSED: bool>(belt: &Belt, p: &Packet, lane: usize) -> (f32, u32) {
-    let (x, y, dx, dy) = (-p.x[lane], -p.y[lane], p.dx[lane], p.dy[lane]);
-    let mut best = Best::<LANES>::NONE;
-    for flats in &belt.flats {
-        let mut tried = Best { facet: flats.facet, ..Best::NONE };
-        for l in 0..LANES {
-            tried.toward[l] = mul_add::<FUSED>(flats.nx[l], dx, flats.ny[l] * dy);
-            let above = mul_add::<FUSED>(flats.nx[l], x, mul_add::<FUSED>(flats.ny[l], y, flats.d[l]));
-            tried.height[l] = above.max(LEAST_HEIGHT);
+fn nearest_flat<const FUSED: bool>(belt: &Belt, p: &Packet, lane: usize, end: [f32; 2]) -> (f32, u32) {
+    let count = belt.flats.len();
+    let mut at = belt.facing(end[0], end[1]);
+    let (mut distance, mut which) = nearest_of::<FUSED>(&belt.flats[at], p, lane);
+    for step in 1..count {
+        let beside = match which {
+            _ if distance == f32::INFINITY => at + step,
+            0 => at + count - 1,
+            last if last == belt.flats[at].last => at + 1,
+            _ => break,
+        };
+        let (other, flat) = nearest_of::<FUSED>(&belt.flats[beside % count], p, lane);
+        if other < distance {
+            (distance, which, at) = (other, flat, beside % count);
+        } else if distance < f32::INFINITY {
+            break;
         }
-        best = best.against(tried);
     }
+    let met = distance < f32::INFINITY;
+    (distance, if met { belt.flats[at].facet[which as usize % LANES] } else { NO_FACET })
+}
+
+/// The distance to the nearest of sixteen flats, and which it is; infinite if the ray turns away from
+/// all.
+#[inline(always)]
+fn nearest_of<const FUSED: bool>(flats: &Planes, p: &Packet, lane: usize) -> (f32, u32) {
+    let (x, y, dx, dy) = (-p.x[lane], -p.y[lane], p.dx[lane], p.dy[lane]);
     let mut keys = [0; LANES];
     for l in 0..LANES {
-        keys[l] = (best.height[l] / best.toward[l]).to_bits();
+        let toward = mul_add::<FUSED>(flats.nx[l], dx, flats.ny[l] * dy);
+        let height = mul_add::<FUSED>(flats.nx[l], x, mul_add::<FUSED>(flats.ny[l], y, flats.d[l]));
+        keys[l] = (height.max(LEAST_HEIGHT) / toward).to_bits();
     }
-    let (key, facet) = least(&keys, &best.facet);
-    (f32::from_bits(key), facet)
+    let (key, which) = least(&keys, &std::array::from_fn(|l| l as u32));
+    // less than 0 or no number: it turns away
+    let distance = f32::from_bits(key);
+    (if distance >= 0.0 { distance } else { f32::INFINITY }, which)
 }
 
 /// The least key and what stands beside it; of equal keys the least of that.

@@ -57,7 +57,14 @@ fn notched_prism() -> Mesh {
 fn aimed(s: &mut Stream) -> scalar::Ray {
     let direction = random_direction(s).as_dvec3().normalize();
     let target = random_direction(s).as_dvec3() * 0.4 * s.unit64();
-    scalar::Ray { point: target - direction * 3.0, direction, power: 1.0, index: N, stokes: None }
+    scalar::Ray {
+        point: target - direction * 3.0,
+        direction,
+        power: 1.0,
+        index: N,
+        absorption: 0.0,
+        stokes: None,
+    }
 }
 
 /// [D] facet by facet, until two are equally near.

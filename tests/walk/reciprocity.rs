@@ -25,7 +25,7 @@ fn ways_of_twin(stone: &Stone, point: DVec3, toward: DVec3, facet: usize) -> Vec
     let facing = cutlab::optics::fresnel::Facing::new(cos, n);
     let inside = (toward / n + normal * (cos / n - facing.cos_t)).normalize();
     let power = 1.0 - facing.mean();
-    let ray = scalar::Ray { point, direction: inside, power, index: n, stokes: None };
+    let ray = scalar::Ray { point, direction: inside, power, index: n, absorption: 0.0, stokes: None };
     let mut ways = Vec::new();
     scalar::walk(&stone.planes, ray, 1e-3, |m| {
         if m.power > 1e-3 {

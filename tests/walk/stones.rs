@@ -74,6 +74,7 @@ pub fn twin_of(packet: &Packet, lane: usize) -> scalar::Ray {
         direction: packet.direction(lane).as_dvec3().normalize(),
         power: packet.power[lane].into(),
         index: packet.index[lane].into(),
+        absorption: 0.0,
         stokes: None,
     }
 }

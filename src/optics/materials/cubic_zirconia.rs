@@ -13,6 +13,8 @@ pub static CUBIC_ZIRCONIA: Material = Material {
         c0: 0.0,
         terms: &[(1.347091, 0.062543), (2.117788, 0.166739), (9.452943, 24.32057)],
     },
+    extraordinary: None,
     valid_um: (0.361, 5.135),
     specific_gravity: Some(5.7),
+    absorption: None,
 };

@@ -4,12 +4,24 @@ use super::Material;
 use crate::optics::dispersion::Dispersion;
 use std::borrow::Cow;
 
+/// Peter's law.
+pub(super) const LAW: Dispersion =
+    Dispersion::Sellmeier { c0: 0.0, terms: &[(0.3306, 0.1750), (4.3356, 0.1060)] };
+
+/// Where the law was measured, µm.
+pub(super) const VALID_UM: (f64, f64) = (0.226, 0.760);
+
+/// Mass per volume, g/cm³.
+pub(super) const SPECIFIC_GRAVITY: f64 = 3.52;
+
 /// Diamond. Checked at eight Fraunhofer lines in `tests/optics.rs`.
 pub static DIAMOND: Material = Material {
     name: Cow::Borrowed("diamond"),
     about: "diamond, colourless",
     source: "F. Peter, Z. Physik 15 (1923) 358, as C/Peter in refractiveindex.info (CC0)",
-    dispersion: Dispersion::Sellmeier { c0: 0.0, terms: &[(0.3306, 0.1750), (4.3356, 0.1060)] },
-    valid_um: (0.226, 0.760),
-    specific_gravity: Some(3.52),
+    dispersion: LAW,
+    extraordinary: None,
+    valid_um: VALID_UM,
+    specific_gravity: Some(SPECIFIC_GRAVITY),
+    absorption: None,
 };
