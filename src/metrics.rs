@@ -30,6 +30,11 @@ pub struct Metric {
     pub unit: &'static str,
     /// Least and greatest value it can take.
     pub range: (f64, f64),
+    /// What an error asked for is measured against: 1 for fractions and degrees, 100 for percentages.
+    pub scale: f64,
+    /// Half-angle in degrees of the observer's dark cone, for a metric that has one; a plan may set
+    /// another.
+    pub observer: Option<f64>,
     /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
     pub definition: &'static str,
     /// Where the definition is from.

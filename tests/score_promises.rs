@@ -85,7 +85,17 @@ fn an_error_asked_for_is_reached_or_the_row_says_so() {
     let subject = subject("reference", &named("reference"), n2417());
     let asked = |target, cap| {
         let metrics = plan(&["wlr", "aset_red"], 0).metrics;
-        score(&subject, &Plan { metrics, effort: Effort::Error(target), polarised: false, seed: SEED, cap })
+        score(
+            &subject,
+            &Plan {
+                metrics,
+                effort: Effort::Error(target),
+                polarised: false,
+                seed: SEED,
+                cap,
+                ..Plan::default()
+            },
+        )
     };
     let reached = asked(0.001, 1 << 20);
     assert_eq!(reached.error, None);
@@ -104,7 +114,12 @@ fn rows_hold_what_applies_and_say_what_failed() {
         subject("impossible", &named("reference"), Material::of_index(0.5)),
     ];
     subjects[1].material = diamond();
-    subjects.push(Subject { stone: "open".into(), material: diamond(), solid: Err("open: no table".into()) });
+    subjects.push(Subject {
+        stone: "open".into(),
+        material: diamond(),
+        solid: Err("open: no table".into()),
+        tilt: None,
+    });
     let plan = plan(&["wlr", "fire_streak"], 1000);
     let rows: Vec<Row> = score_all(&subjects, &plan);
     let text = String::from_utf8(table::csv(&plan.metrics, &rows).expect("csv")).expect("text");

@@ -112,7 +112,7 @@ fn row(spec: &str, args: &Args, plan: &Plan) -> (Row, Option<Code>) {
         }
     };
     let known = solid.is_ok() || args.substance.material.is_some() || args.substance.ri.is_some();
-    let mut row = score(&Subject { stone: spec.into(), material, solid }, plan);
+    let mut row = score(&Subject { stone: spec.into(), material, solid, tilt: None }, plan);
     if !known {
         row.material.clear();
     }

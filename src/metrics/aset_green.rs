@@ -9,6 +9,8 @@ pub static ASET_GREEN: Metric = Metric {
     about: "share of what one sees face-up that comes from low light, 0–45°",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
         off), D line. Share of the sight lines' power that comes from 0 to 45° above the girdle \

@@ -9,6 +9,8 @@ pub static ASET_LEAK: Metric = Metric {
     about: "share from below: windows",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
         off), D line. Share of the sight lines' power that comes from below the horizon, by whatever \

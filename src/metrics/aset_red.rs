@@ -9,6 +9,8 @@ pub static ASET_RED: Metric = Metric {
     about: "share from 45–75°, the light that matters most",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
         off), D line. Share of the sight lines' power that comes from 45 to 75° above the girdle \

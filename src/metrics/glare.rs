@@ -8,6 +8,8 @@ pub static GLARE: Metric = Metric {
     about: "share mirrored by the crown's surface without entering",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power reflected at entry per power arriving. Directions are cosine-distributed about \

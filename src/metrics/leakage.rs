@@ -8,6 +8,8 @@ pub static LEAKAGE: Metric = Metric {
     about: "share that leaves otherwise: through the pavilion, or downward through the crown",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves otherwise than upward through the crown, per power arriving. \

@@ -8,6 +8,8 @@ pub static LIGHT_RETURN: Metric = Metric {
     about: "share of a dome's light that comes back up through the crown, from inside",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves upward through the crown after entering, per power arriving. \

@@ -8,6 +8,8 @@ pub static LOST: Metric = Metric {
     about: "share no longer followed: the error of the figures above",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that the tracer stopped following (a ray with less than 1e-4 of its light), per \

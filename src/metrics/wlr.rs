@@ -8,6 +8,8 @@ pub static WLR: Metric = Metric {
     about: "weighted light return: white light from a dome, returned through the crown, most weight face-up",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves upward through the crown, weighted by cos² of its angle from zenith, \

@@ -98,6 +98,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         stone: request.stone.clone(),
         material: request.material.clone(),
         solid: Ok(solid.clone()),
+        tilt: None,
     };
     let row = score(&subject, &plan);
     if let Some(why) = row.error {

@@ -28,8 +28,8 @@ pub const SAMPLES_CAP: u64 = 1 << 25;
 pub enum Effort {
     /// So many points of the hemisphere and the view, a quarter of it of the beam.
     Samples(u64),
-    /// Until the standard error of every metric asked for is below this, in the metric's unit
-    /// (fractions; degrees for angles).
+    /// Until the standard error of every metric asked for is below this times the metric's
+    /// [`Metric::scale`]: a fraction, degrees for angles, hundredths of it for percentages.
     Error(f64),
 }
 
@@ -54,10 +54,16 @@ pub struct Plan {
     /// No experiment is traced further than so many samples in pursuit of an error (the beam a
     /// quarter of it); where this ends one, the row says so.
     pub cap: u64,
+    /// Whether metrics that beams can give are taken from beams: the effort is then theirs.
+    pub exact: bool,
+    /// Half-angle in degrees of the observer's dark cone, for the metrics that have one
+    /// ([`Metric::observer`]); none leaves each its own.
+    pub observer: Option<f64>,
 }
 
 impl Default for Plan {
-    /// Every metric, default effort and cap, polarisation followed, seed 1.
+    /// Every metric, default effort and cap, polarisation followed, seed 1, no beams, each metric's
+    /// own observer.
     fn default() -> Self {
         Plan {
             metrics: METRICS.to_vec(),
@@ -65,8 +71,19 @@ impl Default for Plan {
             polarised: true,
             seed: 1,
             cap: SAMPLES_CAP,
+            exact: false,
+            observer: None,
         }
     }
+}
+
+/// How a stone is turned before viewer and light, which stay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tilt {
+    /// Degrees, right-handed about the axis.
+    pub degrees: f64,
+    /// Azimuth of the axis, which is horizontal, in degrees from +x towards +y.
+    pub azimuth: f64,
 }
 
 /// A stone to score.
@@ -78,6 +95,8 @@ pub struct Subject {
     pub material: Material,
     /// Its shape, or why it has none: the row then carries the message.
     pub solid: Result<Polyhedron, String>,
+    /// How it is turned; none for face-up.
+    pub tilt: Option<Tilt>,
 }
 
 /// The scores of a stone.
@@ -92,6 +111,8 @@ pub struct Row {
     /// One a metric of the plan; none where the metric does not apply (no dispersion) or the stone
     /// failed.
     pub scores: Vec<Option<Estimate>>,
+    /// Points traced, by experiment.
+    pub samples: Vec<(&'static str, u64)>,
     /// What went wrong: no shape, no light, or an error not reached (the scores then stand).
     pub error: Option<String>,
 }
@@ -107,6 +128,7 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
         material: subject.material.name.to_string(),
         facets: None,
         scores: vec![None; plan.metrics.len()],
+        samples: Vec::new(),
         error: None,
     };
     match &subject.solid {
