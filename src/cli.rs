@@ -3,6 +3,7 @@
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod console;
+mod folders;
 mod generate;
 mod import;
 mod list;
@@ -11,8 +12,11 @@ mod parameters;
 mod render;
 mod report;
 mod score;
+mod scoring;
 mod show;
 mod stones;
+mod tables;
+mod words;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;

@@ -1,4 +1,9 @@
 //! Studies: many stones, many scores.
 
+pub mod batch;
+pub mod identity;
+pub mod meta;
 pub mod score;
+pub mod shard;
+pub mod sweep;
 pub mod table;

@@ -53,9 +53,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
-    let name = args.stone.split(':').next().unwrap_or_default();
-    let is_cut = library::names().any(|n| n == name) || families::family(name).is_ok();
-    if let (false, Some(flag)) = (is_cut, parameters.0.keys().next())
+    if let (false, Some(flag)) = (stones::is_cut(&args.stone), parameters.0.keys().next())
         && Path::new(&args.stone).exists()
     {
         return Err(Failure::input(format!(

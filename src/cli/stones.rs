@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
-use crate::cut::Design;
+use crate::cut::{Design, families, library};
 use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
@@ -46,6 +46,12 @@ pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
         _ if failed.iter().all(|c| *c == Code::Io) => Code::Io,
         _ => Code::NoGoodInput,
     }
+}
+
+/// Whether STONE names a cut of the library or a family, with parameters or not.
+pub fn is_cut(spec: &str) -> bool {
+    let name = spec.split(':').next().unwrap_or_default();
+    library::names().any(|n| n == name) || families::family(name).is_ok()
 }
 
 /// Value parser of `--size`.

@@ -25,6 +25,8 @@ pub enum Purpose {
     Test = 7,
     /// Photons that finish what beams leave over, one stream a batch.
     BeamRemainder = 8,
+    /// Scattered points of a sweep, one stream.
+    Scatter = 20,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

@@ -38,10 +38,6 @@ impl Done {
             self.all += 1;
         }
     }
-
-    fn has(&self, position: u64) -> bool {
-        position < self.all || self.beyond.contains(&position)
-    }
 }
 
 /// What may be worth telling while a progress file is opened.
@@ -112,14 +108,19 @@ impl Progress {
         }
     }
 
-    /// Whether the record at `position` is there.
-    pub fn has(&self, position: u64) -> bool {
-        self.done.has(position)
-    }
-
     /// How many records there are.
     pub fn count(&self) -> u64 {
         self.done.all + self.done.beyond.len() as u64
+    }
+
+    /// The positions that are there beyond the first that is missing.
+    pub fn beyond(&self) -> BTreeSet<u64> {
+        self.done.beyond.clone()
+    }
+
+    /// The first position that is missing.
+    pub fn missing_from(&self) -> u64 {
+        self.done.all
     }
 
     /// Adds the record at `position`, in one write.
@@ -181,8 +182,9 @@ fn still_at(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt;
-        let here = |m: std::fs::Metadata| (m.dev(), m.ino());
-        matches!((file.metadata(), std::fs::metadata(path)), (Ok(a), Ok(b)) if here(a) == here(b))
+        let place = |m: std::io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
+        let here = place(file.metadata());
+        here.is_some() && here == place(std::fs::metadata(path))
     }
     #[cfg(not(unix))]
     {
@@ -193,7 +195,11 @@ fn still_at(file: &File, path: &Path) -> bool {
 
 /// One record as it stands in the file.
 enum Record {
-    Whole { key: String, payload: Vec<u8>, length: u64 },
+    Whole {
+        key: String,
+        payload: Vec<u8>,
+        length: u64,
+    },
     /// The file ends before the record does, or with it.
     Ends,
     Broken,

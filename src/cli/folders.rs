@@ -1,0 +1,90 @@
+//! Which files a folder, or a pattern of file names, stands for.
+
+use super::outcome::Failure;
+use super::stones;
+use crate::formats::{self, FormatError, stone};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Every file below `folder`, in the order of their names. Links to folders are not followed: they
+/// may lead round in a circle.
+///
+/// - `skipped`: a folder, in canonical form, that is not searched
+pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
+    let fail = |cause: std::io::Error| Failure::reading(&folder.display().to_string(), &cause);
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .map_err(fail)?
+        .map(|e| e.map(|e| e.path()))
+        .collect::<Result<_, _>>()
+        .map_err(fail)?;
+    entries.sort();
+    let mut found = Vec::new();
+    for path in entries {
+        let is_link = fs::symlink_metadata(&path).is_ok_and(|m| m.is_symlink());
+        if path.is_dir() {
+            let is_skipped = skipped.is_some() && path.canonicalize().ok().as_deref() == skipped;
+            if !is_link && !is_skipped {
+                found.extend(files(&path, skipped)?);
+            }
+        } else if path.is_file() {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}
+
+/// The STONE that a file is: a file with the name of a cut is meant as the file.
+pub fn as_stone(file: &Path) -> String {
+    let here = Path::new(".").join(file);
+    if file.components().count() == 1 { here.display().to_string() } else { file.display().to_string() }
+}
+
+/// The stones of a command: folders replaced by their designs and meshes, patterns (`*.asc`) by what
+/// they match. What is in a folder and of no format is passed over.
+pub fn expanded(arguments: &[String]) -> Result<Vec<String>, Failure> {
+    let mut all = Vec::new();
+    for argument in arguments {
+        let path = Path::new(argument);
+        if path.is_dir() {
+            all.extend(designs(path)?);
+        } else if argument.contains(['*', '?', '[']) && fs::symlink_metadata(path).is_err() {
+            let matches = glob::glob(argument).map_err(|e| Failure::input(format!("{argument}: {e}")))?;
+            let before = all.len();
+            for found in matches {
+                let found =
+                    found.map_err(|e| Failure::reading(&e.path().display().to_string(), e.error()))?;
+                if found.is_dir() { all.extend(designs(&found)?) } else { all.push(as_stone(&found)) }
+            }
+            if all.len() == before {
+                return Err(Failure::input(format!("no file matches {argument}")));
+            }
+        } else {
+            all.push(argument.clone());
+        }
+    }
+    Ok(all)
+}
+
+/// The designs and meshes in a folder.
+fn designs(folder: &Path) -> Result<Vec<String>, Failure> {
+    let is_design = |file: &PathBuf| {
+        let none = |e| {
+            matches!(
+                e,
+                FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. }
+            )
+        };
+        formats::has_known_ending(file) || !stone::open(&as_stone(file)).is_err_and(none)
+    };
+    let found: Vec<String> =
+        files(folder, None)?.iter().filter(|f| is_design(f)).map(|f| as_stone(f)).collect();
+    if found.is_empty() {
+        return Err(Failure::input(format!("no designs and no meshes in {}", folder.display())));
+    }
+    Ok(found)
+}
+
+/// The file that a STONE is read from, if it is one.
+pub fn file_of(stone: &str) -> Option<&Path> {
+    Some(Path::new(stone)).filter(|path| !stones::is_cut(stone) && path.is_file())
+}
