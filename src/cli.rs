@@ -3,10 +3,12 @@
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod console;
+mod drawing;
 mod folders;
 mod generate;
 mod import;
 mod list;
+mod merge;
 mod outcome;
 mod parameters;
 mod render;
@@ -15,6 +17,7 @@ mod score;
 mod scoring;
 mod show;
 mod stones;
+mod sweep;
 mod tables;
 mod words;
 
@@ -51,6 +54,10 @@ enum Command {
     Render(render::Args),
     /// Scores of brilliance and fire, one row a stone
     Score(score::Args),
+    /// Scores over a grid of parameters, with curves and maps
+    Sweep(sweep::Args),
+    /// Join the parts that --shard made of a table
+    Merge(merge::Args),
     /// Everything about one stone: pictures, scores and a page
     Report(report::Args),
     /// What there is to choose from
@@ -65,6 +72,8 @@ impl Command {
             Command::Show(args) => show::run(args, console),
             Command::Render(args) => render::run(args, console),
             Command::Score(args) => score::run(args, console),
+            Command::Sweep(args) => sweep::run(args, console),
+            Command::Merge(args) => merge::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),
         }

@@ -2,6 +2,7 @@
 
 pub mod batch;
 pub mod identity;
+pub mod merge;
 pub mod meta;
 pub mod score;
 pub mod shard;

@@ -44,25 +44,36 @@ pub fn as_stone(file: &Path) -> String {
 pub fn expanded(arguments: &[String]) -> Result<Vec<String>, Failure> {
     let mut all = Vec::new();
     for argument in arguments {
-        let path = Path::new(argument);
-        if path.is_dir() {
-            all.extend(designs(path)?);
-        } else if argument.contains(['*', '?', '[']) && fs::symlink_metadata(path).is_err() {
-            let matches = glob::glob(argument).map_err(|e| Failure::input(format!("{argument}: {e}")))?;
-            let before = all.len();
-            for found in matches {
-                let found =
-                    found.map_err(|e| Failure::reading(&e.path().display().to_string(), e.error()))?;
+        if is_pattern(argument) {
+            for found in matching(argument)? {
                 if found.is_dir() { all.extend(designs(&found)?) } else { all.push(as_stone(&found)) }
             }
-            if all.len() == before {
-                return Err(Failure::input(format!("no file matches {argument}")));
-            }
+        } else if Path::new(argument).is_dir() {
+            all.extend(designs(Path::new(argument))?);
         } else {
             all.push(argument.clone());
         }
     }
     Ok(all)
+}
+
+/// Files, with patterns replaced by what they match.
+pub fn matched(arguments: &[String]) -> Result<Vec<PathBuf>, Failure> {
+    let each = |a: &String| if is_pattern(a) { matching(a) } else { Ok(vec![PathBuf::from(a)]) };
+    Ok(arguments.iter().map(each).collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+/// Whether an argument is a pattern of file names, and not the name of a file.
+fn is_pattern(argument: &str) -> bool {
+    argument.contains(['*', '?', '[']) && fs::symlink_metadata(argument).is_err()
+}
+
+/// What matches a pattern, by name.
+fn matching(pattern: &str) -> Result<Vec<PathBuf>, Failure> {
+    let paths = glob::glob(pattern).map_err(|e| Failure::input(format!("{pattern}: {e}")))?;
+    let fail = |e: glob::GlobError| Failure::reading(&e.path().display().to_string(), e.error());
+    let found: Vec<PathBuf> = paths.collect::<Result<_, _>>().map_err(fail)?;
+    if found.is_empty() { Err(Failure::input(format!("no file matches {pattern}"))) } else { Ok(found) }
 }
 
 /// The designs and meshes in a folder.

@@ -5,7 +5,7 @@ use super::folders;
 use super::outcome::{Code, Failure};
 use super::scoring::{self, Scoring};
 use super::stones::DEFAULT_STONE;
-use super::tables::{Study, Table};
+use super::tables::{self, Study, Table};
 use super::words::quoted;
 use crate::study::batch::Line;
 use crate::study::score::Tilt;
@@ -67,14 +67,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         line: &|i, form| {
             let spec = &specs[(i / tilts) as usize];
             let tilt = args.tilt.map(|t| Tilt { degrees: t.value(i % tilts), azimuth: args.tilt_axis });
-            let (row, outcome) = args.scoring.score(spec, tilt, None, &plan);
+            let (row, outcome) = args.scoring.score(spec, tilt, &plan);
             let mut leading = table::stone_cells(&row);
             leading.extend(tilt.map(|t| Cell::number(t.degrees)));
             Ok(Line {
                 outcome,
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
                 text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: row.error.as_ref().map(|error| format!("{spec}: {error}")),
+                complaint: tables::complaint(spec, &row),
             })
         },
         columns: columns.clone(),

@@ -40,6 +40,18 @@ pub struct Scoring {
 }
 
 impl Scoring {
+    /// The same with another index in place of material and index.
+    pub fn with_index(mut self, ri: f64) -> Scoring {
+        self.substance = stones::Substance { material: None, ri: Some(ri) };
+        self
+    }
+
+    /// The same with another size.
+    pub fn with_size(mut self, mm: f64) -> Scoring {
+        self.size = Some(mm);
+        self
+    }
+
     /// The plan that was asked for.
     pub fn plan(&self) -> Plan {
         let default = Plan::default();
@@ -78,12 +90,8 @@ impl Scoring {
 
     /// Scores the STONE `spec`.
     ///
-    /// - `ri`: an index in place of the one asked for or the stone's own
-    pub fn score(&self, spec: &str, tilt: Option<Tilt>, ri: Option<f64>, plan: &Plan) -> (Row, Outcome) {
-        let substance = stones::Substance {
-            material: self.substance.material.filter(|_| ri.is_none()),
-            ri: ri.or(self.substance.ri),
-        };
+    pub fn score(&self, spec: &str, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
+        let substance = self.substance;
         let opened = stones::open(spec).and_then(|imported| {
             let material = substance.of(&imported.design);
             let design = stones::sized(imported.design, self.size)?;

@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use crate::cut::families::Family;
 use crate::cut::{Design, families, library};
 use crate::formats::{Imported, stone};
 use crate::optics::Material;
@@ -52,6 +53,13 @@ pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
 pub fn is_cut(spec: &str) -> bool {
     let name = spec.split(':').next().unwrap_or_default();
     library::names().any(|n| n == name) || families::family(name).is_ok()
+}
+
+/// The family that STONE is made by; none for a file and for a cut of fixed tiers.
+pub fn family(spec: &str) -> Option<&'static Family> {
+    let name = spec.split(':').next().unwrap_or_default();
+    let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
+    families::family(family.as_deref().unwrap_or(name)).ok()
 }
 
 /// Value parser of `--size`.

@@ -6,7 +6,7 @@ use crate::store::progress::Remark;
 use crate::store::replace;
 use crate::study::batch::{Batch, BatchError, Event, Line, Summary};
 use crate::study::meta::Meta;
-use crate::study::score::Plan;
+use crate::study::score::{Plan, Row};
 use crate::study::shard::Shard;
 use crate::study::table::{Form, TableError};
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub struct Study<'a> {
 }
 
 /// Whether `output` is a file to be made whole, or something to be written to as it comes.
-fn is_stream(output: &Path) -> bool {
+pub fn is_stream(output: &Path) -> bool {
     output == Path::new("-") || output.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
@@ -56,7 +56,7 @@ impl Study<'_> {
         &self,
         table: &Table,
         console: &Console,
-        plot: Option<&dyn Fn(&[u8]) -> Result<Vec<PathBuf>, Failure>>,
+        plot: Option<&dyn Fn(&[u8], Form) -> Result<Vec<PathBuf>, Failure>>,
     ) -> Result<Code, Failure> {
         let stream = is_stream(&table.output);
         let form = if stream && console.json { Form::Json } else { Form::of(&table.output)? };
@@ -103,7 +103,7 @@ impl Study<'_> {
         let mut finished = batch.finish(&table.output)?;
         bar.finish_and_clear();
         let mut written = match plot {
-            Some(plot) => plot(&finished.bytes()?)?,
+            Some(plot) => plot(&finished.bytes()?, form)?,
             None => Vec::new(),
         };
         let meta = self.meta(table.shard, &finished.summary, finished.crc32);
@@ -142,6 +142,12 @@ impl Study<'_> {
             metrics: Meta::definitions(self.plan),
         }
     }
+}
+
+/// What to say of a row with an error.
+pub fn complaint(stone: &str, row: &Row) -> Option<String> {
+    let error = row.error.as_ref()?;
+    Some(if error.contains(stone) { error.clone() } else { format!("{stone}: {error}") })
 }
 
 /// Done, or how many failed: a row whose error was not reached still has its scores.

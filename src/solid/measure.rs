@@ -83,7 +83,7 @@ pub fn polygon_area(p: &[DVec2]) -> f64 {
 }
 
 /// Andrew's monotone chain.
-fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+pub(crate) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut hull: Vec<DVec2> = Vec::new();

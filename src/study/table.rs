@@ -3,6 +3,8 @@
 use super::score::Row;
 use crate::metrics::Metric;
 use serde::ser::{SerializeMap, Serializer};
+use std::collections::BTreeMap;
+use std::io::BufRead;
 use std::path::Path;
 
 /// A number of a table: a fraction or degrees to 1e-9, far below any error.
@@ -141,6 +143,87 @@ fn record(cells: impl serde::Serialize) -> Result<Vec<u8>, TableError> {
     let mut line = writer.into_inner().map_err(|e| TableError::Row(e.to_string()))?;
     line.pop();
     Ok(line)
+}
+
+/// Reads the rows of a table back, one by one, as [`Form::row`] made them.
+pub struct RowReader<R> {
+    inner: Inner<R>,
+}
+
+enum Inner<R> {
+    Csv(csv::Reader<R>),
+    Lines(R),
+}
+
+impl<R: BufRead> RowReader<R> {
+    /// A reader after the head of a table.
+    pub fn new(form: Form, reader: R) -> Result<RowReader<R>, TableError> {
+        let inner = match form {
+            Form::Csv => Inner::Csv(csv::ReaderBuilder::new().flexible(true).from_reader(reader)),
+            Form::JsonLines | Form::Json => Inner::Lines(reader),
+        };
+        Ok(RowReader { inner })
+    }
+
+    /// The next row; none after the last.
+    pub fn row(&mut self) -> Result<Option<Vec<u8>>, TableError> {
+        match &mut self.inner {
+            Inner::Csv(reader) => {
+                let mut row = csv::StringRecord::new();
+                let found = reader.read_record(&mut row).map_err(|e| TableError::Row(e.to_string()))?;
+                if found { record(row.iter().collect::<Vec<_>>()).map(Some) } else { Ok(None) }
+            }
+            Inner::Lines(reader) => loop {
+                let mut line = Vec::new();
+                let read = reader.read_until(b'\n', &mut line).map_err(|e| TableError::Row(e.to_string()))?;
+                if read == 0 {
+                    return Ok(None);
+                }
+                if line.first() == Some(&b'{') {
+                    line.truncate(line.iter().rposition(|b| *b == b'}').map_or(0, |end| end + 1));
+                    return Ok(Some(line));
+                }
+            },
+        }
+    }
+}
+
+/// The numbers of a table, column by column.
+#[derive(Debug, Clone, Default)]
+pub struct Numbers(BTreeMap<String, Vec<Option<f64>>>);
+
+impl Numbers {
+    /// Those of a table's bytes; a cell that is no number is none.
+    pub fn read(bytes: &[u8], form: Form) -> Result<Numbers, TableError> {
+        let mut numbers = Numbers::default();
+        let mut add = |column: &str, x: Option<f64>| match numbers.0.get_mut(column) {
+            Some(cells) => cells.push(x),
+            None => drop(numbers.0.insert(column.to_owned(), vec![x])),
+        };
+        if form == Form::Csv {
+            let mut reader = csv::Reader::from_reader(bytes);
+            let fail = |e: csv::Error| TableError::Row(e.to_string());
+            let head = reader.headers().map_err(fail)?.clone();
+            for row in reader.records() {
+                head.iter()
+                    .zip(&row.map_err(fail)?)
+                    .for_each(|(column, cell)| add(column, cell.parse().ok()));
+            }
+            return Ok(numbers);
+        }
+        let mut rows = RowReader::new(form, bytes)?;
+        while let Some(row) = rows.row()? {
+            let row: serde_json::Map<String, serde_json::Value> =
+                serde_json::from_slice(&row).map_err(|e| TableError::Row(e.to_string()))?;
+            row.iter().for_each(|(column, cell)| add(column, cell.as_f64()));
+        }
+        Ok(numbers)
+    }
+
+    /// A column; empty if there is none of that name.
+    pub fn column(&self, name: &str) -> &[Option<f64>] {
+        self.0.get(name).map_or(&[], Vec::as_slice)
+    }
 }
 
 /// The columns of scores: those in `leading`, then `<metric>` and `<metric>_se` for each metric,
