@@ -2,6 +2,7 @@
 //!
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
+mod compare;
 mod console;
 mod drawing;
 mod folders;
@@ -58,6 +59,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Join the parts that --shard made of a table
     Merge(merge::Args),
+    /// Scores of stones beside each other, with their differences
+    Compare(compare::Args),
     /// Everything about one stone: pictures, scores and a page
     Report(report::Args),
     /// What there is to choose from
@@ -74,6 +77,7 @@ impl Command {
             Command::Score(args) => score::run(args, console),
             Command::Sweep(args) => sweep::run(args, console),
             Command::Merge(args) => merge::run(args, console),
+            Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),
         }

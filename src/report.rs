@@ -8,5 +8,6 @@ pub mod pattern;
 pub mod plot;
 pub mod raster;
 pub mod sections;
+pub mod versus;
 
 pub use bundle::{Bundle, ReportError, Request, make};

@@ -1,6 +1,7 @@
 //! Studies: many stones, many scores.
 
 pub mod batch;
+pub mod compare;
 pub mod identity;
 pub mod merge;
 pub mod meta;

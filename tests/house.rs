@@ -170,6 +170,43 @@ fn unsafe_stays_in_the_dispatch_of_the_walk() {
     }
 }
 
+/// The text without the items that only one architecture compiles: from their `#[cfg]` to the line
+/// on which their brackets are closed again.
+fn portable(text: &str) -> String {
+    let mut kept = Vec::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        if !line.trim_start().starts_with("#[cfg(target_arch") {
+            kept.push(line);
+            continue;
+        }
+        let mut depth = 0;
+        for line in lines.by_ref() {
+            let count = |brackets: &[char]| line.matches(brackets).count();
+            depth += count(&['(', '{', '[']);
+            depth -= count(&[')', '}', ']']);
+            if depth == 0 && !line.trim_start().starts_with("#[") {
+                break;
+            }
+        }
+    }
+    kept.join("\n")
+}
+
+/// What an ARM machine compiles names no instruction of another.
+#[test]
+fn only_the_dispatch_of_the_walk_knows_architectures() {
+    for (path, text) in sources() {
+        let code = code(&text);
+        for word in ["::arch", "feature_detected", "target_feature", "target_arch", "Avx", "avx"] {
+            let rest = if path == Path::new("src/walk/dispatch.rs") { portable(&code) } else { code.clone() };
+            assert!(!rest.contains(word), "{}: {word} outside #[cfg(target_arch)]", path.display());
+        }
+    }
+    let both = "fn a() {}\n#[cfg(target_arch = \"x86_64\")]\n#[inline]\nfn b() {\n    avx();\n}\nfn c() {}";
+    assert_eq!(portable(both), "fn a() {}\nfn c() {}");
+}
+
 #[test]
 fn the_top_level_holds_the_folders_of_the_house() {
     for entry in fs::read_dir(root()).expect("the repository can be listed") {

@@ -52,6 +52,11 @@ impl Scoring {
         self
     }
 
+    /// Whether beams were asked for.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
     /// The plan that was asked for.
     pub fn plan(&self) -> Plan {
         let default = Plan::default();

@@ -1,14 +1,17 @@
-//! Beam: light from a point at infinity above the stone, in the six lines B C D e F G.
+//! Beam: light from a point at infinity behind the viewer, in the six lines B C D e F G.
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::{ExperimentError, Medium, check_index};
+use super::together::Together;
+use super::{Aspect, ExperimentError, Medium, check_index};
+use crate::math::histogram::Histogram;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
+use crate::math::stats::Sum;
 use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::ops::Range;
 
 /// A path is followed while it holds this share of the light that fell on its point.
@@ -26,13 +29,17 @@ const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
 /// The other three of the six.
 const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
 
-/// A vertical beam on one stone: points uniform over the outline, unpolarised outside.
+/// Width of the classes that the median separation is taken from, in degrees.
+pub const CLASS_DEG: f64 = 0.05;
+
+/// A beam from the viewer's side on one stone: points uniform over the outline, unpolarised outside.
 ///
 /// The exiting beam is m = (cos t / cos i) at entry × (cos out / cos in) at exit times as wide as
 /// the entering one; its irradiance is power / m. Crown exits above the horizon count.
 #[derive(Debug, Clone)]
 pub struct Beam<'a> {
     stone: &'a Stone,
+    aspect: Aspect,
     polarised: bool,
     indices: [[f32; LINES]; 2],
     outline: Outline,
@@ -54,19 +61,37 @@ pub struct Tally {
     pub power_angle_deg: f64,
     /// Σ power over the same exits.
     pub paired_power: f64,
+    /// The same power by angle, in classes of [`CLASS_DEG`].
+    pub power_by_angle: Histogram,
+}
+
+impl Sum for Tally {
+    fn add(&mut self, other: &Tally) {
+        self.points += other.points;
+        self.lit += other.lit;
+        self.streak_deg += other.streak_deg;
+        self.power_angle_deg += other.power_angle_deg;
+        self.paired_power += other.paired_power;
+        Sum::add(&mut self.power_by_angle, &other.power_by_angle);
+    }
 }
 
 impl<'a> Beam<'a> {
-    /// Lights a stone; a material without dispersion gives no angles.
+    /// Lights a face-up stone; a material without dispersion gives no angles.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
+        Self::seen_from(stone, medium, Aspect::FACE_UP)
+    }
+
+    /// Lights a stone from the viewer's side.
+    pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
         let mut indices = [[0.0; LINES]; 2];
         for (into, lines) in indices.iter_mut().zip([PAIRED, UNPAIRED]) {
             for (n, um) in into.iter_mut().zip(lines) {
                 *n = check_index(medium.material.index(um))?;
             }
         }
-        let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
-        Ok(Self { stone, polarised: medium.polarised, indices, outline, crown })
+        let (outline, crown) = (Outline::new(stone, aspect)?, entrance::crown_flags(stone));
+        Ok(Self { stone, aspect, polarised: medium.polarised, indices, outline, crown })
     }
 }
 
@@ -85,8 +110,7 @@ struct Shine<'a> {
     paired: bool,
     /// cos t / cos i at entry.
     widening: Lanes,
-    /// Whether the lines of a ray have met the same facets so far.
-    together: [bool; LANES],
+    together: Together<LINES>,
 }
 
 impl Rays for Shine<'_> {
@@ -98,24 +122,27 @@ impl Rays for Shine<'_> {
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let Beam { stone, outline, .. } = self.experiment;
+        let Beam { stone, outline, aspect, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
+        let toward = -aspect.axis.as_vec3();
         for (lane, index) in (lane..).zip(self.indices) {
-            let entry = stone.enter(facet, -Vec3::Z, index);
+            let entry = stone.enter(facet, toward, index);
             packet.enter(lane, point, &entry, index);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
-        self.together[lane] = self.paired;
         if self.paired {
+            self.together.begin(lane);
             self.tally.points += 1.0;
         }
         true
     }
 
     fn meet(&mut self, m: &Meeting, _: &Packet) {
-        let mut seen = [0.0; LANES];
-        for (l, seen) in seen.iter_mut().enumerate() {
-            let z = m.dz[l];
+        let axis = self.experiment.aspect.axis.as_vec3();
+        let (mut seen, mut height) = ([0.0; LANES], [0.0; LANES]);
+        for (l, (seen, height)) in seen.iter_mut().zip(&mut height).enumerate() {
+            let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
+            *height = z;
             let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
             let visible = m.power[l] > THRESHOLD * width && z > 0.0;
             let weight = width * z * z * self.experiment.crown[m.facet[l] as usize];
@@ -123,16 +150,15 @@ impl Rays for Shine<'_> {
         }
         let six = lines::SIX.len() as f64;
         self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
-        for d in (0..LANES / LINES).map(|ray| ray * LINES) {
-            self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
-            let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
-            let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
-            if self.together[d] && leaves && up {
+        for d in Together::<LINES>::lanes() {
+            let up = height[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
+            if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);
                 self.tally.streak_deg += f64::from(seen[d]) * angle;
                 self.tally.power_angle_deg += power * angle;
                 self.tally.paired_power += power;
+                self.tally.power_by_angle.put(angle / CLASS_DEG, power);
             }
         }
     }
@@ -150,7 +176,7 @@ impl Experiment for Beam<'_> {
                 indices,
                 paired,
                 widening: [0.0; LANES],
-                together: [false; LANES],
+                together: Together::NONE,
             };
             feed::walk_all(self.stone, STOP_POWER, &mut shine);
         }

@@ -25,6 +25,12 @@ pub enum Purpose {
     Test = 7,
     /// Photons that finish what beams leave over, one stream a batch.
     BeamRemainder = 8,
+    /// The faceters' view, one stream a batch.
+    Iso = 9,
+    /// Cells of the picture, one stream a batch and one a run of it.
+    Contrast = 10,
+    /// Cells of the rocked picture, likewise.
+    Scintillation = 11,
     /// Scattered points of a sweep, one stream.
     Scatter = 20,
 }

@@ -16,5 +16,5 @@ pub static GLARE: Metric = Metric {
         the crown facets' normals, points uniform by crown area; those from below the horizon are \
         not counted.",
     source: "defined by cutlab; light_return + glare + leakage + lost = 1",
-    reading: Reading::Hemisphere(|t| (t.glare, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.glare / t.arrived),
 };

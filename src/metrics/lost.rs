@@ -17,5 +17,5 @@ pub static LOST: Metric = Metric {
         about the crown facets' normals, points uniform by crown area; those from below the horizon \
         are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + lost = 1",
-    reading: Reading::Hemisphere(|t| (t.lost, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.lost / t.arrived),
 };

@@ -18,5 +18,5 @@ pub static WLR: Metric = Metric {
         counted.",
     source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
         which tests/scores.rs holds",
-    reading: Reading::Hemisphere(|t| (t.returned_cos2, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.returned_cos2 / t.arrived),
 };

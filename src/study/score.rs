@@ -1,6 +1,10 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
-use crate::experiments::{Beam, Experiment, ExperimentError, Hemisphere, Medium, Traced, View};
+use crate::experiments::view::{Sky, Surroundings};
+use crate::experiments::{
+    Aspect, Beam, Contrast, Experiment, ExperimentError, Hemisphere, Iso, Medium, Scintillation, Traced,
+    View, cells, iso, view,
+};
 use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading};
 use crate::optics::Material;
@@ -11,13 +15,23 @@ use crate::walk::Stone;
 /// round brilliant, ±.0002 of the `aset` scores.
 pub const DEFAULT_SAMPLES: u64 = 1 << 18;
 
-/// So many points of the others are as dear as one of the beam, which has six lines and follows
+/// So many points of the hemisphere are as dear as one of the beam, which has six lines and follows
 /// paths to a hundredth of the power; what a given number of samples is divided by for the beam.
 const BEAM_COST: u64 = 4;
 
+/// The same for a cell of two points.
+const CONTRAST_COST: u64 = 2;
+
+/// The same for a cell of one to 64 points, seen twice.
+const ROCKING_COST: u64 = 6;
+
 /// Points of every experiment before its error is looked at: enough for every batch to have seen
 /// something.
-const FIRST_SAMPLES: u64 = 1 << 14;
+const FIRST_SAMPLES: u64 = 1 << 13;
+
+/// By how much samples grow from one look at the error to the next.
+const LEAST_STEP: f64 = 1.1;
+const LARGEST_STEP: f64 = 16.0;
 
 /// Unless the plan says otherwise no experiment is traced further than this in pursuit of an error:
 /// about a minute a stone and experiment on two cores.
@@ -26,7 +40,7 @@ pub const SAMPLES_CAP: u64 = 1 << 25;
 /// How far to trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Effort {
-    /// So many points of the hemisphere and the view, a quarter of it of the beam.
+    /// So many points of the hemisphere and the view, fewer of dearer experiments.
     Samples(u64),
     /// Until the standard error of every metric asked for is below this times the metric's
     /// [`Metric::scale`]: a fraction, degrees for angles, hundredths of it for percentages.
@@ -51,8 +65,8 @@ pub struct Plan {
     pub polarised: bool,
     /// The user's seed.
     pub seed: u64,
-    /// No experiment is traced further than so many samples in pursuit of an error (the beam a
-    /// quarter of it); where this ends one, the row says so.
+    /// No experiment is traced further than so many samples in pursuit of an error (dearer ones
+    /// fewer); where this ends one, the row says so.
     pub cap: u64,
     /// Whether metrics that beams can give are taken from beams: the effort is then theirs.
     pub exact: bool,
@@ -135,7 +149,7 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
         Ok(solid) => {
             let stone = Stone::new(solid.clone());
             row.facets = Some(stone.facet_count());
-            if let Err(e) = fill(&mut row, &stone, &subject.material, plan) {
+            if let Err(e) = fill(&mut row, &stone, subject, plan) {
                 row.error = Some(e.to_string());
             }
         }
@@ -149,55 +163,106 @@ pub fn score_all(subjects: &[Subject], plan: &Plan) -> Vec<Row> {
     subjects.iter().map(|s| score(s, plan)).collect()
 }
 
-fn fill(row: &mut Row, stone: &Stone, material: &Material, plan: &Plan) -> Result<(), ExperimentError> {
-    let medium = Medium { material, polarised: plan.polarised };
-    let hemisphere = readings(plan, |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None });
-    let view = readings(plan, |r| if let Reading::View(f) = r { Some(f) } else { None });
-    let beam = readings(plan, |r| if let Reading::Beam(f) = r { Some(f) } else { None });
-    if !hemisphere.is_empty() {
-        run(row, Hemisphere::new(stone, &medium)?, &hemisphere, plan, 1);
+fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<(), ExperimentError> {
+    let medium = Medium { material: &subject.material, polarised: plan.polarised };
+    let aspect = subject.tilt.map_or(Aspect::FACE_UP, |t| Aspect::tilted(t.degrees, t.azimuth));
+    let sky = |own: f64| Sky::behind(plan.observer.unwrap_or(own));
+    for (column, metric) in plan.metrics.iter().enumerate() {
+        if let Reading::Solid(of) = metric.reading {
+            row.scores[column] = of(&stone.solid).map(Estimate::exact);
+        }
     }
-    if !view.is_empty() {
-        run(row, View::new(stone, &medium)?, &view, plan, 1);
-    }
-    if !beam.is_empty() && material.is_dispersive() {
-        run(row, Beam::new(stone, &medium)?, &beam, plan, BEAM_COST);
+    let mut sheet = Sheet { row, plan };
+    let pick = |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None };
+    sheet.fill("hemisphere", pick, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
+    let pick = |r| if let Reading::View(f) = r { Some(f) } else { None };
+    let surroundings = Surroundings { scope: sky(view::SCOPE_DEG), dome: sky(view::OBSERVER_DEG) };
+    sheet.fill("view", pick, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
+    let pick = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
+    sheet.fill("iso", pick, 1, || Iso::seen_from(stone, &medium, aspect, sky(iso::OBSERVER_DEG)))?;
+    let cells = sky(cells::OBSERVER_DEG);
+    let pick = |r| if let Reading::Contrast(f) = r { Some(f) } else { None };
+    sheet.fill("contrast", pick, CONTRAST_COST, || Contrast::seen_from(stone, &medium, aspect, cells))?;
+    let pick = |r| if let Reading::Scintillation(f) = r { Some(f) } else { None };
+    sheet.fill("scintillation", pick, ROCKING_COST, || {
+        Scintillation::seen_from(stone, &medium, aspect, cells)
+    })?;
+    if subject.material.is_dispersive() {
+        let pick = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
+        sheet.fill("beam", pick, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
     }
     Ok(())
 }
 
-/// The columns that read one experiment, with what they read there.
-fn readings<F>(plan: &Plan, of: impl Fn(Reading) -> Option<F>) -> Vec<(usize, F)> {
-    plan.metrics.iter().enumerate().filter_map(|(i, m)| Some((i, of(m.reading)?))).collect()
+/// A row that is being filled in.
+struct Sheet<'a> {
+    row: &'a mut Row,
+    plan: &'a Plan,
 }
 
-/// A column's number, and what it reads from a tally.
-type Column<T> = (usize, fn(&T) -> (f64, f64));
-
-/// Traces an experiment as far as the plan asks and fills in its columns.
-fn run<E: Experiment>(row: &mut Row, experiment: E, columns: &[Column<E::Tally>], plan: &Plan, cost: u64) {
-    let mut traced = Traced::new(experiment, plan.seed);
-    match plan.effort {
-        Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
-        Effort::Error(target) => {
-            traced.extend_to(FIRST_SAMPLES);
-            let largest =
-                |t: &Traced<E>| columns.iter().map(|(_, f)| t.estimate(f).error).fold(0.0, f64::max);
-            let mut error = largest(&traced);
-            while error > target && traced.samples() < plan.cap / cost {
-                traced.extend_to((traced.samples() * 5 / 4).min(plan.cap / cost));
-                error = largest(&traced);
-            }
-            if error > target {
-                let note = format!(
-                    "standard error {target} not reached: {error:.2e} after {} samples",
-                    traced.samples()
-                );
-                row.error = Some(row.error.take().map_or(note.clone(), |e| format!("{e}; {note}")));
+impl Sheet<'_> {
+    /// Traces an experiment as far as the plan asks and fills in the columns that read it, if there
+    /// are any.
+    ///
+    /// - `of`: what a metric reads from the tally, if it reads this experiment
+    /// - `cost`: so many points of the hemisphere are as dear as one of this experiment
+    fn fill<E: Experiment, F: Fn(&E::Tally) -> f64>(
+        &mut self,
+        name: &'static str,
+        of: impl Fn(Reading) -> Option<F>,
+        cost: u64,
+        make: impl FnOnce() -> Result<E, ExperimentError>,
+    ) -> Result<(), ExperimentError> {
+        let metrics = self.plan.metrics.iter().enumerate();
+        let columns: Vec<(usize, f64, F)> =
+            metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect();
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let mut traced = Traced::new(make()?, self.plan.seed);
+        match self.plan.effort {
+            Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
+            Effort::Error(target) => {
+                let worst = |t: &Traced<E>| {
+                    columns.iter().map(|(_, scale, f)| t.estimate(f).error / scale).fold(0.0, f64::max)
+                };
+                if let Some(error) = reach(&mut traced, target, self.plan.cap / cost, worst) {
+                    let note = format!(
+                        "{name}: standard error {target} not reached: {error:.2e} after {} samples",
+                        traced.samples()
+                    );
+                    let row = &mut self.row;
+                    row.error = Some(row.error.take().map_or(note.clone(), |e| format!("{e}; {note}")));
+                }
             }
         }
+        for (column, _, f) in &columns {
+            let score = traced.estimate(f);
+            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
+        }
+        self.row.samples.push((name, traced.samples()));
+        Ok(())
     }
-    for (column, f) in columns {
-        row.scores[*column] = Some(traced.estimate(f));
+}
+
+/// Traces until the error is below the target; the error if the cap comes first.
+fn reach<E: Experiment>(
+    traced: &mut Traced<E>,
+    target: f64,
+    cap: u64,
+    worst: impl Fn(&Traced<E>) -> f64,
+) -> Option<f64> {
+    traced.extend_to(FIRST_SAMPLES.min(cap));
+    loop {
+        let error = worst(traced);
+        if error <= target {
+            return None;
+        }
+        if traced.samples() >= cap {
+            return Some(error);
+        }
+        // errors fall with the root of the samples or faster; one of few samples may be far off
+        let steps = (error / target).powi(2).clamp(LEAST_STEP, LARGEST_STEP);
+        traced.extend_to(((traced.samples() as f64 * steps) as u64).min(cap));
     }
 }

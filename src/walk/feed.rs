@@ -22,6 +22,11 @@ pub trait Rays {
     /// Puts the next ray into the lanes from `lane` on; false if there is none left.
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool;
 
+    /// Whether the ray in the lanes from `lane` on need not be followed further, whatever its power.
+    fn is_done(&self, _lane: usize) -> bool {
+        false
+    }
+
     /// Sees what all lanes leave at a meeting.
     fn meet(&mut self, meeting: &Meeting, packet: &Packet);
 
@@ -48,7 +53,8 @@ pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
             rays.meet(meeting, packet);
             for lane in lanes() {
                 let powers = &mut packet.power[lane..lane + R::WIDTH];
-                if !alive[lane] || powers.iter().any(|p| *p >= stop_power) {
+                let goes_on = powers.iter().any(|p| *p >= stop_power) && !rays.is_done(lane);
+                if !alive[lane] || goes_on {
                     continue;
                 }
                 lost += powers.iter().map(|p| f64::from(*p)).sum::<f64>();
