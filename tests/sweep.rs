@@ -75,7 +75,7 @@ fn what_cannot_be_swept_or_drawn_is_refused_before_anything_is_scored() {
 #[test]
 fn shards_of_a_sweep_merge_and_a_killed_sweep_goes_on() {
     let bench = Bench::new();
-    let all = |extra: &[&'static str]| sweep(&[&GRID[..], &["--error", "0.0005"], extra].concat());
+    let all = |extra: &[&'static str]| sweep(&[&GRID[..], &["--error", "0.001"], extra].concat());
     let begun = Instant::now();
     bench.good(&all(&["-o", "whole.csv"]));
     let takes = begun.elapsed();

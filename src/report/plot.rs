@@ -122,7 +122,14 @@ impl Drawing<'_> {
             let at = self.axes.iter().map(value).collect::<Option<_>>()?;
             Some(Mark { name: if name == family.name { "reference".into() } else { name.into() }, at })
         };
-        library::names().filter_map(mark).collect()
+        let mut marks: Vec<Mark> = Vec::new();
+        for mark in library::names().filter_map(mark) {
+            match marks.iter_mut().find(|m| m.at == mark.at) {
+                Some(same) => same.name += &format!(", {}", mark.name),
+                None => marks.push(mark),
+            }
+        }
+        marks
     }
 
     /// The cut-grade envelopes of the round brilliant that bound every axis, the narrowest first.

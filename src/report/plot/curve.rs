@@ -2,6 +2,7 @@
 
 use super::frame::{Frame, WIDTH};
 use super::{BAND, escaped};
+use crate::report::raster::text_width;
 use std::fmt::Write;
 
 /// One line.
@@ -51,24 +52,28 @@ impl Curves {
         let frame = Frame::new(xs, (lo - room, hi + room), WIDTH - 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
+        let mut named_span = String::new();
         if let Some((name, (from, to))) = self.spans.first() {
             let (from, to) = (from.max(frame.x.from), to.min(frame.x.to));
             if from < to {
                 let (a, b) = (frame.x.at(from), frame.x.at(to));
                 let _ = writeln!(
                     out,
-                    "<rect x=\"{a:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{h:.1}\" fill=\"#f3eddc\"/>\
-                     <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\" fill=\"#7a6a3a\">\
-                     envelope of {}</text>",
-                    b - a,
+                    "<rect x=\"{a:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{h:.1}\" fill=\"#f3eddc\"/>",
+                    b - a
+                );
+                named_span = format!(
+                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\" fill=\"#7a6a3a\" \
+                     stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">envelope of {}</text>\n",
                     (a + b) / 2.0,
-                    top + h - 8.0,
+                    top + 16.0,
                     escaped(name)
                 );
             }
         }
         frame.axes(&mut out, &self.x, &self.y, true);
         self.marks(&frame, &mut out);
+        out += &named_span;
         for (curve, colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
             for run in curve.points.split(|p| p.1.is_none()) {
                 let run: Vec<(f64, f64, f64)> =
@@ -102,18 +107,22 @@ impl Curves {
         for (name, x) in sorted {
             let at = frame.x.at(*x);
             match places.last_mut() {
-                Some((last, names)) if at - *last < 13.0 => *names += &format!(", {name}"),
+                Some((last, names)) if at - *last < 0.5 => *names += &format!(", {name}"),
                 _ => places.push((at, name.clone())),
             }
         }
+        let mut written: Vec<(f64, f64)> = Vec::new(); // where a name stands, and how high it reaches
         for (x, names) in places {
+            let near = written.iter().filter(|(other, _)| x - other < 13.0).map(|(_, end)| *end);
+            let start = near.fold(8.0, f64::max);
+            written.push((x, start + 11.0 * text_width(&names, false) + 10.0));
             let _ = writeln!(
                 out,
                 "<path d=\"M{x:.1} {top}v{h:.1}\" stroke=\"#999\" stroke-dasharray=\"3 4\"/>\
                  <text transform=\"translate({:.1} {:.1})rotate(-90)\" font-size=\"11\" fill=\"#555\" \
                  stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
                 x - 4.0,
-                top + h - 22.0,
+                top + h - start,
                 escaped(&names)
             );
         }

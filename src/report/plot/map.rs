@@ -16,6 +16,9 @@ const BAR: (f64, f64) = (684.0, 18.0);
 /// Bands between the least and the greatest value, about.
 const BANDS: usize = 12;
 
+/// A closed contour shorter than this has no label.
+const SHORT: f64 = 160.0;
+
 /// A box that text takes up: middle, half width, half height.
 type Taken = (f64, f64, f64, f64);
 
@@ -141,11 +144,15 @@ impl Levels {
         let (left, top, w, h) = frame.rectangle();
         for (level, points) in lines {
             let text = &self.at[*level].1;
+            let length: f64 = points.windows(2).map(|p| (p[1].0 - p[0].0).hypot(p[1].1 - p[0].1)).sum();
             let half = 5.5 * text_width(text, false) + 2.0;
             let inside = |(x, y): (f64, f64), room: f64| {
                 (left + room..left + w - room).contains(&x) && (top + room..top + h - room).contains(&y)
             };
             let mut best: Option<(f64, (f64, f64), f64)> = None;
+            if length < SHORT {
+                continue;
+            }
             for i in 0..points.len() {
                 let middle = points[i];
                 if !inside(middle, half + 6.0)
@@ -162,8 +169,7 @@ impl Levels {
                     best = Some((straight, middle, dy.atan2(dx).to_degrees()));
                 }
             }
-            if let Some((straight, (x, y), angle)) = best.filter(|b| b.0 > 0.9) {
-                let _ = straight;
+            if let Some((_, (x, y), angle)) = best.filter(|b| b.0 > 0.9) {
                 let upright = if angle > 90.0 {
                     angle - 180.0
                 } else if angle < -90.0 {
