@@ -1,7 +1,7 @@
 //! The frame of a plot: scales, ticks, titles.
 
 use super::escaped;
-use crate::report::raster::FONTS;
+use crate::report::raster::{FONTS, text_width};
 use std::fmt::Write;
 
 /// The whole drawing, in its own units.
@@ -75,12 +75,13 @@ impl Frame {
     /// Begins a drawing: title and note above, a clip called `plot`.
     pub fn open(&self, title: &str, note: &str) -> String {
         let (x, y, w, h) = self.rectangle();
+        let size = ((WIDTH - x - 12.0) / text_width(note, false)).min(12.0);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
              font-family=\"{}\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{WIDTH}\" height=\"{HEIGHT}\" \
              fill=\"#fff\"/>\n<clipPath id=\"plot\"><rect x=\"{x}\" y=\"{y}\" width=\"{w:.1}\" height=\"{h:.1}\"/>\
              </clipPath>\n<text x=\"{x}\" y=\"26\" font-size=\"18\" font-weight=\"bold\">{}</text>\n\
-             <text x=\"{x}\" y=\"48\" font-size=\"12\" fill=\"#555\">{}</text>\n",
+             <text x=\"{x}\" y=\"48\" font-size=\"{size:.1}\" fill=\"#555\">{}</text>\n",
             escaped(FONTS),
             escaped(title),
             escaped(note),

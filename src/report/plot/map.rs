@@ -38,14 +38,14 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
-    let note = format!("{}; standard error up to {worst:.1e}{how}", drawing.metric.about);
+    let note = format!("standard error up to {worst:.1e}{how}; {}", drawing.metric.about);
     let mut out = frame.open(&format!("{name} of {}", drawing.stone), &note);
     let levels = surface.as_ref().and_then(|s| Some((s, s.reach()?)));
     match levels {
         Some((surface, reach)) => {
             let scale = Levels::of(reach);
             let contours = scale.draw(&frame, surface, &mut out);
-            cover(&frame, surface, &mut out);
+            let covered = cover(&frame, surface, &mut out);
             if scattered {
                 for (x, y, _) in points.iter().filter(|p| p.2.is_some()) {
                     let (x, y) = (frame.x.at(*x), frame.y.at(*y));
@@ -54,6 +54,7 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
             }
             envelopes(drawing, &frame, &[x.clone(), y.clone()], &mut out);
             let mut taken = marks(drawing, &frame, &mut out);
+            taken.extend(covered);
             scale.label(&frame, &contours, &mut taken, &mut out);
             scale.bar(&frame, &drawing.score_title(), &mut out);
         }
@@ -237,8 +238,9 @@ fn overlap(a: Taken, b: Taken) -> bool {
     (a.0 - b.0).abs() < a.2 + b.2 && (a.1 - b.1).abs() < a.3 + b.3
 }
 
-/// Greys out the cells without a value.
-fn cover(frame: &Frame, surface: &Surface, out: &mut String) {
+/// Greys out the cells without a value; what they take up.
+fn cover(frame: &Frame, surface: &Surface, out: &mut String) -> Vec<Taken> {
+    let mut taken = Vec::new();
     let (dx, dy) = surface.steps();
     let (w, h) = ((frame.x.at(dx) - frame.x.at(0.0)), (frame.y.at(0.0) - frame.y.at(dy)));
     for (column, row) in surface.holes() {
@@ -250,7 +252,9 @@ fn cover(frame: &Frame, surface: &Surface, out: &mut String) {
             w + 0.3,
             h + 0.3
         );
+        taken.push((x + w / 2.0, y + h / 2.0, w / 2.0, h / 2.0));
     }
+    taken
 }
 
 /// The cut-grade envelopes as rectangles, named in a corner.
