@@ -42,6 +42,9 @@ pub struct Study<'a> {
     pub line: &'a (dyn Fn(u64, Form) -> Result<Line, TableError> + Sync),
 }
 
+/// Draws what belongs to a finished table, of the bytes given, and names the files it wrote.
+pub type Plot<'a> = &'a dyn Fn(&[u8], Form) -> Result<Vec<PathBuf>, Failure>;
+
 /// Whether `output` is a file to be made whole, or something to be written to as it comes.
 pub fn is_stream(output: &Path) -> bool {
     output == Path::new("-") || output.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
@@ -52,12 +55,7 @@ impl Study<'_> {
     ///
     /// - `plot`: called with the table's bytes when all rows are there, before it is put in place;
     ///   it may write more files and give their names
-    pub fn run(
-        &self,
-        table: &Table,
-        console: &Console,
-        plot: Option<&dyn Fn(&[u8], Form) -> Result<Vec<PathBuf>, Failure>>,
-    ) -> Result<Code, Failure> {
+    pub fn run(&self, table: &Table, console: &Console, plot: Option<Plot>) -> Result<Code, Failure> {
         let stream = is_stream(&table.output);
         let form = if stream && console.json { Form::Json } else { Form::of(&table.output)? };
         let bar = console.progress(0, self.what);
