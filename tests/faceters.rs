@@ -85,6 +85,7 @@ fn a_ray_of_a_symmetric_gutter_turns_as_harding_says() {
             direction: DVec3::new(-inside_sin, 0.0, -(1.0 - inside_sin * inside_sin).sqrt()),
             power: 1.0,
             index,
+            absorption: 0.0,
             stokes: None,
         };
         let mut met = Vec::new();
@@ -153,6 +154,7 @@ fn brightness_and_contrast_against_a_plain_tracer() {
             direction: (-DVec3::Z / index + plane.normal * (cos_i / index - cos_t)).normalize(),
             power: 1.0 - reflectance,
             index,
+            absorption: 0.0,
             stokes: None,
         };
         scalar::walk(&stone.planes, ray, 1e-4, |m| sum += if bright(m.direction.z) { m.power } else { 0.0 });

@@ -33,6 +33,8 @@ pub enum Purpose {
     Contrast = 10,
     /// Cells of the rocked picture, likewise.
     Scintillation = 11,
+    /// Scattered points of a sweep, one stream.
+    Scatter = 20,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

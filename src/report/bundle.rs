@@ -157,7 +157,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
 }
 
 /// The photon-mapped picture of the stone on the grey table, as PNG.
-fn table_picture(
+pub(super) fn table_picture(
     stone: Stone,
     request: &Request,
     step: &dyn Fn(&'static str),
