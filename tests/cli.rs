@@ -1,6 +1,6 @@
 //! The program itself: every command, its files, exit codes, and errors of one line.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 /// A folder of its own for a test, and the program run in it.
