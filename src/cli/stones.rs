@@ -56,6 +56,15 @@ pub fn millimetres(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Value parser of `--polarisation`.
+pub fn on_off(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("polarisation is on or off".into()),
+    }
+}
+
 /// Value parser of `--material`.
 pub fn material(name: &str) -> Result<&'static Material, String> {
     Material::named(name).ok_or_else(|| {
@@ -89,6 +98,11 @@ impl Substance {
         if let Some(guess) = self.material.and_then(|m| m.extrapolated(from, to)) {
             console.note(&format!("note: {guess}"));
         }
+    }
+
+    /// What was asked for on the command line, if anything.
+    pub fn asked(&self) -> Option<Material> {
+        self.material.cloned().or(self.ri.map(Material::of_index))
     }
 
     /// What the design is made of: the material asked for, or the bare index asked for, or the

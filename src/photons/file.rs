@@ -6,14 +6,14 @@
 
 use super::{Photon, Settings, Shot, Shots};
 use crate::optics::colour::BANDS;
-use crate::scene::Scene;
+use crate::scene::{PlacedStone, Scene};
 use crate::store::replace::{self, WriteError};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"CUTLABPM";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Bytes of one stored photon.
 const PHOTON: usize = 26;
 /// A header is a few hundred bytes; more is not one of ours.
@@ -63,6 +63,7 @@ pub struct Origin {
     scene: String,
     stone: String,
     material: String,
+    polarised: String,
     surroundings: String,
     photons: usize,
     seed: u64,
@@ -75,9 +76,10 @@ pub struct Origin {
 impl Origin {
     fn of(scene: &Scene, settings: &Settings, shots: &Shots) -> Origin {
         Origin {
-            scene: scene.name.into(),
-            stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
-            material: format!("{} ({:08x})", scene.stone.material.name, material_checksum(scene)),
+            scene: scene.name.clone(),
+            stone: listed(scene, |p| format!("of {} facets ({:08x})", p.stone.facet_count(), stone_checksum(p))),
+            material: listed(scene, |p| format!("{} ({:08x})", p.material.name, material_checksum(p))),
+            polarised: listed(scene, |p| (if p.polarised { "on" } else { "off" }).into()),
             surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
             seed: settings.seed,
@@ -94,6 +96,7 @@ impl Origin {
             ("the scene", &self.scene, &wanted.scene),
             ("the stone", &self.stone, &wanted.stone),
             ("the material", &self.material, &wanted.material),
+            ("--polarisation", &self.polarised, &wanted.polarised),
             ("the surroundings", &self.surroundings, &wanted.surroundings),
             ("--photons", &self.photons.to_string(), &wanted.photons.to_string()),
             ("--seed", &self.seed.to_string(), &wanted.seed.to_string()),
@@ -102,25 +105,33 @@ impl Origin {
     }
 }
 
+/// What is to be said of each stone.
+fn listed(scene: &Scene, say: impl Fn(&PlacedStone) -> String) -> String {
+    scene.stones.iter().map(say).collect::<Vec<_>>().join(" and ")
+}
+
 /// Checksum of the stone's shape, size and place.
-fn stone_checksum(scene: &Scene) -> u32 {
-    let placed = &scene.stone;
+fn stone_checksum(placed: &PlacedStone) -> u32 {
     let mut crc = crc32fast::Hasher::new();
     for v in &placed.stone.solid.vertices {
         let world = placed.point_to_world(placed.stone.from_design(*v).as_vec3());
         world.to_array().iter().for_each(|x| crc.update(&x.to_le_bytes()));
     }
+    if !placed.material.is_clear() {
+        crc.update(&placed.stone.unit.to_le_bytes()); // how deep its colour is
+    }
     crc.finalize()
 }
 
-/// Checksum of the law by which the stone refracts.
-fn material_checksum(scene: &Scene) -> u32 {
-    crc32fast::hash(format!("{:?}", scene.stone.material.dispersion).as_bytes())
+/// Checksum of the laws by which the stone refracts and absorbs.
+fn material_checksum(placed: &PlacedStone) -> u32 {
+    let material = &placed.material;
+    crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes())
 }
 
 /// Checksum of surfaces and lights.
 fn surroundings_checksum(scene: &Scene) -> u32 {
-    crc32fast::hash(format!("{:?} {:?}", scene.surfaces, scene.lights).as_bytes())
+    crc32fast::hash(format!("{:?} {:?} {:?}", scene.surfaces, scene.lights, scene.depth).as_bytes())
 }
 
 /// The photons of a scene: read from `path` if it exists and fits, else shot and written there.
@@ -225,6 +236,7 @@ mod tests {
             scene: "table".into(),
             stone: "s".into(),
             material: "m".into(),
+            polarised: "on".into(),
             surroundings: "r".into(),
             photons: 5,
             seed: 1,
