@@ -90,7 +90,9 @@ mod tests {
             match file.build(&Cast::default(), 1.0) {
                 Ok(scene) => assert!(!scene.lights.is_empty() && !scene.stones.is_empty(), "{name}"),
                 // the user's own panorama is not there
-                Err(error) => assert!(*name == "daylight" && error.to_string().contains("panorama"), "{error}"),
+                Err(error) => {
+                    assert!(*name == "daylight" && error.to_string().contains("panorama"), "{error}")
+                }
             }
         }
     }

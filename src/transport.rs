@@ -33,6 +33,13 @@ pub struct Arrival {
 const ALL_THE_WAY: f32 = 1.0 - 1e-4;
 
 impl Scene {
+    /// Meetings with facets inside a stone after which a path is too long for the scene.
+    ///
+    /// - `others`: segments of the path that lie outside the stone
+    pub fn most_meetings(&self, others: u32) -> u32 {
+        self.depth.map_or(u32::MAX, |depth| depth.saturating_sub(others).max(1))
+    }
+
     /// The first meeting of a ray.
     ///
     /// - `origin`, `direction` (unit): world frame
@@ -56,10 +63,8 @@ impl Scene {
             let (o, d) = (placed.point_to_stone(origin), placed.direction_to_stone(direction));
             if let Some(hit) = placed.stone.hit(o, d).filter(|h| h.distance * placed.radius < nearest) {
                 nearest = hit.distance * placed.radius;
-                event = Event::Stone(
-                    i,
-                    Arrival { facet: hit.facet, point: o + d * hit.distance, direction: d },
-                );
+                event =
+                    Event::Stone(i, Arrival { facet: hit.facet, point: o + d * hit.distance, direction: d });
             }
         }
         event

@@ -80,7 +80,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 [("", false, false), (", Stokes", true, false), (", Stokes, absorbing", true, true)]
             {
                 let stream = Stream::new(SEED, Purpose::Test, 0);
-                let mut shower = Shower { stone: &stone, stream, left: rays, meetings: 0, polarised, absorbing };
+                let mut shower =
+                    Shower { stone: &stone, stream, left: rays, meetings: 0, polarised, absorbing };
                 let start = Instant::now();
                 feed::walk_all(&stone, STOP_POWER, &mut shower);
                 let seconds = start.elapsed().as_secs_f64();

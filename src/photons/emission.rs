@@ -31,6 +31,10 @@ const LEAST: f32 = 0.1;
 /// it for ever.
 const MIRRORS: u32 = 1000;
 
+/// Segments of a photon's path that are not inside a stone: from the light, to the surface, and
+/// from there to the eye.
+const OUTSIDE: u32 = 3;
+
 /// What every photon of a class needs to know.
 struct Room<'a> {
     scene: &'a Scene,
@@ -71,10 +75,8 @@ pub fn shoot(scene: &Scene, class: Class, settings: &Settings) -> Shot {
     let mut found: Vec<(u64, Photon)> = Vec::new();
     let mut emitted = 0;
     loop {
-        let batches: Vec<Vec<(u64, Photon)>> = (0..ROUND)
-            .into_par_iter()
-            .map(|b| batch(&room, emitted + b * BATCH, BATCH))
-            .collect();
+        let batches: Vec<Vec<(u64, Photon)>> =
+            (0..ROUND).into_par_iter().map(|b| batch(&room, emitted + b * BATCH, BATCH)).collect();
         emitted += ROUND * BATCH;
         batches.into_iter().for_each(|b| found.extend(b));
         let hopeless = found.is_empty() && emitted >= PATIENCE * target;
@@ -160,7 +162,11 @@ fn emit(room: &Room, number: u64, place: Place) -> Option<Flight> {
 }
 
 /// Carries a photon through the world until it ends or reaches a stone.
-fn fly(room: &Room, mut flight: Flight, landed: &mut Vec<(u64, Photon)>) -> Option<(usize, (Flight, Entering))> {
+fn fly(
+    room: &Room,
+    mut flight: Flight,
+    landed: &mut Vec<(u64, Photon)>,
+) -> Option<(usize, (Flight, Entering))> {
     let scene = room.scene;
     let mut mirrors = 0;
     loop {
@@ -210,7 +216,7 @@ fn fly(room: &Room, mut flight: Flight, landed: &mut Vec<(u64, Photon)>) -> Opti
 fn cross_all(scene: &Scene, number: usize, arrivals: &mut Vec<(Flight, Entering)>, out: &mut Vec<Flight>) {
     let placed = &scene.stones[number];
     let entering: Vec<Entering> = arrivals.iter().map(|(_, e)| *e).collect();
-    let departures = crossing::cross(placed, &entering);
+    let departures = crossing::cross(placed, scene.most_meetings(OUTSIDE), &entering);
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
         flight.point = placed.point_to_world(departure.point);
         flight.direction = placed.direction_to_world(departure.direction);

@@ -77,7 +77,9 @@ impl Origin {
     fn of(scene: &Scene, settings: &Settings, shots: &Shots) -> Origin {
         Origin {
             scene: scene.name.clone(),
-            stone: listed(scene, |p| format!("of {} facets ({:08x})", p.stone.facet_count(), stone_checksum(p))),
+            stone: listed(scene, |p| {
+                format!("of {} facets ({:08x})", p.stone.facet_count(), stone_checksum(p))
+            }),
             material: listed(scene, |p| format!("{} ({:08x})", p.material.name, material_checksum(p))),
             polarised: listed(scene, |p| (if p.polarised { "on" } else { "off" }).into()),
             surroundings: format!("{:08x}", surroundings_checksum(scene)),

@@ -21,7 +21,11 @@ impl Light {
     ///
     /// - `power`: by wavelength in nm; `place_in_band`: uniform in (0, 1)
     pub fn new(power: impl Fn(f32) -> f32, place_in_band: f32) -> Light {
-        Light { power: std::array::from_fn(|b| power(wavelength(b, place_in_band))), place_in_band, single: false }
+        Light {
+            power: std::array::from_fn(|b| power(wavelength(b, place_in_band))),
+            place_in_band,
+            single: false,
+        }
     }
 
     fn nm(&self, band: usize) -> f32 {

@@ -23,7 +23,12 @@ const OUTSIDE: u32 = 2;
 
 /// Follows the camera rays of a pixel through the stones. A way out of the first stone that leads
 /// into another goes on by one exit at each, chosen by power.
-pub(super) fn look_into_stones(view: &View, entering: &[Entering], sights: &mut [Sight], stream: &mut Stream) {
+pub(super) fn look_into_stones(
+    view: &View,
+    entering: &[Entering],
+    sights: &mut [Sight],
+    stream: &mut Stream,
+) {
     let mut onward = Vec::new();
     for (number, placed) in view.scene.stones.iter().enumerate() {
         let mut its = entering.iter().filter(|e| e.stone == number).peekable();
@@ -47,9 +52,14 @@ pub(super) fn look_into_stones(view: &View, entering: &[Entering], sights: &mut 
             let its: Vec<&Onward> = now.iter().filter(|o| o.stone == number).collect();
             let singles: Vec<Single> = its
                 .iter()
-                .map(|o| Single { arrival: o.arrival, nm: sights[o.sight].nm[o.band], choice: stream.unit64() })
+                .map(|o| Single {
+                    arrival: o.arrival,
+                    nm: sights[o.sight].nm[o.band],
+                    choice: stream.unit64(),
+                })
                 .collect();
-            for (o, departure) in its.iter().zip(crossing::cross(placed, &singles)) {
+            let departures = crossing::cross(placed, view.scene.most_meetings(OUTSIDE), &singles);
+            for (o, departure) in its.iter().zip(departures) {
                 let way = WayOut {
                     stone: number,
                     point: departure.point,
@@ -194,7 +204,7 @@ impl<'a, I: Iterator<Item = &'a Entering>> Rays for Inside<'a, '_, I> {
     }
 
     fn most_meetings(&self) -> u32 {
-        self.view.scene.depth.map_or(u32::MAX, |depth| depth.saturating_sub(OUTSIDE))
+        self.view.scene.most_meetings(OUTSIDE)
     }
 
     /// Lets a camera ray in; what the facet mirrors is seen at once.

@@ -122,12 +122,8 @@ pub fn exr(film: &Film, things: &[Thing], command: &str) -> Result<Vec<u8>, Enco
     }
     let facets = FlatSamples::U32(things.iter().map(|t| t.facet).collect());
     channels.push(AnyChannel::new(text("facet.id"), facets));
-    channels.push(AnyChannel::new(
-        text("Z"),
-        floats(things.iter().map(|t| t.depth).collect()),
-    ));
-    let mut attributes = LayerAttributes::default();
-    attributes.comments = Some(text(command));
+    channels.push(AnyChannel::new(text("Z"), floats(things.iter().map(|t| t.depth).collect())));
+    let attributes = LayerAttributes { comments: Some(text(command)), ..LayerAttributes::default() };
     let size = (film.width as usize, film.height as usize);
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
     let mut out = std::io::Cursor::new(Vec::new());

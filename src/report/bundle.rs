@@ -158,10 +158,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
 }
 
 /// The photon-mapped picture of the stone on the grey table, as PNG.
-fn table_picture(
-    request: &Request,
-    step: &dyn Fn(&'static str),
-) -> Result<Vec<u8>, ReportError> {
+fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> Result<Vec<u8>, ReportError> {
     let (width, height, rays) = PICTURE;
     let (photons, nearest) = PHOTONS;
     let Some(table) = preset("table") else {

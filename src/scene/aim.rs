@@ -160,7 +160,8 @@ mod tests {
         assert!((whole / f64::from(n) - 1.0).abs() < 0.01, "{whole}");
         assert!((half / f64::from(n) - 0.5).abs() < 0.01, "{half}");
         // ∫ 2 √(25 − z²) dz from 2.5 to 3.2
-        let strip: f64 = (0..700).map(|i| 2.0 * (25.0 - (2.5005 + f64::from(i) * 1e-3f64).powi(2)).sqrt() * 1e-3).sum();
+        let strip: f64 =
+            (0..700).map(|i| 2.0 * (25.0 - (2.5005 + f64::from(i) * 1e-3f64).powi(2)).sqrt() * 1e-3).sum();
         assert!((area / f64::from(n) / strip - 1.0).abs() < 0.02, "{area} {strip}");
     }
 }

@@ -102,6 +102,9 @@ impl Light {
     }
 }
 
+/// Makes a light's shape of its entry.
+pub type Reader = fn(&LightEntry, &Place) -> Result<Arc<dyn Emitter>, Wrong>;
+
 /// A kind of light.
 pub struct Kind {
     /// Its name in scene files.
@@ -109,7 +112,7 @@ pub struct Kind {
     /// What it is, and what its entry states.
     pub about: &'static str,
     /// Makes one of its entry.
-    pub read: fn(&LightEntry, &Place) -> Result<Arc<dyn Emitter>, Wrong>,
+    pub read: Reader,
 }
 
 /// Every kind of light.

@@ -27,8 +27,11 @@ impl Mesh {
     /// Places a mesh: turned and scaled about its own origin, then moved.
     pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Mesh {
         let place = |i: usize| (at + turn * mesh.vertices[i] * scale).as_vec3a();
-        let mut triangles: Vec<Triangle> =
-            mesh.triangles.iter().map(|[a, b, c]| Triangle { v0: place(*a), v1: place(*b), v2: place(*c) }).collect();
+        let mut triangles: Vec<Triangle> = mesh
+            .triangles
+            .iter()
+            .map(|[a, b, c]| Triangle { v0: place(*a), v1: place(*b), v2: place(*c) })
+            .collect();
         let mut crc = crc32fast::Hasher::new();
         for t in &triangles {
             [t.v0, t.v1, t.v2].iter().flat_map(|v| v.to_array()).for_each(|x| crc.update(&x.to_le_bytes()));
@@ -84,7 +87,8 @@ mod tests {
         let mut stream = Stream::new(5, Purpose::Test, 0);
         let mut met = 0;
         for _ in 0..2000 {
-            let from = Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5).normalize() * 3.0;
+            let from =
+                Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5).normalize() * 3.0;
             let to = Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5) * 1.5;
             let d = (to - from).normalize();
             match (stone.hit(from, d), mesh.hit(from, d)) {

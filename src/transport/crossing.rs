@@ -37,9 +37,12 @@ const STOP_SHARE: f32 = 1e-3;
 /// Every way out, the reflection at entry among them, is chosen with a probability proportional to
 /// its power, so each photon goes on alone and the mean over photons is right. One uniform number
 /// serves all choices: it is stretched back to (0, 1) after each.
-pub fn cross(placed: &PlacedStone, arrivals: &[Entering]) -> Vec<Departure> {
+///
+/// - `most_meetings`: with facets inside, after which a photon that is still there is lost
+pub fn cross(placed: &PlacedStone, most_meetings: u32, arrivals: &[Entering]) -> Vec<Departure> {
     let mut crossing = Crossing {
         placed,
+        most_meetings,
         arrivals: arrivals.iter(),
         departures: Vec::with_capacity(arrivals.len()),
         photon: [0; LANES],
@@ -55,6 +58,7 @@ pub fn cross(placed: &PlacedStone, arrivals: &[Entering]) -> Vec<Departure> {
 
 struct Crossing<'a> {
     placed: &'a PlacedStone,
+    most_meetings: u32,
     arrivals: std::slice::Iter<'a, Entering>,
     departures: Vec<Departure>,
     /// For each lane: which photon it carries, the number that chooses, the power that has left.
@@ -72,6 +76,10 @@ impl Rays for Crossing<'_> {
 
     fn absorbing(&self) -> bool {
         !self.placed.material.is_clear()
+    }
+
+    fn most_meetings(&self) -> u32 {
+        self.most_meetings
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
