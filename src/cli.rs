@@ -3,6 +3,7 @@
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod console;
+mod drawing;
 mod generate;
 mod import;
 mod list;

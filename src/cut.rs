@@ -7,6 +7,7 @@ pub mod families;
 pub mod library;
 pub mod meet;
 pub mod proportions;
+pub mod stretch;
 pub mod symmetry;
 
 pub use design::{Design, Facet, Gear, Tier, Unit, Zone};

@@ -11,7 +11,9 @@ mod entrance;
 pub mod exact;
 pub mod hemisphere;
 pub mod separation;
+mod together;
 pub mod view;
+pub mod weigh;
 
 pub use batches::{BATCHES, Experiment, Traced};
 pub use beam::Beam;

@@ -25,13 +25,16 @@ mod shell;
 pub mod source;
 mod stl;
 pub mod stone;
+pub mod surface;
 mod triangle_words;
 mod windows_1252;
 
 pub use error::FormatError;
 pub use source::Source;
+pub use surface::Surface;
 
-use crate::cut::Design;
+use crate::cut::{Design, Unit};
+use crate::solid::Body;
 use crate::solid::polyhedron::Fate;
 use crate::solid::recover::MOST_FACETS;
 use crate::store::replace;
@@ -43,8 +46,14 @@ use std::path::Path;
 /// allots is bounded by the bytes it was given, and by the most polygons and facets of a stone.
 pub const MOST_BYTES: u64 = 32 << 20;
 
-/// Makes a file's bytes of a design.
-pub type Writer = fn(&Design) -> Result<Vec<u8>, FormatError>;
+/// Makes a file's bytes.
+#[derive(Debug, Clone, Copy)]
+pub enum Writer {
+    /// Of a design's planes, tiers and texts.
+    Design(fn(&Design) -> Result<Vec<u8>, FormatError>),
+    /// Of a surface, whose planes need not bound it.
+    Mesh(fn(&Surface) -> Result<Vec<u8>, FormatError>),
+}
 
 /// A file format.
 pub struct Format {
@@ -69,9 +78,12 @@ pub static FORMATS: &[&Format] = &[
     &gem::FORMAT,
     &gcs::FORMAT,
     &obj::FORMAT,
-    &stl::FORMAT,
-    &ply::FORMAT,
-    &glb::FORMAT,
+    &stl::BINARY,
+    &stl::TEXT,
+    &ply::BINARY,
+    &ply::TEXT,
+    &glb::GLB,
+    &glb::GLTF,
     &sc_tracer::FORMAT,
     &cs580::FORMAT,
     &perfect_diamond::SCENE,
@@ -174,8 +186,31 @@ pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
 
 /// The bytes of a file of the design in the format called `format`, by name or ending.
 pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
-    let write = written_as(format)?.write.ok_or_else(|| no_writer(format))?;
-    write(design)
+    match written_as(format)?.write.ok_or_else(|| no_writer(format))? {
+        Writer::Design(write) => write(design),
+        Writer::Mesh(write) => write(&Surface::of_design(design)?),
+    }
+}
+
+/// The bytes of a file of a mesh that is no convex stone, in the format called `format`.
+///
+/// - `unit`: of the mesh's corners
+///
+/// Formats that hold planes refuse it. Checked in `tests/cli.rs`.
+pub fn encode_mesh(name: &str, body: &Body, unit: Unit, format: &str) -> Result<Vec<u8>, FormatError> {
+    let format = written_as(format)?;
+    match format.write {
+        Some(Writer::Mesh(write)) => write(&Surface::of_body(name, body, unit)),
+        _ => {
+            let meshes = FORMATS.iter().filter(|f| matches!(f.write, Some(Writer::Mesh(_))));
+            let meshes: Vec<_> = meshes.map(|f| f.name).collect();
+            Err(FormatError::Encode {
+                name: name.into(),
+                format: format.name,
+                problem: format!("it is not convex, and the format holds planes; try {}", meshes.join(", ")),
+            })
+        }
+    }
 }
 
 /// The format that is written for a file of this name, by its ending.

@@ -5,6 +5,7 @@ pub mod bundle;
 pub mod diagram;
 pub mod page;
 pub mod pattern;
+pub mod raster;
 pub mod sections;
 
 pub use bundle::{Bundle, ReportError, Request, make};

@@ -1,5 +1,7 @@
-//! Convex solids: planes, their intersection, triangles, measures.
+//! Convex solids: planes, their intersection, triangles, measures; closed meshes that are not convex.
 
+pub mod body;
+mod carving;
 pub mod measure;
 pub mod mesh;
 pub mod plane;
@@ -7,5 +9,6 @@ pub mod polyhedron;
 pub mod recover;
 mod surface;
 
+pub use body::Body;
 pub use plane::Plane;
 pub use polyhedron::{Polyhedron, SolidError};

@@ -1,19 +1,22 @@
-//! The walk: light inside a convex stone.
+//! The walk: light inside a convex stone, and inside others ([`mesh`]).
 //!
 //! A ray inside never branches. At every facet it leaves the transmitted part of its power outside,
 //! in one direction, and goes on with the rest. Photons that build a map, rays that are counted for
 //! a score and camera rays that look into the stone are all consumers of [`Stone::walk`].
 
 pub mod beams;
+mod belt;
 mod dispatch;
 pub mod feed;
 mod kernel;
+pub mod mesh;
 mod packet;
 pub mod scalar;
+mod search;
 mod stone;
 
 pub use dispatch::Isa;
-pub use packet::{Exit, LANES, Lanes, Meeting, Packet};
+pub use packet::{Exit, LANES, Lanes, Meeting, NO_FACET, NextFacets, Packet};
 pub use stone::{Entry, Hit, Stone};
 
 /// After so many meetings whatever power a lane still holds is given up as lost. A guard against

@@ -1,5 +1,6 @@
 //! Absorption along the walk: energy, the `f64` twin, a plate's closed form, and what size does.
 
+use cutlab::cut::Design;
 use cutlab::experiments::{Medium, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::math::sample;
@@ -8,10 +9,15 @@ use cutlab::optics::absorption::{Absorption, Band};
 use cutlab::optics::fresnel::unpolarised;
 use cutlab::optics::stokes::Stokes;
 use cutlab::optics::{Material, dispersion::lines};
+use cutlab::photons::{self, Shots};
+use cutlab::render::{self, Maps, Tone};
+use cutlab::scene::{Cast, PlacedStone, Pose, Scene, preset};
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::study::score::{Effort, Plan, Subject, score};
+use cutlab::transport::Arrival;
+use cutlab::transport::crossing::{Entering, cross};
 use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
 const SEED: u64 = 29;
@@ -27,13 +33,13 @@ fn brilliant() -> Polyhedron {
 fn rain(stone: &Stone, stream: &mut Stream, polarised: bool) -> (Packet, [f32; LANES]) {
     let mut packet = Packet { absorbing: true, ..Packet::new(polarised) };
     let mut reflected = [0.0; LANES];
-    for lane in 0..LANES {
+    for (lane, reflected) in reflected.iter_mut().enumerate() {
         let target = (sample::disc(stream.pair()) * 0.9).extend(2.0);
         let hit = stone.hit(target, Vec3::NEG_Z).expect("over the stone");
         let entry = stone.enter(hit.facet, Vec3::NEG_Z, INDEX);
         packet.enter(lane, target - Vec3::Z * hit.distance, &entry, INDEX);
         packet.absorption[lane] = 0.3 * lane as f32;
-        reflected[lane] = entry.reflectance;
+        *reflected = entry.reflectance;
     }
     (packet, reflected)
 }
@@ -55,8 +61,8 @@ fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
                     }
                 });
                 assert!(lost < 1e-5);
-                for l in 0..LANES {
-                    assert!((sums[l] - 1.0).abs() < 1e-5, "{} lane {l}: {}", isa.name(), sums[l]);
+                for (lane, sum) in sums.iter().enumerate() {
+                    assert!((sum - 1.0).abs() < 1e-5, "{} lane {lane}: {sum}", isa.name());
                 }
                 assert!(absorbed[0] == 0.0 && absorbed[LANES - 1] > 0.3, "{absorbed:?}");
             }
@@ -114,6 +120,12 @@ fn lanes_absorb_as_their_twin_does() {
     }
 }
 
+/// A cube.
+fn cube(side: f64) -> Polyhedron {
+    let planes = DVec3::AXES.map(|n| [Plane::new(n, side / 2.0), Plane::new(-n, side / 2.0)]).concat();
+    Polyhedron::from_planes(&planes).expect("closed")
+}
+
 /// A material that absorbs `per_mm` at the D line.
 fn grey(per_mm: f64) -> Material {
     let band = Band {
@@ -131,8 +143,7 @@ fn grey(per_mm: f64) -> Material {
 #[test]
 fn a_plate_follows_its_closed_form() {
     let side = 3.0;
-    let planes = DVec3::AXES.map(|n| [Plane::new(n, side / 2.0), Plane::new(-n, side / 2.0)]).concat();
-    let stone = Stone::new(Polyhedron::from_planes(&planes).expect("closed"));
+    let stone = Stone::new(cube(side));
     for per_mm in [0.01, 0.2, 1.0] {
         let material = grey(per_mm);
         let view = View::new(&stone, &Medium { material: &material, polarised: true }).expect("lit");
@@ -177,4 +188,99 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
     let (clear, same) = (scores("corundum", 2.0), scores("corundum", 10.0));
     assert_eq!(clear["absorbed"], 0.0);
     assert!((clear["light_return"] - same["light_return"]).abs() < 1e-4, "a clear stone has no size");
+}
+
+/// A scene with a stone of the given material, upright on the table.
+fn scene(design: Design, material: Material) -> Scene {
+    let cast = Cast {
+        designs: vec![design],
+        material: Some(material),
+        pose: Some(Pose::TableUp),
+        ..Cast::default()
+    };
+    preset("table").expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
+}
+
+/// [D] The plate's closed form again, with photons that each leave by one way.
+#[test]
+fn photons_through_a_plate_keep_what_it_does_not_absorb() {
+    let (side, per_mm) = (3.0, 0.2);
+    let stone = Stone::new(cube(side));
+    let radius = stone.unit as f32;
+    let placed = PlacedStone::resting(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
+    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let top = placed.stone.hit(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
+    let arrival = Arrival { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };
+    let entering: Vec<Entering> =
+        (0..20_000).map(|_| Entering { arrival, nm: 589.0, choice: stream.unit64() }).collect();
+    let departures = cross(&placed, u32::MAX, &entering);
+    let r = unpolarised(1.0, INDEX.into()).0;
+    let x = (-per_mm * side).exp();
+    let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
+    let all = r + through * (1.0 + r * x);
+    // 1e-3 of the power is where a photon is given up
+    assert!(departures.iter().all(|d| (f64::from(d.share) - all).abs() < 1.1e-3), "{all}");
+    let down = departures.iter().filter(|d| d.direction.z < 0.0).count() as f64 / 20_000.0;
+    let sigma = (through / all * (1.0 - through / all) / 20_000.0).sqrt();
+    assert!((down - through / all).abs() < 4.0 * sigma + 1e-3, "{down} {}", through / all);
+}
+
+/// Pictures: a ruby is red, an emerald green, and a larger ruby deeper.
+#[test]
+fn pictures_show_the_colour_and_the_size() {
+    let mean = |material: &str, mm: f64| -> Vec3 {
+        let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let scene = scene(
+            design.sized(mm).expect("has a width"),
+            Material::named(material).expect("in the catalogue").clone(),
+        );
+        let shots = Shots::shoot(&scene, &photons::Settings { photons: 2000, nearest: 50, seed: SEED });
+        let maps = Maps::new(&scene, &shots, 50);
+        let settings = render::Settings { width: 48, height: 48, rays: 4, tone: Tone::default(), seed: SEED };
+        let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
+        // the middle of the picture, which the stone fills
+        let middle = (18..30).flat_map(|y| (18..30).map(move |x| y * 48 + x));
+        let light = film.linear(None);
+        middle.map(|i| light[i].min(Vec3::ONE)).sum::<Vec3>() / 144.0
+    };
+    let (small, large) = (mean("ruby", 2.0), mean("ruby", 8.0));
+    assert!(small.x > 1.3 * small.y && large.x > 1.5 * large.y.max(large.z), "{small} {large}");
+    assert!(large.y < small.y && large.z < small.z && large.x < small.x, "{small} {large}");
+    let emerald = mean("emerald", 6.0);
+    assert!(emerald.y > 1.3 * emerald.x.max(emerald.z), "{emerald}");
+    let clear = mean("corundum", 6.0);
+    assert!((clear.max_element() - clear.min_element()) < 0.1 * clear.max_element(), "{clear}");
+}
+
+/// Standard output and standard error of the program.
+fn cutlab(arguments: &str) -> (String, String) {
+    let out = std::process::Command::new(env!("CARGO_BIN_EXE_cutlab"))
+        .args(arguments.split(' '))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the program starts");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    let (said, noted) = (text(out.stdout), text(out.stderr));
+    assert!(out.status.success(), "{arguments}: {noted}");
+    (said, noted)
+}
+
+#[test]
+fn the_program_says_what_size_it_took_for_a_coloured_stone_without_one() {
+    let stone = "score tests/data/good/square.asc --metrics absorbed --error 0.05 --material";
+    let (said, noted) = cutlab(&format!("{stone} ruby"));
+    assert!(noted.contains("taken as 6.5 mm wide") && noted.lines().count() == 1, "{noted}");
+    let (same, quiet) = cutlab(&format!("{stone} ruby --size 6.5"));
+    assert_eq!((said, quiet.as_str()), (same, ""));
+    let (clear, quiet) = cutlab(&format!("{stone} corundum"));
+    assert!(clear.contains(",0.0,0.0,") && quiet.is_empty(), "{clear} {quiet}");
+}
+
+#[test]
+fn the_program_notes_once_that_an_index_is_a_guess() {
+    let score = |metric| {
+        cutlab(&format!("score tolkowsky cube --material moissanite --metrics {metric} --error 1")).1
+    };
+    assert_eq!(score("fire_lit"), "note: index of moissanite extrapolated below 436 nm\n");
+    assert_eq!(score("wlr"), "");
 }

@@ -1,14 +1,15 @@
 //! Exact beams: an independent tracer's figures, the sum of all light, photons, reciprocity.
 
 use cutlab::cut::{families, library};
-use cutlab::experiments::exact::{self, Effort};
+use cutlab::experiments::exact;
 use cutlab::experiments::separation;
+use cutlab::experiments::weigh::{Effort, Weighed, weigh};
 use cutlab::experiments::{Beam, Medium, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::optics::Material;
 use cutlab::solid::{Plane, Polyhedron};
-use cutlab::walk::Stone;
-use cutlab::walk::beams::{Beams, Exit, Interface, Light, Lit, Scalar, Totals, Watch};
+use cutlab::walk::beams::{Beams, Exit, Light, Lit, Scalar, Totals, Until, Watch};
+use cutlab::walk::{Isa, Stone};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 
@@ -37,30 +38,11 @@ impl<L> Watch<L, 1> for Sums {
     }
 }
 
-fn follow<L: Light>(stone: &Stone, direction: DVec3, light: L, stop: f64) -> (Totals, [f64; 3]) {
+fn follow<L: Light>(stone: &Stone, direction: DVec3, light: L, until: Until) -> (Totals, [f64; 3]) {
     let mut sums = Sums::default();
     let lit = Lit { direction, indices: [DIAMOND] };
-    let totals = Beams::new(stone).follow(&lit, light, stop, &mut sums);
+    let totals = Beams::new(stone).follow(&lit, light, until, &mut sums);
     (totals, sums.0)
-}
-
-/// Scalar light that is not followed beyond a number of facets.
-#[derive(Debug, Clone, Copy)]
-struct Short(Scalar, u32);
-
-impl Light for Short {
-    fn power(&self) -> f64 {
-        self.0.power()
-    }
-
-    fn split(&self, at: &Interface) -> (Self, Self) {
-        let (out, kept) = self.0.split(at);
-        (Short(out, self.1), Short(kept, self.1 - 1))
-    }
-
-    fn goes_on(&self) -> bool {
-        self.1 > 0
-    }
 }
 
 /// The figures of `physics.md` §3: [beams, up, down, up·cos², not followed] down to 1e-5, 1e-6 and
@@ -75,7 +57,8 @@ fn the_figures_of_an_independent_tracer_come_out() {
         (1e-6, [87_049.0, 0.743030, 0.075199, 0.579620, 0.007424]),
         (1e-7, [436_465.0, 0.745918, 0.077765, 0.580646, 0.001969]),
     ] {
-        let (t, [up, down, cos2]) = follow(&stone, DVec3::NEG_Z, Short(Scalar(1.0), 201), stop);
+        let until = Until { facets: 201, ..Until::power(stop) };
+        let (t, [up, down, cos2]) = follow(&stone, DVec3::NEG_Z, Scalar(1.0), until);
         assert_eq!(t.beams as f64, expected[0], "beams at {stop}");
         for (got, expected) in [up, down, cos2, t.not_followed].iter().zip(&expected[1..]) {
             assert!((got - expected).abs() < 0.6e-6, "{got} for {expected} at {stop}");
@@ -83,7 +66,7 @@ fn the_figures_of_an_independent_tracer_come_out() {
         assert!((t.reflected - 0.17435).abs() < 0.6e-5, "{}", t.reflected);
         assert!((t.sum() - 1.0).abs() < 1e-9, "{}", t.sum());
     }
-    let (t, _) = follow(&stone, DVec3::NEG_Z, Scalar(1.0), 1e-7);
+    let (t, _) = follow(&stone, DVec3::NEG_Z, Scalar(1.0), Until::power(1e-7));
     assert_eq!(t.beams, 439_441);
     assert!((t.not_followed - 0.001947).abs() < 0.6e-6, "{}", t.not_followed);
 }
@@ -94,8 +77,8 @@ fn photons_finish_what_beams_leave_over() {
     let stone = Stone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
     for stop_power in [1e-4, 1e-5, 1e-6] {
-        let effort = Effort { stop_power, photons: 32_768, seed: SEED };
-        let gaze = exact::gaze(&stone, &beams, DVec3::NEG_Z, DIAMOND, &effort).expect("lit");
+        let effort = Effort { until: Until::power(stop_power), photons: 32_768, seed: SEED };
+        let gaze = exact::gaze(&beams, DVec3::NEG_Z, DIAMOND, false, &effort).expect("lit");
         for (got, limit) in
             [(gaze.reflected, 0.174347), (gaze.up, 0.74693), (gaze.up_cos2, 0.58104), (gaze.down, 0.07872)]
         {
@@ -153,7 +136,7 @@ fn no_light_is_clipped_away() {
         directions.extend((0..8).map(|_| toward()));
         directions.extend([0, stone.facet_count() / 2].map(grazing));
         for direction in directions {
-            let (t, _) = follow(&stone, direction, Scalar(1.0), 1e-4);
+            let (t, _) = follow(&stone, direction, Scalar(1.0), Until::power(1e-4));
             assert!((t.sum() - 1.0).abs() < 1e-9, "{name} along {direction}: {:e}", t.sum() - 1.0);
         }
     }
@@ -166,8 +149,8 @@ fn a_turned_stone_in_turned_light_is_the_same() {
     let turn = DMat3::from_rotation_z(0.3) * DMat3::from_rotation_x(0.4);
     let plain = Stone::new(design.solid().expect("closed"));
     let turned = Stone::new(design.turned(turn).solid().expect("closed"));
-    let (a, _) = follow(&turned, DVec3::NEG_Z, Scalar(1.0), 1e-5);
-    let (b, _) = follow(&plain, turn.transpose() * DVec3::NEG_Z, Scalar(1.0), 1e-5);
+    let (a, _) = follow(&turned, DVec3::NEG_Z, Scalar(1.0), Until::power(1e-5));
+    let (b, _) = follow(&plain, turn.transpose() * DVec3::NEG_Z, Scalar(1.0), Until::power(1e-5));
     assert!(a.beams.abs_diff(b.beams) <= 2, "{} {}", a.beams, b.beams);
     assert!((a.reflected - b.reflected).abs() < 1e-12 && (a.exited - b.exited).abs() < 2e-5);
 }
@@ -175,12 +158,12 @@ fn a_turned_stone_in_turned_light_is_the_same() {
 /// Beams against the view experiment, whose lanes know nothing of polygons: all cuts of the
 /// library, nearly face-up and tilted. Nearly: in a stone of cubic symmetry light that comes straight
 /// down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
-/// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron still differs by 1 %).
+/// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron sends a tenth of its
+/// light out within 3e-5 of the horizon, four percent of that on the wrong side of it: up is off by
+/// 1 %; tests/walk/thin.rs).
 /// Of some thousand comparisons none may be off by more than five errors (of 64 batches, α = .005 for
-/// all together); in 2.2 of 144 views one is expected off by more than three: nine have a chance of
-/// .001.
-#[test]
-fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
+/// all together); of 144 views 2.2 are expected off by more than three: nine have a chance of .001.
+fn beams_agree_with_photons(polarised: bool) {
     let material = Material::named("diamond").expect("in the catalogue");
     let (mut compared, mut beyond_three) = (0, 0);
     for name in library::names() {
@@ -191,11 +174,11 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
             let turned = design.turned(DMat3::from_axis_angle(axis, tilt.to_radians()));
             let stone = Stone::new(turned.solid().expect("closed"));
             let mut view =
-                Traced::new(View::new(&stone, &Medium { material, polarised: false }).expect("lit"), SEED);
-            view.extend_to(100_000);
+                Traced::new(View::new(&stone, &Medium { material, polarised }).expect("lit"), SEED);
+            view.extend_to(50_000);
             let effort = Effort { seed: SEED, ..Effort::default() };
-            let beams = Beams::new(&stone);
-            let gaze = exact::gaze(&stone, &beams, DVec3::NEG_Z, material.index_d(), &effort).expect("lit");
+            let (beams, index) = (Beams::new(&stone), material.index_d());
+            let gaze = exact::gaze(&beams, DVec3::NEG_Z, index, polarised, &effort).expect("lit");
             let mut pairs = vec![
                 (view.estimate(|t| (t.reflected, t.rays)), gaze.reflected),
                 (view.estimate(|t| (t.up(), t.rays)), gaze.up),
@@ -217,7 +200,104 @@ fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
         }
     }
     println!("{beyond_three} of {compared} views are off by more than three errors somewhere");
-    assert!(beyond_three <= 8, "{beyond_three} of {compared}");
+    let expected = f64::from(compared) * 0.0155;
+    assert!(f64::from(beyond_three) <= expected + 4.0 * expected.sqrt(), "{beyond_three} of {compared}");
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn beams_agree_with_photons_for_every_cut_face_up_and_tilted() {
+    beams_agree_with_photons(false);
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn polarised_beams_agree_with_polarised_photons_for_every_cut_face_up_and_tilted() {
+    beams_agree_with_photons(true);
+}
+
+/// [R] With polarisation, what a vertical view of the reference sends up changes by .0007; photons
+/// finish both kinds of light, so that the difference is of the whole.
+#[test]
+fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
+    let stone = Stone::new(brilliant(&[]));
+    let beams = Beams::new(&stone);
+    let effort = Effort { until: Until::power(1e-6), photons: 32_768, seed: SEED };
+    let gaze = |polarised| exact::gaze(&beams, DVec3::NEG_Z, DIAMOND, polarised, &effort).expect("lit");
+    let (with, without) = (gaze(true), gaze(false));
+    let change = with.up.value - without.up.value;
+    println!("{change:+.6} ± {:.1e}", with.up.error.hypot(without.up.error));
+    assert!((change.abs() - 0.0007).abs() < 0.0001 + 3.0 * with.up.error.hypot(without.up.error), "{change}");
+    assert!((with.reflected.value - without.reflected.value).abs() < 1e-12);
+    let sum = with.reflected.value + with.up.value + with.down.value + with.lost.value;
+    assert!((sum - 1.0).abs() < 2e-4, "{sum}");
+}
+
+/// A Stokes vector's beams add up to 1 as numbers do, and every instruction set follows the same.
+#[test]
+fn all_instruction_sets_follow_the_same_beams() {
+    let direction = DVec3::new(0.5, 0.2, -0.8).normalize();
+    let stokes = cutlab::optics::stokes::Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
+    let until = Until::power(1e-5);
+    let runs = Isa::all().into_iter().map(|isa| {
+        let stone = Stone::with_isa(brilliant(&[]), isa);
+        [follow(&stone, direction, Scalar(1.0), until), follow(&stone, direction, stokes, until)]
+    });
+    let runs: Vec<_> = runs.collect();
+    for [scalar, polarised] in &runs {
+        for ((t, sums), (portable, portable_sums)) in [scalar, polarised].into_iter().zip(&runs[0]) {
+            assert!((t.sum() - 1.0).abs() < 1e-9, "{}", t.sum());
+            assert!(t.beams.abs_diff(portable.beams) <= 2, "{} {}", t.beams, portable.beams);
+            // a beam at the threshold may be followed here and not there
+            for (got, expected) in sums.iter().zip(portable_sums) {
+                assert!((got - expected).abs() < 3e-5, "{got} {expected}");
+            }
+        }
+    }
+}
+
+/// What is left is the target, from any direction; the strongest first takes hardly more beams than
+/// the power threshold that leaves as much.
+#[test]
+fn beams_stop_when_little_enough_is_left() {
+    let stone = Stone::new(brilliant(&[]));
+    for direction in [DVec3::NEG_Z, DVec3::new(0.3, 0.1, -0.9).normalize()] {
+        let (t, _) = follow(&stone, direction, Scalar(1.0), Until::left(0.04));
+        assert!(t.not_followed <= 0.04 && t.not_followed > 0.0395, "{}", t.not_followed);
+        assert!((t.sum() - 1.0).abs() < 1e-9);
+        let least = (1..400).map(|i| 1e-4 * 0.98f64.powi(i)).find_map(|stop| {
+            let (by_power, _) = follow(&stone, direction, Scalar(1.0), Until::power(stop));
+            (by_power.not_followed <= 0.04).then_some(by_power.beams)
+        });
+        let least = least.expect("some power") as f64;
+        assert!((t.beams as f64) < 1.25 * least, "{} {least}", t.beams);
+    }
+}
+
+/// Any weights: elevation bands as the gaze has them, reflection at entry, all light once.
+#[test]
+fn weights_of_a_caller_add_up_to_what_the_gaze_has() {
+    let stone = Stone::new(brilliant(&[]));
+    let beams = Beams::new(&stone);
+    let direction = DVec3::new(0.2, 0.1, -0.9).normalize();
+    let effort = Effort { seed: SEED, ..Effort::default() };
+    let lit = Lit { direction, indices: [DIAMOND] };
+    let gaze = exact::gaze(&beams, direction, DIAMOND, true, &effort).expect("lit");
+    let limits = exact::between([-90.0, 0.0, 45.0, 75.0]);
+    let bands = weigh(&beams, &lit, true, &effort, &limits).expect("lit");
+    for (i, band) in [gaze.bands[3], gaze.bands[0], gaze.bands[1], gaze.bands[2]].iter().enumerate() {
+        assert!((bands.sum(i).value - band.value).abs() < 1e-12, "{i}");
+    }
+    assert!((bands.glare.iter().sum::<f64>() - bands.reflected).abs() < 1e-12);
+    // light from straight above that the table mirrors goes straight up
+    let flat = Lit { direction: DVec3::NEG_Z, indices: [DIAMOND] };
+    let up: Weighed<1> =
+        weigh(&beams, &flat, false, &effort, |l| [f64::from(l.up > 1.0 - 1e-12)]).expect("lit");
+    let table = beams.facets().planes.iter().position(|p| p.normal.z > 0.999).expect("a table");
+    let share =
+        beams.facets().area(table) / follow(&stone, DVec3::NEG_Z, Scalar(1.0), Until::power(1.0)).0.outline;
+    let reflectance = ((DIAMOND - 1.0) / (DIAMOND + 1.0)).powi(2);
+    assert!((up.glare[0] - share * reflectance).abs() < 1e-12, "{:?}", up.glare);
 }
 
 /// ASET areas by the strongest path (`physics.md` §4, ±.5 %).
@@ -243,13 +323,13 @@ fn the_separation_of_colours_agrees_with_photons() {
     ] {
         let material = Material::named(material).expect("in the catalogue");
         let stone = Stone::new(brilliant(overrides));
-        let mut photons =
-            Traced::new(Beam::new(&stone, &Medium { material, polarised: false }).expect("lit"), SEED);
+        let medium = Medium { material, polarised: false };
+        let mut photons = Traced::new(Beam::new(&stone, &medium).expect("lit"), SEED);
         photons.extend_to(100_000);
         let photons = photons.estimate(|t| (t.power_angle_deg, t.paired_power));
         for stop_power in [1e-4, 1e-5] {
-            let effort = Effort { stop_power, seed: SEED, ..Effort::default() };
-            let beams = separation::separation(&stone, &Beams::new(&stone), DVec3::NEG_Z, material, &effort)
+            let effort = Effort { until: Until::power(stop_power), seed: SEED, ..Effort::default() };
+            let beams = separation::separation(&Beams::new(&stone), DVec3::NEG_Z, &medium, &effort)
                 .expect("lit")
                 .angle_deg;
             let off = (photons.value - beams.value).abs();
@@ -302,7 +382,7 @@ fn light_sent_back_returns_by_the_same_way() {
     let beams = Beams::new(&stone);
     let run = |mut found: Found| {
         let lit = Lit { direction: found.lit, indices: [DIAMOND] };
-        let totals = beams.follow(&lit, Scalar(1.0), 1e-5, &mut found);
+        let totals = beams.follow(&lit, Scalar(1.0), Until::power(1e-5), &mut found);
         (found, totals.outline)
     };
     let (there, outline_there) = run(Found { lit: direction, ..Found::default() });

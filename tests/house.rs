@@ -34,7 +34,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in entries {
         let path = entry.expect("the folder can be listed").path();
-        if path.is_dir() {
+        if path.is_dir() && !path.ends_with("target") {
             files.extend(rust_files(&path));
         } else if path.extension().is_some_and(|e| e == "rs") {
             files.push(path);
@@ -168,6 +168,43 @@ fn unsafe_stays_in_the_dispatch_of_the_walk() {
             .any(|w| code.contains(w));
         assert!(!found || path == Path::new("src/walk/dispatch.rs"), "{} has unsafe", path.display());
     }
+}
+
+/// The text without the items that only one architecture compiles: from their `#[cfg]` to the line
+/// on which their brackets are closed again.
+fn portable(text: &str) -> String {
+    let mut kept = Vec::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        if !line.trim_start().starts_with("#[cfg(target_arch") {
+            kept.push(line);
+            continue;
+        }
+        let mut depth = 0;
+        for line in lines.by_ref() {
+            let count = |brackets: &[char]| line.matches(brackets).count();
+            depth += count(&['(', '{', '[']);
+            depth -= count(&[')', '}', ']']);
+            if depth == 0 && !line.trim_start().starts_with("#[") {
+                break;
+            }
+        }
+    }
+    kept.join("\n")
+}
+
+/// What an ARM machine compiles names no instruction of another.
+#[test]
+fn only_the_dispatch_of_the_walk_knows_architectures() {
+    for (path, text) in sources() {
+        let code = code(&text);
+        for word in ["::arch", "feature_detected", "target_feature", "target_arch", "Avx", "avx"] {
+            let rest = if path == Path::new("src/walk/dispatch.rs") { portable(&code) } else { code.clone() };
+            assert!(!rest.contains(word), "{}: {word} outside #[cfg(target_arch)]", path.display());
+        }
+    }
+    let both = "fn a() {}\n#[cfg(target_arch = \"x86_64\")]\n#[inline]\nfn b() {\n    avx();\n}\nfn c() {}";
+    assert_eq!(portable(both), "fn a() {}\nfn c() {}");
 }
 
 #[test]

@@ -93,6 +93,63 @@ fn fancy_outlines_take_their_length_to_width() {
     }
 }
 
+#[test]
+fn every_cut_of_tiers_can_be_drawn_out() {
+    let mut drawn = 0;
+    for name in library::names() {
+        let document = library::document(name).expect("in the library").expect("can be read");
+        if document.family.is_some() {
+            continue;
+        }
+        drawn += 1;
+        let (before, after) = (made(name, &[]), made(name, &[("length-to-width", 1.7)]));
+        let (before, after) = (before.solid().expect("closed"), after.solid().expect("closed"));
+        let size = |s: &cutlab::solid::Polyhedron| s.bounds().1 - s.bounds().0;
+        let (a, b) = (size(&before), size(&after));
+        assert!((b.y / b.x - 1.7).abs() < 1e-9, "{name}: {}", b.y / b.x);
+        // width and height stay, every facet stands, and the volume grows with the length
+        assert!((b.x / a.x - 1.0).abs() < 1e-9 && (b.z / a.z - 1.0).abs() < 1e-9, "{name}: {a} {b}");
+        assert_eq!(before.faces.len(), after.faces.len(), "{name}");
+        let grown = after.volume() / before.volume() / (b.y / a.y);
+        assert!((grown - 1.0).abs() < 1e-9, "{name}: {grown}");
+    }
+    assert!(drawn >= 20, "{drawn}");
+    for name in ["princess", "radiant", "french-cut", "barion-square", "barion-emerald", "barion-oval"] {
+        let p = measured(name, &[("length-to-width", 1.25)]);
+        assert!((p.ratios.l_w - 1.25).abs() < 1e-9, "{name}: {}", p.ratios.l_w);
+    }
+    let error = library::design("princess", &BTreeMap::from([("length-to-width".into(), 0.5)]));
+    assert!(error.expect("a cut").expect_err("too short").to_string().contains("1 to 6"));
+}
+
+/// Along the width nothing changes when a stone is drawn out across it, and W is still measured
+/// corner to corner: on an oval of flats as on the round stone that it was.
+#[test]
+fn the_ratios_of_a_stone_drawn_out_are_those_of_the_round_one() {
+    for name in ["classic", "first-stone", "ideal-brilliant"] {
+        let round = measured(name, &[]).ratios;
+        for length in [1.2, 1.4, 2.0] {
+            let oval = measured(name, &[("length-to-width", length)]).ratios;
+            let table = oval.t_w.expect("a table") - round.t_w.expect("a table");
+            for off in [
+                oval.l_w - length,
+                table,
+                oval.h_w - round.h_w,
+                oval.vol_w3 / length - round.vol_w3,
+                oval.w - round.w,
+            ] {
+                assert!(off.abs() < 1e-9, "{name} {length}: {oval:?}, {round:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn there_is_no_heart_and_it_is_said_why() {
+    let error = cutlab::formats::stone::open("heart").map(|i| i.format).expect_err("no heart").to_string();
+    assert!(error.contains("dent") && error.contains("'pear'"), "{error}");
+}
+
 /// [P] usfacetersguild.org, gemcad.blogspot.com: three decimals, W corner to corner.
 #[test]
 fn the_guilds_ratios_come_out() {

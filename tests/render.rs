@@ -221,9 +221,13 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
     assert!(read);
     assert_eq!(made, kept);
     assert_eq!(small_picture(&table, &made), small_picture(&table, &kept));
+    let mut unpolarised = scene("table", "round-brilliant", "diamond");
+    unpolarised.stones[0].polarised = false;
     let others = [
         (scene("table", "octahedron", "diamond"), settings, "stone"),
         (scene("table", "round-brilliant", "quartz"), settings, "material"),
+        (scene("table", "round-brilliant", "cape-diamond"), settings, "material"),
+        (unpolarised, settings, "--polarisation"),
         (scene("cornell", "round-brilliant", "diamond"), settings, "scene"),
         (scene("table", "round-brilliant", "diamond"), Settings { seed: 1, ..settings }, "seed"),
         (scene("table", "round-brilliant", "diamond"), Settings { photons: 1, ..settings }, "photons"),

@@ -144,6 +144,7 @@ fn wlr_against_a_plain_tracer() {
             direction: (-sky / n + normal * (sky.dot(normal) / n - cos_t)).normalize(),
             power: 1.0 - reflectance,
             index: n,
+            absorption: 0.0,
             stokes: None,
         };
         let mut returned = 0.0;

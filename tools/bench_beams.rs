@@ -1,103 +1,133 @@
-//! How fast beams are: `cargo bench --bench beams`. Time and light not followed against the
-//! threshold, for several directions; and the error of beams with photons beside photons alone, at
-//! equal time. One thread. Run by `cargo test` it only shows that it runs.
+//! How fast beams are: `cargo bench --bench beams`. Light not followed against time, from many
+//! directions and face-up and tilted by 30°; and the error of beams with photons beside photons
+//! alone, against time. One thread. Run by `cargo test` it only shows that it runs.
+
+mod timing;
 
 use cutlab::cut::families;
-use cutlab::experiments::exact::{self, Effort};
-use cutlab::experiments::{Medium, Traced, View};
+use cutlab::experiments::{Medium, Traced, View, exact, weigh::Effort};
 use cutlab::optics::Material;
-use cutlab::walk::Stone;
-use cutlab::walk::beams::{Beams, Exit, Lit, Scalar, Watch};
-use glam::DVec3;
+use cutlab::optics::stokes::Stokes;
+use cutlab::walk::beams::{Beams, Exit, Light, Lit, Scalar, Totals, Until, Watch};
+use cutlab::walk::{Isa, Stone};
+use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::error::Error;
-use std::time::{Duration, Instant};
+use timing::best_of;
+
+/// The light not followed that the timings of many directions are for.
+const LEFT: f64 = 0.025;
 
 /// The sum that every score begins with.
 struct Up(f64);
 
-impl Watch<Scalar, 1> for Up {
-    fn exit(&mut self, exit: &Exit<Scalar, 1>) {
+impl<L> Watch<L, 1> for Up {
+    fn exit(&mut self, exit: &Exit<L, 1>) {
         self.0 += if exit.direction.z > 0.0 { exit.power } else { 0.0 };
     }
 }
 
-fn cpu() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info.lines().find_map(|l| l.strip_prefix("model name")).unwrap_or(": not known");
-    name.trim_start_matches([':', ' ', '\t']).to_owned()
+fn follow<L: Light>(beams: &Beams, lit: &Lit<1>, light: L, until: Until) -> Totals {
+    beams.follow(lit, light, until, &mut Up(0.0))
 }
 
-/// The shortest of several runs, and what the last one gave.
-fn best_of<T>(runs: usize, mut work: impl FnMut() -> T) -> (Duration, T) {
-    let timed = |work: &mut dyn FnMut() -> T| {
-        let start = Instant::now();
-        let result = work();
-        (start.elapsed(), result)
-    };
-    let first = timed(&mut work);
-    (1..runs).fold(first, |best, _| {
-        let next = timed(&mut work);
-        (best.0.min(next.0), next.1)
-    })
+/// The power down to which beams must be followed so that [`LEFT`] is left, to a few per cent.
+fn power_for(beams: &Beams, lit: &Lit<1>) -> f64 {
+    let (mut low, mut high) = (1e-8f64.ln(), 1e-4f64.ln());
+    for _ in 0..12 {
+        let middle = 0.5 * (low + high);
+        let totals = follow(beams, lit, Scalar(1.0), Until::power(middle.exp()));
+        if totals.not_followed > LEFT { high = middle } else { low = middle }
+    }
+    low.exp()
+}
+
+fn towards(tilt_deg: f64, azimuth_deg: f64) -> DVec3 {
+    let (t, a) = (tilt_deg.to_radians(), azimuth_deg.to_radians());
+    -DVec3::new(t.sin() * a.cos(), t.sin() * a.sin(), t.cos())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let real = std::env::args().any(|a| a == "--bench");
-    let runs: usize = if real { 20 } else { 1 };
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    let runs: usize = if real { 7 } else { 1 };
+    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
     let material = Material::named("diamond").ok_or("no diamond")?;
-    let index = material.index_d();
-    println!("cpu: {}; one thread; shortest of {runs} runs", cpu());
-    for girdle in [16.0, 96.0, 448.0] {
-        let given = BTreeMap::from([("girdle-facets".to_string(), girdle)]);
-        let stone = Stone::new(families::build("round-brilliant", &given)?.solid()?);
-        let beams = Beams::new(&stone);
-        println!("round brilliant, {} facets", stone.facet_count());
-        for (tilt, azimuth) in [(0.0f64, 0.0f64), (10.0, 10.0), (25.0, 33.0), (45.0, 71.0), (70.0, 20.0)] {
-            let (t, a) = (tilt.to_radians(), azimuth.to_radians());
-            let direction = -DVec3::new(t.sin() * a.cos(), t.sin() * a.sin(), t.cos());
-            print!("  tilt {tilt:2.0}°:");
-            for stop in [1e-4, 3e-5, 1e-5, 1e-6] {
-                let lit = Lit { direction, indices: [index] };
-                let follow = || beams.follow(&lit, Scalar(1.0), stop, &mut Up(0.0));
-                let (time, totals) = best_of(if stop < 1e-5 { runs.div_ceil(4) } else { runs }, follow);
-                let (ms, left) = (time.as_secs_f64() * 1e3, 100.0 * totals.not_followed);
-                let each = time.as_secs_f64() * 1e9 / totals.beams as f64;
-                print!("  {stop:.0e}: {ms:6.2} ms, {left:5.2} % left, {each:3.0} ns a beam;");
-            }
-            println!();
+    println!("cpu: {}", timing::machine());
+    println!("one thread, {}; shortest of {runs} runs, in its processor time", Isa::best().name());
+    let design = families::build("round-brilliant", &BTreeMap::new())?;
+    directions(&Stone::new(design.solid()?), material, real, runs);
+    for tilt in [0.0f64, 30.0] {
+        let turn = DMat3::from_rotation_z(0.3) * DMat3::from_rotation_x(tilt.to_radians());
+        let stone = Stone::new(design.clone().turned(turn).solid()?);
+        println!("\n{} facets, tilt {tilt}°", stone.facet_count());
+        thresholds(&stone, material, real, runs);
+        errors(&stone, material, real, runs)?;
+    }
+    Ok(())
+}
+
+/// What it takes to leave 2.5 %, from many directions.
+fn directions(stone: &Stone, material: &Material, real: bool, runs: usize) {
+    let beams = Beams::new(stone);
+    println!("\n{} facets, not followed {LEFT}", stone.facet_count());
+    println!("| tilt | azimuth | down to | beams | ms | ns a beam | ms, strongest first | ms, polarised |");
+    println!("|---|---|---|---|---|---|---|---|");
+    let tilts = [0.0, 5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
+    for tilt in tilts.into_iter().take(if real { tilts.len() } else { 1 }) {
+        for azimuth in [0.0, 7.0, 11.25, 20.0].into_iter().take(if tilt > 0.0 { 4 } else { 1 }) {
+            let lit = Lit { direction: towards(tilt, azimuth), indices: [material.index_d()] };
+            let until = Until::power(power_for(&beams, &lit));
+            let (time, totals) = best_of(runs, || follow(&beams, &lit, Scalar(1.0), until));
+            let (first, _) = best_of(runs, || follow(&beams, &lit, Scalar(1.0), Until::left(LEFT)));
+            let stokes = Stokes::unpolarised(1.0, lit.direction.any_orthonormal_vector());
+            let (polarised, _) = best_of(runs, || follow(&beams, &lit, stokes, until));
+            println!(
+                "| {tilt} | {azimuth} | {:.1e} | {} | {:.2} | {:.0} | {:.2} | {:.2} |",
+                until.power,
+                totals.beams,
+                time * 1e3,
+                time * 1e9 / totals.beams as f64,
+                first * 1e3,
+                polarised * 1e3
+            );
         }
     }
-    errors(material, runs.div_ceil(4))
+}
+
+/// Light not followed against time.
+fn thresholds(stone: &Stone, material: &Material, real: bool, runs: usize) {
+    let beams = Beams::new(stone);
+    let lit = Lit { direction: DVec3::NEG_Z, indices: [material.index_d()] };
+    println!("| beams down to | ms | beams | not followed |\n|---|---|---|---|");
+    let stops = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
+    for stop in stops.into_iter().take(if real { stops.len() } else { 2 }) {
+        let (time, t) = best_of(runs, || follow(&beams, &lit, Scalar(1.0), Until::power(stop)));
+        println!("| {stop:.0e} | {:.2} | {} | {:.3} % |", time * 1e3, t.beams, 100.0 * t.not_followed);
+    }
 }
 
 /// Standard errors of the light that returns upward, beams + photons beside photons alone.
-fn errors(material: &Material, runs: usize) -> Result<(), Box<dyn Error>> {
-    let stone = Stone::new(families::build("round-brilliant", &BTreeMap::new())?.solid()?);
-    let beams = Beams::new(&stone);
-    println!("light return upward, face-up, 153 facets: standard error against time");
-    for (stop_power, photons) in
-        [(1e-4, 2048), (1e-4, 16_384), (1e-5, 2048), (1e-5, 16_384), (1e-5, 131_072), (1e-6, 16_384)]
-    {
-        let effort = Effort { stop_power, photons, seed: 1 };
-        let gaze = || exact::gaze(&stone, &beams, DVec3::NEG_Z, material.index_d(), &effort);
+fn errors(stone: &Stone, material: &Material, real: bool, runs: usize) -> Result<(), Box<dyn Error>> {
+    let beams = Beams::new(stone);
+    println!("\n| light that returns upward by | ms | value | standard error |\n|---|---|---|---|");
+    let efforts = [(1e-4, 1024), (1e-4, 8192), (1e-5, 1024), (1e-5, 8192), (1e-5, 65_536), (1e-6, 65_536)];
+    for (stop, photons) in efforts.into_iter().take(if real { efforts.len() } else { 1 }) {
+        let effort = Effort { until: Until::power(stop), photons, seed: 1 };
+        let gaze = || exact::gaze(&beams, DVec3::NEG_Z, material.index_d(), false, &effort);
         let (time, gaze) = best_of(runs, gaze);
-        let (ms, up) = (time.as_secs_f64() * 1e3, gaze?.up);
-        println!(
-            "  beams to {stop_power:.0e} + {photons:6} photons: {ms:7.2} ms, {:.6} ± {:.1e}",
-            up.value, up.error
-        );
+        let (ms, up) = (time * 1e3, gaze?.up);
+        println!("| beams to {stop:.0e}, {photons} photons | {ms:.2} | {:.6} | {:.1e} |", up.value, up.error);
     }
-    for samples in [4096, 16_384, 65_536, 262_144] {
+    let counts = [2048, 8192, 32_768, 131_072, 524_288];
+    for samples in counts.into_iter().take(if real { counts.len() } else { 1 }) {
         let trace = || {
-            let mut view = Traced::new(View::new(&stone, &Medium { material, polarised: false })?, 1);
+            let mut view = Traced::new(View::new(stone, &Medium { material, polarised: false })?, 1);
             view.extend_to(samples);
             Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| (t.up(), t.rays)))
         };
-        let (time, up) = best_of(runs, trace);
-        let (ms, up) = (time.as_secs_f64() * 1e3, up?);
-        println!("  photons alone, {samples:6}: {ms:7.2} ms, {:.6} ± {:.1e}", up.value, up.error);
+        let (time, up) = best_of(runs.min(3), trace);
+        let up = up?;
+        println!("| {samples} photons alone | {:.2} | {:.6} | {:.1e} |", time * 1e3, up.value, up.error);
     }
     Ok(())
 }

@@ -1,143 +1,171 @@
-//! How fast the walk is: `cargo bench --bench walk`. One thread, every instruction set of this
-//! machine, and the `f64` twin; run by `cargo test` it only shows that it runs.
+//! How fast the walk is: `cargo bench --bench walk`. Every instruction set of this machine and the
+//! `f64` twin on three brilliants; what a facet costs, from 20 to 505 of them; two threads beside
+//! one. Run by `cargo test` it only shows that it runs.
 
-use cutlab::cut::families;
+#[path = "shower.rs"]
+mod shower;
+#[path = "timing.rs"]
+mod timing;
+
+use cutlab::cut::{families, library};
 use cutlab::math::{
     random::{Purpose, Stream},
     sample,
 };
+use cutlab::solid::{Plane, Polyhedron};
 use cutlab::walk::feed::{self, Rays};
-use cutlab::walk::{Isa, LANES, Meeting, Packet, Stone, scalar};
-use glam::Vec3;
+use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
+use glam::{DVec3, Vec3};
+use shower::{INDEX, STOP_POWER, Shower};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
 
-const SEED: u64 = 1;
-const INDEX: f32 = 2.417;
 /// Per walking unit, weak: rays live nearly as long as in a clear stone.
 const ABSORPTION: f32 = 0.01;
-const STOP_POWER: f32 = 1e-4;
-
-/// Vertical and slanting rays on a stone, counted.
-struct Shower<'a> {
-    stone: &'a Stone,
-    stream: Stream,
-    left: u64,
-    meetings: u64,
-    polarised: bool,
-    absorbing: bool,
-}
-
-impl Rays for Shower<'_> {
-    const WIDTH: usize = 1;
-
-    fn polarised(&self) -> bool {
-        self.polarised
-    }
-
-    fn absorbing(&self) -> bool {
-        self.absorbing
-    }
-
-    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        while self.left > 0 {
-            self.left -= 1;
-            let toward = -sample::cone(self.stream.pair(), 0.5);
-            let target = sample::disc(self.stream.pair()).extend(0.0) * 0.9;
-            if let Some(hit) = self.stone.hit(target - 3.0 * toward, toward) {
-                let entry = self.stone.enter(hit.facet, toward, INDEX);
-                let point = target + (hit.distance - 3.0) * toward;
-                packet.enter(lane, point, &entry, INDEX);
-                packet.absorption[lane] = ABSORPTION;
-                return true;
-            }
-        }
-        false
-    }
-
-    fn meet(&mut self, _meeting: &Meeting, _packet: &Packet) {
-        self.meetings += 1;
-    }
-}
-
-fn cpu() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info.lines().find_map(|l| l.strip_prefix("model name")).unwrap_or(": not known");
-    name.trim_start_matches([':', ' ', '\t']).to_owned()
-}
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let rays = if std::env::args().any(|a| a == "--bench") { 100_000 } else { 100 };
-    println!("cpu: {}; one thread; lanes {LANES}; a meeting is one ray with one facet", cpu());
+    let real = std::env::args().any(|a| a == "--bench");
+    let (rays, runs) = if real { (50_000, 5) } else { (100, 1) };
+    println!("{}; lanes {LANES}; a meeting is one ray with one facet", timing::machine());
+    println!("processor time of one thread, shortest of {runs} runs");
     for flats in [16.0, 96.0, 448.0] {
-        let given = BTreeMap::from([("girdle-facets".to_string(), flats)]);
-        let solid = families::build("round-brilliant", &given)?.solid()?;
+        let solid = brilliant(&[("girdle-facets", flats)])?;
         println!("round brilliant, {} facets", solid.faces.len());
         for isa in Isa::all() {
             let stone = Stone::with_isa(solid.clone(), isa);
-            for (what, polarised, absorbing) in
-                [("", false, false), (", Stokes", true, false), (", Stokes, absorbing", true, true)]
+            for (what, polarised, absorption) in
+                [("", false, 0.0), (", Stokes", true, 0.0), (", Stokes, absorbing", true, ABSORPTION)]
             {
-                let stream = Stream::new(SEED, Purpose::Test, 0);
-                let mut shower =
-                    Shower { stone: &stone, stream, left: rays, meetings: 0, polarised, absorbing };
-                let start = Instant::now();
-                feed::walk_all(&stone, STOP_POWER, &mut shower);
-                let seconds = start.elapsed().as_secs_f64();
-                let meetings = shower.meetings as f64 * LANES as f64;
-                let name = format!("{}{what}", isa.name());
-                report(&name, meetings, rays as f64, stone.facet_count(), seconds);
+                let (seconds, meetings) =
+                    timing::best_of(runs, || walked(&stone, rays, polarised, absorption));
+                report(&format!("{}{what}", isa.name()), meetings, rays as f64, seconds);
             }
         }
         let stone = Stone::new(solid);
-        let start = Instant::now();
-        let (few, mut meetings) = (rays / 50, 0.0);
-        let mut shower = Shower {
-            stone: &stone,
-            stream: Stream::new(SEED, Purpose::Test, 0),
-            left: few,
-            meetings: 0,
-            polarised: false,
-            absorbing: false,
-        };
-        let mut packet = Packet::default();
-        while shower.next(&mut packet, 0) {
-            let ray = scalar::Ray {
-                point: packet.point(0).as_dvec3(),
-                direction: packet.direction(0).as_dvec3(),
-                power: packet.power[0].into(),
-                index: INDEX.into(),
-                absorption: 0.0,
-                stokes: None,
-            };
-            scalar::walk(&stone.planes, ray, STOP_POWER.into(), |_| meetings += 1.0);
-        }
-        report("f64 twin", meetings, few as f64, stone.facet_count(), start.elapsed().as_secs_f64());
-        first_hits(&stone, rays);
+        let (few, start) = (rays / 50, timing::thread_time());
+        let meetings = twin_meetings(&stone, few);
+        report("f64 twin", meetings, few as f64, (timing::thread_time() - start).as_secs_f64());
+        first_hits(&stone, rays, runs);
     }
+    println!("what a facet costs, {}", Isa::best().name());
+    costs("cuts with girdles of more and more flats", &girdles()?, rays, runs);
+    costs("planes about a sphere, hardly one of them upright", &spheres()?, rays, runs);
+    two_threads(&Stone::new(brilliant(&[])?), rays, runs);
     Ok(())
 }
 
-fn report(name: &str, meetings: f64, rays: f64, facets: usize, seconds: f64) {
-    println!(
-        "  {name:>26}: {:7.2} million meetings/s, {:5.2}e9 facet tests/s, {:7.1} thousand rays/s",
-        meetings / seconds / 1e6,
-        meetings * facets as f64 / seconds / 1e9,
-        rays / seconds / 1e3
-    );
+fn brilliant(overrides: &[(&str, f64)]) -> Result<Polyhedron, Box<dyn Error>> {
+    let given: BTreeMap<_, _> = overrides.iter().map(|(k, v)| (k.to_string(), *v)).collect();
+    Ok(families::build("round-brilliant", &given)?.solid()?)
+}
+
+/// Meetings of a shower, counted by the lane.
+fn walked(stone: &Stone, rays: u64, polarised: bool, absorption: f32) -> f64 {
+    let mut shower = Shower::new(stone, rays, polarised);
+    shower.absorption = absorption;
+    feed::walk_all(stone, STOP_POWER, &mut shower);
+    shower.meetings as f64 * LANES as f64
+}
+
+fn twin_meetings(stone: &Stone, rays: u64) -> f64 {
+    let (mut shower, mut packet, mut meetings) = (Shower::new(stone, rays, false), Packet::default(), 0.0);
+    while shower.next(&mut packet, 0) {
+        let ray = scalar::Ray {
+            point: packet.point(0).as_dvec3(),
+            direction: packet.direction(0).as_dvec3(),
+            power: packet.power[0].into(),
+            index: INDEX.into(),
+            absorption: 0.0,
+            stokes: None,
+        };
+        scalar::walk(&stone.planes, ray, STOP_POWER.into(), |_| meetings += 1.0);
+    }
+    meetings
+}
+
+fn report(name: &str, meetings: f64, rays: f64, seconds: f64) {
+    let (m, r) = (meetings / seconds / 1e6, rays / seconds / 1e3);
+    println!("  {name:>26}: {m:6.1} million meetings/s, {r:7.1} thousand rays/s");
 }
 
 /// Rays from outside that look for their first facet.
-fn first_hits(stone: &Stone, rays: u64) {
-    let mut stream = Stream::new(SEED, Purpose::Test, 1);
-    let start = Instant::now();
-    let mut hits = 0;
-    for _ in 0..rays {
-        let toward: Vec3 = -sample::cone(stream.pair(), 0.5);
-        let target = sample::disc(stream.pair()).extend(0.0);
-        hits += u64::from(stone.hit(target - 3.0 * toward, toward).is_some());
+fn first_hits(stone: &Stone, rays: u64, runs: usize) {
+    let (seconds, hits) = timing::best_of(runs, || {
+        let mut stream = Stream::new(1, Purpose::Test, 1);
+        let hits = (0..rays).filter(|_| {
+            let toward: Vec3 = -sample::cone(stream.pair(), 0.5);
+            let target = sample::disc(stream.pair()).extend(0.0);
+            stone.hit(target - 3.0 * toward, toward).is_some()
+        });
+        hits.count() as u64
+    });
+    let rate = rays as f64 / seconds / 1e6;
+    println!(
+        "  {:>16}: {rate:6.1} million rays/s, drawn and tried ({}% hit)",
+        "first hit",
+        100 * hits / rays.max(1)
+    );
+}
+
+/// Cuts from the icosahedron to a brilliant whose girdle has 448 flats.
+fn girdles() -> Result<Vec<Stone>, Box<dyn Error>> {
+    let mut stones = Vec::new();
+    for name in ["icosahedron", "swiss-cut"] {
+        let design = library::design(name, &BTreeMap::new()).ok_or("not in the library")??;
+        stones.push(Stone::new(design.solid()?));
     }
-    let rate = rays as f64 / start.elapsed().as_secs_f64() / 1e6;
-    println!("  first hit: {rate:7.2} million rays/s ({}% hit)", 100 * hits / rays.max(1));
+    for flats in [16.0, 96.0, 240.0, 448.0] {
+        stones.push(Stone::new(brilliant(&[("girdle-facets", flats)])?));
+    }
+    Ok(stones)
+}
+
+/// Stones of many slopes: planes at unit distance whose normals wind about the axis by the golden
+/// angle.
+fn spheres() -> Result<Vec<Stone>, Box<dyn Error>> {
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let sphere = |count: usize| {
+        let normal = |i: usize| {
+            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+            let (r, turn) = ((1.0 - z * z).sqrt(), golden * i as f64);
+            DVec3::new(r * turn.cos(), r * turn.sin(), z)
+        };
+        let planes: Vec<_> = (0..count).map(|i| Plane::new(normal(i), 1.0)).collect();
+        Polyhedron::from_planes(&planes).map(Stone::new)
+    };
+    Ok([20, 58, 74, 154, 300, 506].into_iter().map(sphere).collect::<Result<_, _>>()?)
+}
+
+/// Nanoseconds a meeting: linear growth keeps the last column from rising.
+fn costs(title: &str, stones: &[Stone], rays: u64, runs: usize) {
+    println!("  {title}");
+    for stone in stones {
+        let (seconds, meetings) = timing::best_of(runs, || walked(stone, rays, false, 0.0));
+        let (ns, facets) = (seconds / meetings * 1e9, stone.facet_count());
+        println!("    {facets:3} facets: {ns:6.1} ns a meeting, {:.3} ns a facet", ns / facets as f64);
+    }
+}
+
+/// Two threads beside one: by the clock, and by the time the threads have had, which does not count
+/// other programs.
+fn two_threads(stone: &Stone, rays: u64, runs: usize) {
+    let rates = |threads: usize| {
+        let start = Instant::now();
+        let had: Vec<(f64, f64)> = std::thread::scope(|scope| {
+            let work = || timing::best_of(1, || walked(stone, 2 * rays, false, 0.0));
+            let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+            started.into_iter().filter_map(|thread| thread.join().ok()).collect()
+        });
+        let meetings: f64 = had.iter().map(|(_, m)| m).sum();
+        [meetings / start.elapsed().as_secs_f64(), had.iter().map(|(s, m)| m / s).sum()]
+    };
+    let best =
+        |threads| (0..runs).map(|_| rates(threads)).fold([0f64; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+    let (one, two) = (best(1), best(2));
+    println!(
+        "two threads beside one: {:.2} times by the clock, {:.2} times by processor time",
+        two[0] / one[0],
+        two[1] / one[1]
+    );
 }

@@ -1,11 +1,13 @@
 //! `cutlab generate`: a stone from its parameters.
 
 use super::console::Console;
+use super::drawing::Drawing;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use crate::cut::{families, library};
 use crate::formats;
+use crate::store::replace;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -13,7 +15,8 @@ use std::path::{Path, PathBuf};
 Examples:
   cutlab generate --facets 153                    round-brilliant-153.obj in this folder
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
-  cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron")]
+  cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
+  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png")]
 pub struct Args {
     /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
@@ -24,10 +27,11 @@ pub struct Args {
     /// Girdle diameter (width) in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-    /// Where to write; the ending chooses the format; may be given several times
+    /// Where to write; the ending chooses the format, .svg and .png the cutting diagram; may be given
+    /// several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: a name or ending from `cutlab list formats`
+    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
     #[command(flatten)]
@@ -74,10 +78,17 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     for file in &files {
         if file == Path::new("-") {
-            console.print_bytes(&formats::encode(&design, &args.to)?)?;
+            let bytes = match Drawing::named(&args.to) {
+                Some(drawing) => drawing.bytes(&design, design.refractive_index)?,
+                None => formats::encode(&design, &args.to)?,
+            };
+            console.print_bytes(&bytes)?;
             continue;
         }
-        formats::write(&design, file)?;
+        match Drawing::of(file) {
+            Some(drawing) => replace::write(file, &drawing.bytes(&design, design.refractive_index)?)?,
+            None => formats::write(&design, file)?,
+        }
         console.note(&format!("wrote {}", file.display()));
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);

@@ -5,6 +5,7 @@ mod plan;
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
+use crate::cut::Unit;
 use crate::formats::{self, Format, FormatError, stone};
 use crate::store::replace;
 use plan::Job;
@@ -18,7 +19,7 @@ Examples:
   cutlab import designs -o meshes --to glb     a folder with all that is in it, as glb into meshes/
 
 Files of a folder that are of no known format are passed over. Nothing is overwritten without
---force.")]
+--force. A closed mesh with dents or in several parts is written as a mesh, and said to be one.")]
 pub struct Args {
     /// Designs, meshes, and folders of them; the content decides the format of each
     #[arg(required = true, value_name = "FILE|DIR")]
@@ -119,17 +120,40 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
     if !args.force && !to_output && job.target.symlink_metadata().is_ok() {
         return Err(exists());
     }
-    let imported = match stone::open(&job.stone) {
+    let (bytes, read) = match stone::open(&job.stone) {
         Err(FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. })
             if job.by_chance =>
         {
             return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
         }
-        other => other?,
+        Err(error) => match error.body() {
+            Some((of, body)) => {
+                let scale = args.size.map_or(1.0, |mm| mm / body.width());
+                let unit = if args.size.is_some() { Unit::Millimetre } else { Unit::Free };
+                let name = stones::file_stem(&job.stone);
+                let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
+                let said = error.to_string();
+                let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
+                (
+                    bytes,
+                    Row {
+                        format: Some(of),
+                        facets: Some(body.facets.len()),
+                        warnings: vec![said],
+                        ..Row::default()
+                    },
+                )
+            }
+            None => return Err(error.into()),
+        },
+        Ok(imported) => {
+            let facets = imported.design.solid()?.faces.len();
+            let design = stones::sized(imported.design, args.size)?;
+            let bytes = formats::encode(&design, format.name)?;
+            let warnings = imported.warnings;
+            (bytes, Row { format: Some(imported.format), facets: Some(facets), warnings, ..Row::default() })
+        }
     };
-    let facets = imported.design.solid()?.faces.len();
-    let design = stones::sized(imported.design, args.size)?;
-    let bytes = formats::encode(&design, format.name)?;
     if to_output {
         console.print_bytes(&bytes)?;
     } else if args.force {
@@ -137,15 +161,7 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
     } else if !replace::create(&job.target, &bytes)? {
         return Err(exists());
     }
-    Ok(Row {
-        file,
-        outcome: WRITTEN,
-        format: Some(imported.format),
-        facets: Some(facets),
-        wrote: Some(job.target.clone()),
-        warnings: imported.warnings,
-        error: None,
-    })
+    Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
 }
 
 /// The rows in columns, then how many had which outcome.

@@ -4,8 +4,9 @@ use crate::cut::CutError;
 use crate::formats::FormatError;
 use crate::photons::file::MapFileError;
 use crate::scene::SceneError;
+use crate::solid::Body;
 use crate::solid::SolidError;
-use crate::solid::recover::{Dented, RecoverError};
+use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
 use std::io::Write;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub struct Failure {
 }
 
 /// What is known of a file that was understood but holds no convex stone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// The file's format.
     pub format: &'static str,
@@ -52,8 +53,8 @@ pub struct Shape {
     pub closed: bool,
     /// Whether it is convex, if that can be said.
     pub convex: Option<bool>,
-    /// The mesh, if it is closed but has dents.
-    pub dented: Option<Dented>,
+    /// The mesh, if it is closed.
+    pub body: Option<Body>,
 }
 
 impl Failure {
@@ -97,8 +98,8 @@ impl Failure {
     }
 
     /// The shape of a file that holds no convex stone; none for every other failure.
-    pub fn shape(&self) -> Option<Shape> {
-        self.shape.as_deref().copied()
+    pub fn shape(&self) -> Option<&Shape> {
+        self.shape.as_deref()
     }
 
     /// Says it on standard error and gives the exit code.
@@ -131,14 +132,17 @@ impl From<FormatError> for Failure {
 
 fn shape_of(error: &FormatError) -> Option<Shape> {
     let FormatError::NoStone { format, facets, cause } = error else { return None };
-    let (closed, convex, dented) = match &**cause {
-        FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true), None),
-        FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None, None),
-        FormatError::Mesh { cause: RecoverError::NotConvex(mesh), .. } => (true, Some(false), Some(**mesh)),
+    let (closed, convex) = match &**cause {
+        FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
+        FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
+        FormatError::Mesh { cause: RecoverError::NotConvex(_) | RecoverError::Shells(_), .. } => {
+            (true, Some(false))
+        }
         _ => return None,
     };
-    let facets = facets.or(dented.map(|d| d.facets));
-    Some(Shape { format, facets, closed, convex, dented })
+    let body = error.body().map(|(_, body)| body.clone());
+    let facets = facets.or(body.as_ref().map(|b| b.facets.len()));
+    Some(Shape { format, facets, closed, convex, body })
 }
 
 impl From<MapFileError> for Failure {

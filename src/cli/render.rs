@@ -167,7 +167,8 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
     for spec in &args.stones {
         let imported = stones::open(spec)?;
         imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-        designs.push(imported.design);
+        let material = args.substance.of(&imported.design);
+        designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
     }
     Ok(Cast {
         designs,

@@ -33,7 +33,7 @@ pub struct Args {
     #[arg(long, value_name = "E", value_parser = error)]
     error: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = on_off, action = clap::ArgAction::Set)]
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
     polarisation: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -43,15 +43,6 @@ pub struct Args {
     /// Girdle width in millimetres; the scores depend on it if the material absorbs
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-}
-
-/// Value parser of `--polarisation`.
-fn on_off(text: &str) -> Result<bool, String> {
-    match text {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err("polarisation is on or off".into()),
-    }
 }
 
 /// Scores every stone and writes the table.

@@ -4,6 +4,7 @@ mod mesh;
 mod tiers;
 
 use super::console::Console;
+use super::drawing::Drawing;
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
 use crate::cut::brilliant::{self, Lengths};
@@ -36,6 +37,9 @@ pub struct Args {
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
     beams: Option<PathBuf>,
+    /// Also draw the cutting diagram, one page A4: SVG, or PNG by its ending (one stone only)
+    #[arg(long, value_name = "DIAGRAM.svg")]
+    diagram: Option<PathBuf>,
 }
 
 /// A virtual facet that holds less than this share of the light on the stone is not divided
@@ -124,7 +128,7 @@ impl Bad {
     fn of(file: &str, failure: &Failure) -> Bad {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(Shape { format, facets, closed, convex, .. }) => {
+            Some(&Shape { format, facets, closed, convex, .. }) => {
                 Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
             None => Bad::Error { file, error: why },
@@ -141,8 +145,9 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    if let Some(path) = &args.beams {
-        draw_beams(args, path, console)?;
+    for (path, draw) in [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)] {
+        let Some(path) = path else { continue };
+        draw(args, path, console)?;
         if path == Path::new("-") {
             return Ok(Code::Done); // standard output is the drawing
         }
@@ -179,11 +184,36 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(stones::code(&results))
 }
 
+/// Draws something of the only stone into a file.
+type Draw = fn(&Args, &Path, &Console) -> Result<(), Failure>;
+
+/// The only stone, for what draws one.
+fn only<'a>(args: &'a Args, option: &str) -> Result<&'a str, Failure> {
+    match &args.stones[..] {
+        [spec] => Ok(spec),
+        _ => Err(Failure::input(format!("{option} draws one stone: name one"))),
+    }
+}
+
+/// Draws the cutting diagram of the only stone.
+fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+    let spec = only(args, "--diagram")?;
+    let drawing = match path == Path::new("-") {
+        true => Drawing::Svg,
+        false => Drawing::of(path)
+            .ok_or_else(|| Failure::input(format!("{}: --diagram draws .svg or .png", path.display())))?,
+    };
+    let design = stones::open(spec)?.design;
+    let substance = &args.substance;
+    let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
+    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
+    console.note(&format!("wrote {}", path.display()));
+    Ok(())
+}
+
 /// Draws the virtual facets of the only stone.
 fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
-    let [spec] = &args.stones[..] else {
-        return Err(Failure::input("--beams draws one stone: name one"));
-    };
+    let spec = only(args, "--beams")?;
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && path != Path::new("-") {
         return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
     }
@@ -314,7 +344,7 @@ impl Sheet {
         line(
             "ratios",
             format!(
-                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner if round)",
+                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner)",
                 r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
             ),
         );

@@ -148,6 +148,13 @@ fn turn_sin_cos(turns: f64) -> (f64, f64) {
     }
 }
 
+/// Whether two tiers, by name and angle, differ in their distances only: the girdle of a fancy
+/// outline, which a cutter reads as one tier.
+pub fn read_alike(a: (&str, Option<f64>), b: (&str, Option<f64>)) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() < 0.005;
+    !a.0.is_empty() && a.0 == b.0 && a.1.zip(b.1).is_some_and(|(a, b)| same(a, b))
+}
+
 impl Tier {
     /// A tier cut by angle and distance at the given indices; facets are named `name 1`, `name 2`
     /// … or just `name` if there is one.

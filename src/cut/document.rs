@@ -1,6 +1,7 @@
 //! A design in its own TOML form: what `cuts/` holds and what `-o stone.toml` writes.
 //!
-//! Either `family` with `[parameters]`, or `[[tier]]`s. A tier has `angle`, `indices` and a rule for
+//! Either `family` with `[parameters]`, or `[[tier]]`s, which take `length-to-width` as their only
+//! parameter (see [`super::stretch`]). A tier has `angle`, `indices` and a rule for
 //! its distance, or explicit facets with `normal` and `distance` (a mesh). `[expect]` lists
 //! proportions that a test checks for the library's own files.
 //!
@@ -27,6 +28,7 @@
 use super::design::{Design, Facet, Gear, Tier, Unit, facet_normal};
 use super::families::{self, CutError};
 use super::meet::{Bench, Cut, MeetError, Rule};
+use super::stretch::{LENGTH_TO_WIDTH, drawn_out};
 use crate::solid::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -66,7 +68,7 @@ pub struct Document {
     /// A parametric family.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
-    /// The family's parameters that differ from its defaults.
+    /// The family's parameters that differ from its defaults; of tiers, their length to width.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, f64>,
     /// Proportions that must come out.
@@ -188,11 +190,12 @@ impl Document {
         Ok(toml::from_str(text)?)
     }
 
-    /// Builds the design, with `overrides` for the parameters of a family.
+    /// Builds the design, with `overrides` for the parameters of a family, or for the length to
+    /// width of a cut of tiers.
     pub fn design(&self, overrides: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
+        let mut values = self.parameters.clone();
+        values.extend(overrides.iter().map(|(k, v)| (k.clone(), *v)));
         if let Some(family) = &self.family {
-            let mut values = self.parameters.clone();
-            values.extend(overrides.iter().map(|(k, v)| (k.clone(), *v)));
             let mut design = families::build(family, &values)?;
             if !self.name.is_empty() {
                 design.name = self.name.clone();
@@ -200,7 +203,8 @@ impl Document {
             design.source = self.source.clone();
             return Ok(design);
         }
-        if let Some(key) = overrides.keys().next() {
+        let length_to_width = values.remove(LENGTH_TO_WIDTH);
+        if let Some(key) = values.keys().next() {
             return Err(CutError::NoParameters { name: self.name.clone(), key: key.clone() }.into());
         }
         let gear = self.gear.map_or(Gear::default(), |g| Gear { teeth: g.teeth, offset: g.offset });
@@ -208,7 +212,7 @@ impl Document {
         for (i, entry) in self.tier.iter().enumerate() {
             bench.add(entry.tier(i + 1, gear, &bench)?, entry.guide);
         }
-        Ok(Design {
+        let design = Design {
             name: self.name.clone(),
             headers: self.headers.clone(),
             footers: self.footers.clone(),
@@ -222,6 +226,10 @@ impl Document {
                 Some(other) => return Err(DocumentError::Unit(other.into())),
             },
             tiers: bench.tiers,
+        };
+        Ok(match length_to_width {
+            Some(ratio) => drawn_out(design, ratio)?,
+            None => design,
         })
     }
 

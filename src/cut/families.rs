@@ -2,7 +2,7 @@
 
 mod bipyramid;
 mod cushion;
-mod fancy_brilliant;
+pub(super) mod fancy_brilliant;
 mod marquise;
 mod oval;
 mod pear;
@@ -75,8 +75,8 @@ pub enum CutError {
         /// What there is.
         known: Vec<&'static str>,
     },
-    /// A cut of fixed tiers was given a parameter.
-    #[error("{name} has fixed facets and takes no parameter '{key}'")]
+    /// A cut of fixed tiers was given another parameter than length to width.
+    #[error("{name} has fixed facets: it takes length-to-width alone, no parameter '{key}'")]
     NoParameters {
         /// The cut.
         name: String,

@@ -21,6 +21,19 @@ pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<De
     Some(document(name)?.and_then(|d| d.design(overrides)))
 }
 
+/// Names that no cut can have: what is asked for, why not, and the cut nearest to it.
+const IMPOSSIBLE: &[(&str, &str, &str)] = &[(
+    "heart",
+    "its cleft is a dent, and a stone is cut by whole planes, which leave none; two convex halves side by side \
+     would have a wall between them that light does not see",
+    "pear",
+)];
+
+/// Why there is no cut of that name, and the nearest that there is.
+pub fn impossible(name: &str) -> Option<(&'static str, &'static str)> {
+    IMPOSSIBLE.iter().find(|(n, ..)| *n == name).map(|(_, why, nearest)| (*why, *nearest))
+}
+
 /// The cut's name most like `name`.
 pub fn nearest(name: &str) -> &'static str {
     let distance = |n: &&str| (1e6 * (1.0 - strsim::jaro_winkler(n, name))) as u64;

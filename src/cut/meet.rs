@@ -4,10 +4,10 @@
 //! facets meet, a girdle's thickness above such a corner, a girdle of given width, a table of given
 //! size. Guides are planes that rules may name and that are not cut. The words of a rule are the
 //! grammar in [`super::document`]. Lengths are in the design's own unit, W is the width of
-//! [`super::proportions::wheel_width`] over the girdle cut so far.
+//! [`super::proportions::wheel_size`] over the girdle cut so far.
 
 use super::design::{Facet, Gear, Tier, Zone, facet_normal};
-use super::proportions::{flat_extent, wheel_width};
+use super::proportions::{flat_extent, wheel_size};
 use crate::solid::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DVec3};
 
@@ -360,7 +360,7 @@ impl Bench {
 fn width_within(walls: &[Plane]) -> Result<f64, MeetError> {
     let mut planes = walls.to_vec();
     planes.extend([DVec3::Z, -DVec3::Z].map(|normal| Plane { normal, distance: walls[0].distance.abs() }));
-    Ok(wheel_width(&Polyhedron::from_planes(&planes)?.outline()))
+    Ok(wheel_size(&Polyhedron::from_planes(&planes)?.outline()).0)
 }
 
 /// The point common to the three planes among `planes` that cross most squarely.

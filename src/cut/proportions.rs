@@ -3,6 +3,7 @@
 use super::brilliant::{self, Lengths};
 use super::design::{Design, Zone};
 use super::symmetry::{self, Symmetry};
+use crate::solid::measure::calipers;
 use crate::solid::{Polyhedron, SolidError};
 use glam::DVec2;
 use serde::Serialize;
@@ -48,8 +49,8 @@ pub struct Proportions {
     pub brilliant: Option<Lengths>,
 }
 
-/// What GemCad and the faceting guilds print below a design: ratios to the width W, which for a
-/// round stone is taken corner to corner ([`wheel_width`]). Checked in `tests/library.rs` against
+/// What GemCad and the faceting guilds print below a design: ratios to the width W, taken corner to
+/// corner ([`wheel_size`]). Checked in `tests/library.rs` against
 /// the figures that the US Faceters Guild published for Classic and First Stone.
 #[derive(Debug, Clone, Serialize)]
 pub struct Ratios {
@@ -71,7 +72,7 @@ pub struct Ratios {
 
 /// A facet smaller than this share of the squared width (0.2 µm square on a stone of 6 mm) is what
 /// the rounding of a design file leaves between planes that are meant to meet in a point.
-const SLIVER: f64 = 1e-9;
+pub const SLIVER: f64 = 1e-9;
 
 /// Measures a design whose solid is already known.
 pub fn measure(solid: &Polyhedron) -> Proportions {
@@ -94,7 +95,7 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
     let outline = solid.outline();
     let flat_size = |zone| zone_faces(&zones, zone).map(|f| flat_extent(solid, f, &outline)).reduce(f64::max);
     let (length, volume) = (solid.length(), solid.volume());
-    let w = wheel_width(&outline);
+    let (w, l) = wheel_size(&outline);
     let round = greatest_extent(&outline) <= ROUND * width;
     let by_zone = [Zone::Table, Zone::Crown, Zone::Girdle, Zone::Pavilion, Zone::Culet]
         .map(|zone| (zone.name(), zone_faces(&zones, zone).filter(|f| seen[*f]).count()));
@@ -115,7 +116,7 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
         surface: solid.surface(),
         ratios: Ratios {
             w,
-            l_w: if round { 1.0 } else { length / w },
+            l_w: l / w,
             t_w: flat_size(Zone::Table).map(|t| t / w),
             p_w: (scallop(solid, &zones, Zone::Pavilion).unwrap_or(girdle_low) - lo.z) / w,
             c_w: (hi.z - scallop(solid, &zones, Zone::Crown).unwrap_or(girdle_high)) / w,
@@ -145,11 +146,21 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 /// not.
 const ROUND: f64 = 1.03;
 
-/// W of an outline: of a round one the greatest extent, corner to corner, as GemCad measures it on
-/// stones whose flats straddle the wheel's axes; of any other the least width.
-pub fn wheel_width(outline: &[DVec2]) -> f64 {
-    let (least, greatest) = (least_extent(outline), greatest_extent(outline));
-    if greatest <= ROUND * least { greatest } else { least }
+/// An outline stands along the wheel's axes if its extent there is at most this many times its
+/// least: an octagon on its points does (1.08), a square on a point (1.41) does not.
+const ALONG_AXES: f64 = 1.09;
+
+/// W and L of an outline, corner to corner: of a round one the greatest extent, of another its
+/// extents along the wheel's axes (GemCad's way: an oval of flats has corners on them), and of one
+/// that does not stand along those, its least width and the length across it.
+pub fn wheel_size(outline: &[DVec2]) -> (f64, f64) {
+    let (least, across) = calipers(outline);
+    let greatest = greatest_extent(outline);
+    if greatest <= ROUND * least {
+        return (greatest, greatest);
+    }
+    let (x, y) = (extent_along(outline, DVec2::X), extent_along(outline, DVec2::Y));
+    if x.min(y) <= ALONG_AXES * least { (x.min(y), x.max(y)) } else { (least, across) }
 }
 
 /// Extent of a horizontal face along the stone's width: corner to corner in a round stone, flat to
@@ -158,7 +169,7 @@ pub fn wheel_width(outline: &[DVec2]) -> f64 {
 /// - `outline`: of the whole stone
 pub fn flat_extent(solid: &Polyhedron, face: usize, outline: &[DVec2]) -> f64 {
     let corners: Vec<DVec2> = solid.polygon(face).map(|v| v.truncate()).collect();
-    let widest = ROUND * least_extent(outline);
+    let widest = ROUND * calipers(outline).0;
     let edges = (0..outline.len()).map(|i| (outline[(i + 1) % outline.len()] - outline[i]).perp());
     let across = corners.iter().enumerate().flat_map(|(i, a)| corners[..i].iter().map(move |b| *a - *b));
     edges
@@ -172,14 +183,6 @@ pub fn flat_extent(solid: &Polyhedron, face: usize, outline: &[DVec2]) -> f64 {
 fn extent_along(points: &[DVec2], direction: DVec2) -> f64 {
     let (lo, hi) = extent(points.iter().map(|p| p.dot(direction)));
     hi - lo
-}
-
-/// Least distance of two parallel lines that hold the outline; one lies along an edge.
-fn least_extent(outline: &[DVec2]) -> f64 {
-    (0..outline.len())
-        .filter_map(|i| (outline[(i + 1) % outline.len()] - outline[i]).perp().try_normalize())
-        .map(|d| extent_along(outline, d))
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Greatest distance of two corners.

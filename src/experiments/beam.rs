@@ -2,6 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
+use super::together::Together;
 use super::{ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -87,8 +88,7 @@ struct Shine<'a> {
     paired: bool,
     /// cos t / cos i at entry.
     widening: Lanes,
-    /// Whether the lines of a ray have met the same facets so far.
-    together: [bool; LANES],
+    together: Together<LINES>,
 }
 
 impl Rays for Shine<'_> {
@@ -112,8 +112,8 @@ impl Rays for Shine<'_> {
             packet.absorption[lane] = optics.absorption;
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
-        self.together[lane] = self.paired;
         if self.paired {
+            self.together.begin(lane);
             self.tally.points += 1.0;
         }
         true
@@ -130,11 +130,9 @@ impl Rays for Shine<'_> {
         }
         let six = lines::SIX.len() as f64;
         self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
-        for d in (0..LANES / LINES).map(|ray| ray * LINES) {
-            self.together[d] &= m.facet[d] == m.facet[d + 1] && m.facet[d] == m.facet[d + 2];
-            let leaves = m.power[d..d + LINES].iter().all(|p| *p > 0.0);
+        for d in Together::<LINES>::lanes() {
             let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
-            if self.together[d] && leaves && up {
+            if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);
                 self.tally.streak_deg += f64::from(seen[d]) * angle;
@@ -157,7 +155,7 @@ impl Experiment for Beam<'_> {
                 optics,
                 paired,
                 widening: [0.0; LANES],
-                together: [false; LANES],
+                together: Together::NONE,
             };
             feed::walk_all(self.stone, STOP_POWER, &mut shine);
         }

@@ -2,31 +2,11 @@
 //! noise, or all but.
 
 use super::view::{Band, band};
-use super::{BATCHES, ExperimentError, check_index};
-use crate::math::stats::{self, Estimate};
-use crate::walk::beams::remainder::{Photons, Remainder};
-use crate::walk::beams::{Beams, Exit, Interface, Light, Lit, Rest, Scalar, Watch};
-use crate::walk::{LANES, Meeting, Stone};
-use glam::{DVec3, Vec3};
-use rayon::prelude::*;
-
-/// How hard to work.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
-    /// Beams below this share of the light on the outline are left to photons.
-    pub stop_power: f64,
-    /// Photons that finish them, all batches together (half to all of them are drawn).
-    pub photons: usize,
-    /// Seed of the photons.
-    pub seed: u64,
-}
-
-impl Default for Effort {
-    /// About 2.3 % of a brilliant's light is left to photons.
-    fn default() -> Self {
-        Effort { stop_power: 1e-5, photons: 16_384, seed: 1 }
-    }
-}
+use super::weigh::{Effort, Leaving, Weighed, weigh};
+use super::{ExperimentError, check_index};
+use crate::math::stats::Estimate;
+use crate::walk::beams::{Beams, Exit, Interface, Light, Lit, Rest, Scalar, Until, Watch};
+use glam::DVec3;
 
 /// Where the light of one direction goes, as shares of the light on the outline. Backward it is
 /// what a parallel eye sees: bands count from the axis on which the eye lies.
@@ -50,102 +30,54 @@ pub struct Gaze {
     pub beams: u64,
 }
 
-/// Sums of exits.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    bands: [f64; 4],
-    up_cos2: f64,
-}
-
-impl Sums {
-    #[inline]
-    fn add(&mut self, z: f64, power: f64) {
-        self.bands[band(z as f32) as usize] += power;
-        self.up_cos2 += power * z.max(0.0).powi(2);
-    }
-}
-
-/// Exits into sums, the rest into photons.
-struct Sorted {
-    axis: DVec3,
-    sums: Sums,
-    remainder: Remainder<1>,
-}
-
-impl Watch<Scalar, 1> for Sorted {
-    #[inline]
-    fn exit(&mut self, exit: &Exit<Scalar, 1>) {
-        self.sums.add(exit.direction.dot(self.axis), exit.power);
-    }
-
-    fn rest(&mut self, rest: &Rest<Scalar, 1>) {
-        self.remainder.add(rest);
-    }
-}
-
-/// Photons into sums.
-struct Counted {
-    axis: Vec3,
-    sums: Sums,
-}
-
-impl Photons for Counted {
-    fn meet(&mut self, m: &Meeting) {
-        for l in 0..LANES {
-            if m.power[l] > 0.0 {
-                let z = m.direction(l).dot(self.axis);
-                self.sums.add(z.into(), m.power[l].into());
-            }
-        }
-    }
-}
-
 /// Traces a parallel beam through a stone to its end.
 ///
-/// - `beams`: of `stone`
 /// - `direction`: unit, in which the light goes; −z for a face-up stone
-/// - `index`: of the stone
+/// - `index`: of the stone; `polarised`: see [`weigh`]
 ///
-/// Unpolarised, scalar Fresnel. Without photons nothing is finished, and the sums fall short of 1
-/// by `by_photons`. Checked in `tests/beams.rs`.
+/// Without photons nothing is finished, and the sums fall short of 1 by `by_photons`. Checked in
+/// `tests/beams.rs`.
 pub fn gaze(
-    stone: &Stone,
     beams: &Beams,
     direction: DVec3,
     index: f64,
+    polarised: bool,
     effort: &Effort,
 ) -> Result<Gaze, ExperimentError> {
-    check_index(index)?;
-    let remainder = Remainder::new(effort.seed, BATCHES, effort.photons / BATCHES);
-    let mut sorted = Sorted { axis: -direction, sums: Sums::default(), remainder };
-    let lit = Lit { direction, indices: [index] };
-    let totals = beams.follow(&lit, Scalar(1.0), effort.stop_power, &mut sorted);
-    let Sorted { axis, sums, remainder } = sorted;
-    let finish = |batch: usize| {
-        let mut counted = Counted { axis: axis.as_vec3(), sums: Sums::default() };
-        let (photon, lost) = remainder.walk(batch, stone, lit.indices, &mut counted);
-        (photon, counted.sums, lost)
-    };
-    let finished: Vec<(f64, Sums, f64)> =
-        if effort.photons == 0 { Vec::new() } else { (0..BATCHES).into_par_iter().map(finish).collect() };
-    let total = |exact: f64, of: &dyn Fn(&Sums, f64) -> f64| {
-        if finished.is_empty() {
-            return Estimate::exact(exact);
-        }
-        stats::ratio(finished.iter().map(|(photon, s, lost)| (exact + photon * of(s, *lost), 1.0)))
-    };
-    let up = |s: &Sums| s.bands[..Band::Below as usize].iter().sum::<f64>();
-    let down = Band::Below as usize;
+    let below = Band::Below as usize;
+    let cos2 = below + 1;
+    let weighed: Weighed<5> = weigh(beams, &Lit { direction, indices: [index] }, polarised, effort, |l| {
+        let mut weights = [0.0; 5];
+        weights[band(l.up as f32) as usize] = 1.0;
+        weights[cos2] = l.up.max(0.0).powi(2);
+        weights
+    })?;
     Ok(Gaze {
-        reflected: Estimate::exact(totals.reflected),
-        up: total(up(&sums), &|s, _| up(s)),
-        down: total(sums.bands[down], &|s, _| s.bands[down]),
-        up_cos2: total(sums.up_cos2, &|s, _| s.up_cos2),
-        bands: std::array::from_fn(|b| total(sums.bands[b], &|s, _| s.bands[b])),
-        lost: total(0.0, &|_, lost| lost),
-        by_photons: totals.not_followed,
-        beams: totals.beams,
+        reflected: Estimate::exact(weighed.reflected),
+        up: weighed.sum_of(0..below),
+        down: weighed.sum(below),
+        up_cos2: weighed.sum(cos2),
+        bands: std::array::from_fn(|b| weighed.sum(b)),
+        lost: weighed.lost(),
+        by_photons: weighed.left,
+        beams: weighed.beams,
     })
+}
+
+/// Weights that sort light by the elevation at which it leaves, for [`weigh`]: the one numbered `i`
+/// is 1 from limit `i` up to the next, the last up to the axis.
+///
+/// - `limits_deg`: rising, in degrees above the horizon of the eye's axis; from −90 on, all light has
+///   a place
+pub fn between<const N: usize>(limits_deg: [f64; N]) -> impl Fn(&Leaving<1>) -> [f64; N] {
+    let sines = limits_deg.map(|limit| limit.to_radians().sin());
+    move |l| {
+        let mut weights = [0.0; N];
+        if let Some(last) = sines.iter().rposition(|s| l.up >= *s) {
+            weights[last] = 1.0;
+        }
+        weights
+    }
 }
 
 /// Light that remembers where its strongest path so far has left.
@@ -177,7 +109,7 @@ impl Light for Strongest {
     fn split(&self, at: &Interface) -> (Self, Self) {
         let (Scalar(out), Scalar(kept)) = Scalar(self.power).split(at);
         // at entry what passes goes on inside: it is no exit
-        let leaves = at.eta < 1.0 && out > self.best;
+        let leaves = at.leaves && out > self.best;
         let (best, towards) = if leaves { (out, at.passed) } else { (self.best, self.towards) };
         (Strongest { power: out, ..*self }, Strongest { power: kept, best, towards })
     }
@@ -231,6 +163,6 @@ pub fn strongest(
     check_index(index)?;
     let mut areas = Areas { axis: -direction, shares: StrongestShares::default() };
     let lit = Lit { direction, indices: [index] };
-    beams.follow(&lit, Strongest::FRESH, stop_power, &mut areas);
+    beams.follow(&lit, Strongest::FRESH, Until::power(stop_power), &mut areas);
     Ok(areas.shares)
 }

@@ -7,18 +7,19 @@ use super::error::FormatError;
 use super::shell::{STATED_IN_F32, design_of_mesh};
 use super::source::Source;
 use super::triangle_words::{first_count, records};
-use super::{Format, Reading};
+use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
+use std::fmt::Write;
 
 /// Triangle lists with 24 numbers a triangle.
 pub static FORMAT: Format = Format {
     name: "cs580",
     extensions: &["asc"],
-    about: "CS580 triangle list: place, normal and texture of each corner",
+    about: "CS580 triangle list: place, normal and texture of each corner; written for `--to cs580`",
     sniff: |source| if first_count(source) == Some(24) { 90 } else { 0 },
     read,
-    write: None,
+    write: Some(Writer::Mesh(write)),
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
@@ -35,4 +36,18 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
     }
     design_of_mesh(source, &vertices, &polygons, STATED_IN_F32)
+}
+
+/// Every triangle with its facet's normal at all three corners, without texture.
+fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let mut text = String::new();
+    for (facet, triangle) in &surface.triangles {
+        let n = surface.facets[*facet].1;
+        text += "triangle\n";
+        for v in triangle.map(|corner| surface.vertices[corner]) {
+            // a String takes every write
+            let _ = writeln!(text, "{} {} {} {} {} {} 0 0", v.x, v.y, v.z, n.x, n.y, n.z);
+        }
+    }
+    Ok(text.into_bytes())
 }

@@ -1,8 +1,8 @@
 //! The one error of every reader and writer. Each is one line.
 
 use crate::cut::document::DocumentError;
-use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
+use crate::solid::{Body, SolidError};
 use crate::store::replace::WriteError;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
@@ -135,6 +135,16 @@ pub enum FormatError {
         /// The library's nearest name.
         nearest: &'static str,
     },
+    /// A cut that cannot be made.
+    #[error("there is no cut '{spec}': {why}; the nearest is '{nearest}'")]
+    Impossible {
+        /// The stone as asked for.
+        spec: String,
+        /// Why it cannot be made.
+        why: &'static str,
+        /// The library's nearest cut.
+        nearest: &'static str,
+    },
     /// A format or extension that is not written.
     #[error("cannot write '{asked}': its ending must be one of {}", .known.join(", "))]
     NoWriter {
@@ -172,6 +182,17 @@ pub(super) fn shown(text: &str) -> String {
 }
 
 impl FormatError {
+    /// The mesh that the file holds, if that is closed but no convex stone, and the file's format.
+    pub fn body(&self) -> Option<(&'static str, &Body)> {
+        match self {
+            FormatError::NoStone { format, cause, .. } => match &**cause {
+                FormatError::Mesh { cause, .. } => Some((format, cause.body()?)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Adds to a stone that is none what is known of its file; leaves other errors as they are.
     pub(super) fn in_format(self, format: &'static str, facets: Option<usize>) -> FormatError {
         match self {

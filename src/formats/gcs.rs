@@ -8,7 +8,7 @@ use super::cutting_table::{angle_of_mesh, index_of, one_line};
 use super::error::{FormatError, shown};
 use super::gcs_write::write;
 use super::source::{Source, number};
-use super::{Format, Reading};
+use super::{Format, Reading, Writer};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::Plane;
@@ -23,7 +23,7 @@ pub static FORMAT: Format = Format {
     about: "Gem Cut Studio design: tiers by angle, depth and index; its handedness is unverified",
     sniff: |source| if source.beginning().contains("<GemCutStudio") { 99 } else { 0 },
     read,
-    write: Some(write),
+    write: Some(Writer::Design(write)),
 };
 
 /// Largest file: as much as the most facets need. A parsed one takes several times that.
@@ -100,12 +100,13 @@ impl File<'_> {
         self.source.at_line(self.document.text_pos_at(node.range().start).row as usize, expected, found)
     }
 
-    /// A number; an attribute that is missing or empty is none.
+    /// A number; an attribute that is missing, empty or nan is none.
     fn number(&self, node: Node, key: &str) -> Result<Option<f64>, FormatError> {
         match node.attribute(key).map(str::trim) {
             None | Some("") => Ok(None),
             Some(said) => match number(said) {
                 Some(value) => Ok(Some(value)),
+                None if said.to_ascii_lowercase().contains("nan") => Ok(None),
                 None => Err(self.wrong(node, &format!("a number as {key}"), said)),
             },
         }

@@ -9,7 +9,7 @@ use super::error::FormatError;
 use super::gem_write::write;
 use super::source::Source;
 use super::windows_1252::decoded;
-use super::{Format, Reading};
+use super::{Format, Reading, Writer};
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::Plane;
 use crate::solid::recover::MOST_FACETS;
@@ -23,7 +23,7 @@ pub static FORMAT: Format = Format {
     about: "GemCad binary design: tiers by angle, distance and index",
     sniff,
     read,
-    write: Some(write),
+    write: Some(Writer::Design(write)),
 };
 
 /// Stands where the next facet's plane would.

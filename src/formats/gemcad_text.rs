@@ -6,7 +6,7 @@
 use super::error::{FormatError, shown};
 use super::gemcad_text_write::write;
 use super::source::{Source, lines, number};
-use super::{Format, Reading};
+use super::{Format, Reading, Writer};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::recover::MOST_FACETS;
@@ -19,7 +19,7 @@ pub static FORMAT: Format = Format {
     about: "GemCad text design: tiers by angle, distance and index",
     sniff,
     read,
-    write: Some(write),
+    write: Some(Writer::Design(write)),
 };
 
 fn sniff(source: &Source) -> u8 {
@@ -35,6 +35,17 @@ fn sniff(source: &Source) -> u8 {
             && words.next().and_then(number).is_some()
     };
     if lines(start).any(|(_, line)| tier(line)) { 60 } else { 0 }
+}
+
+/// What lines begin with.
+const KEYWORDS: [&str; 6] = ["a", "g", "y", "I", "H", "F"];
+
+/// Whether an indented line goes on with the open tier: it begins with an index, or with what
+/// would have to be one, a name or instructions.
+fn is_of_a_tier(content: &str) -> bool {
+    let first = content.split_whitespace().next().unwrap_or_default();
+    let starts_as_number = first.starts_with(|c: char| c.is_ascii_digit() || "+-.\u{2212}".contains(c));
+    starts_as_number || first == "n" || first == "G"
 }
 
 /// A tier as the file gives it, before it is known which way its flat facets look.
@@ -57,6 +68,8 @@ struct File {
     tiers: Vec<Entry>,
     facet_count: usize,
     expecting_name: bool,
+    /// The letter that the last line with a keyword began with.
+    last: Option<char>,
     warnings: Vec<String>,
 }
 
@@ -83,7 +96,13 @@ impl File {
         if content.is_empty() {
             return Ok(());
         }
-        let continues = line.starts_with([' ', '\t']) && !self.tiers.is_empty();
+        let indented = line.starts_with([' ', '\t']);
+        if let (true, Some(text)) = (indented, self.open_text(content)) {
+            text.push(' ');
+            text.push_str(content);
+            return Ok(());
+        }
+        let continues = indented && !self.tiers.is_empty() && (self.expecting_name || is_of_a_tier(content));
         if self.expecting_name && !continues {
             return Err(source.at_line(at, "a facet name after 'n'", content));
         }
@@ -96,8 +115,8 @@ impl File {
             "a" => self.tier(source, at, rest)?,
             "H" => self.headers.push(rest.into()),
             "F" => self.footers.push(rest.into()),
-            "I" => self.index(source, at, rest)?,
-            "y" => self.symmetry(source, at, rest)?,
+            "I" => self.index(at, rest),
+            "y" => self.symmetry(at, rest),
             "g" => self.gear(source, at, rest)?,
             _ if content.starts_with([';', '#']) || self.is_title(keyword) => {}
             // `g96 0.0`, and `96 0.0` as some writer leaves the letter out
@@ -106,7 +125,18 @@ impl File {
             }
             _ => self.warnings.push(format!("line {at}: not understood and left out: {}", shown(content))),
         }
+        self.last = keyword.chars().next().filter(|_| keyword.len() == 1);
         Ok(())
+    }
+
+    /// The header or footer that an indented line goes on with: any text but another keyword.
+    fn open_text(&mut self, content: &str) -> Option<&mut String> {
+        let keyword = content.split_whitespace().next().is_some_and(|w| KEYWORDS.contains(&w));
+        match self.last.filter(|_| !keyword) {
+            Some('H') => self.headers.last_mut(),
+            Some('F') => self.footers.last_mut(),
+            _ => None,
+        }
     }
 
     /// `GemCad 5.0` on the first line.
@@ -128,23 +158,33 @@ impl File {
         Ok(())
     }
 
-    fn symmetry(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {
+    /// For information: no facet depends on it.
+    fn symmetry(&mut self, at: usize, rest: &str) {
         let mut words = rest.split_whitespace();
         let first = words.next().unwrap_or_default();
-        let order = first.parse().map_err(|_| source.at_line(at, "the symmetry's order", first))?;
-        self.symmetry = Some((order, words.next().is_some_and(|w| w.eq_ignore_ascii_case("y"))));
-        Ok(())
+        match number(first).filter(|n| n.fract() == 0.0 && (0.0..=1e4).contains(&n.abs())) {
+            Some(order) => {
+                let mirror = words.next().is_some_and(|w| w.eq_ignore_ascii_case("y"));
+                self.symmetry = Some((order.abs() as u32, mirror));
+            }
+            None => {
+                self.warnings.push(format!("line {at}: no order of symmetry, left out: {}", shown(first)))
+            }
+        }
     }
 
-    fn index(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {
+    /// For information: no facet depends on it.
+    fn index(&mut self, at: usize, rest: &str) {
         let first = rest.split_whitespace().next().unwrap_or_default();
-        let index = number(first).ok_or_else(|| source.at_line(at, "an index of refraction", first))?;
+        let Some(index) = number(first) else {
+            self.warnings.push(format!("line {at}: no index of refraction, left out: {}", shown(first)));
+            return;
+        };
         if !(index > 1.0 && index <= 3.5) {
             let done = if index < 1.0 { "left out" } else { "kept" };
             self.warnings.push(format!("line {at}: index of refraction {index} is that of no gem; {done}"));
         }
         self.refractive_index = Some(index).filter(|n| *n >= 1.0);
-        Ok(())
     }
 
     fn tier(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {
@@ -198,6 +238,10 @@ impl File {
     }
 
     fn design(mut self, source: &Source) -> Result<Reading, FormatError> {
+        // a table lies at any index
+        for flat in self.tiers.iter_mut().filter(|t| t.angle_deg == 0.0 && t.indices.is_empty()) {
+            flat.indices.push((self.gear.map_or(0.0, |g| g.teeth.abs()), flat.name.clone()));
+        }
         if let Some(tier) = self.tiers.iter().find(|t| t.indices.is_empty()) {
             return Err(source.at_line(tier.line, "at least one index in the tier", ""));
         }

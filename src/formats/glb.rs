@@ -6,9 +6,13 @@
 use super::error::{FormatError, shown};
 use super::shell::{STATED_IN_F32, design_of_mesh};
 use super::source::Source;
-use super::{Format, Reading, beside, glb_write};
+use super::{Format, Reading, Writer, beside, glb_write};
 use crate::solid::recover::{MOST_POLYGONS, Polygon};
+use ::gltf::accessor::sparse::IndexType;
 use ::gltf::accessor::{DataType, Dimensions};
+use ::gltf::buffer::View;
+use ::gltf::json::Value;
+use ::gltf::json::validation::Checked;
 use ::gltf::mesh::Mode;
 use ::gltf::{Accessor, Document, Gltf, Node, Primitive, Semantic, buffer};
 use base64::Engine;
@@ -16,23 +20,30 @@ use glam::{DMat4, DVec3, DVec4};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// glTF 2.0 meshes, written as GLB with one primitive a facet.
-pub static FORMAT: Format = Format {
+/// Binary glTF 2.0.
+pub static GLB: Format = Format {
     name: "glb",
-    extensions: &["glb", "gltf"],
-    about: "glTF 2.0 mesh, text or binary, one primitive a facet; written as GLB",
+    extensions: &["glb"],
+    about: "glTF 2.0 mesh in binary, one primitive a facet",
+    sniff: |source| if source.bytes.starts_with(b"glTF") { 100 } else { 0 },
+    read,
+    write: Some(Writer::Mesh(glb_write::write_binary)),
+};
+
+/// glTF 2.0 as text.
+pub static GLTF: Format = Format {
+    name: "gltf",
+    extensions: &["gltf"],
+    about: "glTF 2.0 mesh as text, one primitive a facet; written with its buffer inside",
     sniff,
     read,
-    write: Some(glb_write::write),
+    write: Some(Writer::Mesh(glb_write::write_text)),
 };
 
 /// Deepest nesting of nodes; a real file has a dozen.
 const DEEPEST: usize = 64;
 
 fn sniff(source: &Source) -> u8 {
-    if source.bytes.starts_with(b"glTF") {
-        return 100;
-    }
     let start = source.beginning();
     let json = start.trim_start().starts_with('{');
     match json {
@@ -116,11 +127,22 @@ fn document(source: &Source) -> Result<(Document, Option<Vec<u8>>), FormatError>
     }
     let bad = |error: ::gltf::Error| source.at_byte(0, "a glTF 2.0 file", shown(&error.to_string()));
     let Gltf { document, blob } = Gltf::from_slice_without_validation(source.bytes).map_err(bad)?;
-    let root = document.into_json();
+    let mut root = document.into_json();
     let mut used = root.meshes.iter().flat_map(|m| &m.primitives).flat_map(|p| p.attributes.values());
     if let Some(index) = used.find(|index| index.value() >= root.accessors.len()) {
         let expected = format!("an accessor below {}", root.accessors.len());
         return Err(source.at_byte(0, expected, index.value().to_string()));
+    }
+    // what is asked of a strict file and of no use here: bounds of the places, and extensions other
+    // than those that leave the buffers unreadable
+    root.extensions_required.retain(|name| name.ends_with("_compression"));
+    let places = root.meshes.iter().flat_map(|m| &m.primitives).flat_map(|p| &p.attributes);
+    let places = places.filter(|(key, _)| **key == Checked::Valid(Semantic::Positions));
+    for place in places.map(|(_, index)| index.value()).collect::<Vec<_>>() {
+        let accessor = &mut root.accessors[place];
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| Value::from(vec![0.0; 3]));
+        }
     }
     Ok((Document::from_json(root).map_err(bad)?, blob))
 }
@@ -137,7 +159,7 @@ impl Reader<'_> {
                 .decode(data)
                 .map_err(|error| self.bad("a buffer in base64", error.to_string()));
         }
-        beside::fetch(self.source, uri)
+        beside::fetch(self.source, &unescaped(uri))
             .ok_or_else(|| self.bad("a buffer in the file's own folder", shown(uri)))?
     }
 
@@ -172,24 +194,20 @@ impl Reader<'_> {
         let positions = primitive
             .get(&Semantic::Positions)
             .ok_or_else(|| self.bad("positions in every primitive", "none"))?;
-        if (positions.data_type(), positions.dimensions()) != (DataType::F32, Dimensions::Vec3) {
-            return Err(self.bad("positions as three f32", format!("{:?}", positions.data_type())));
+        if positions.dimensions() != Dimensions::Vec3 {
+            return Err(self.bad("positions of three numbers", format!("{:?}", positions.dimensions())));
         }
         let first = self.vertices.len();
-        let mut points = Vec::new();
-        self.elements(&positions, |bytes| {
-            let float = |k: usize| f32::from_le_bytes([0, 1, 2, 3].map(|b| bytes[4 * k + b])) as f64;
-            points.push(world.transform_point3(DVec3::new(float(0), float(1), float(2))));
-        })?;
+        let (kind, normalised) = (positions.data_type(), positions.normalized());
+        let bytes = self.elements(&positions)?;
+        let point = |bytes: &[u8]| {
+            let mut numbers = bytes.chunks_exact(kind.size()).map(|b| float(kind, normalised, b));
+            world.transform_point3(DVec3::from_array([0; 3].map(|_| numbers.next().unwrap_or_default())))
+        };
+        let points: Vec<DVec3> = bytes.chunks_exact(positions.size()).map(point).collect();
         let order: Vec<usize> = match primitive.indices() {
             None => (0..points.len()).collect(),
-            Some(indices) => {
-                let mut order = Vec::new();
-                self.elements(&indices, |bytes| {
-                    order.push(bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize));
-                })?;
-                order
-            }
+            Some(indices) => self.elements(&indices)?.chunks_exact(indices.size()).map(unsigned).collect(),
         };
         if let Some(i) = order.iter().find(|&&i| i >= points.len()) {
             return Err(self.bad(&format!("an index below {}", points.len()), i.to_string()));
@@ -214,22 +232,50 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Calls `each` with the bytes of every element, all of them known to lie in the buffer.
-    fn elements(&self, accessor: &Accessor, mut each: impl FnMut(&[u8])) -> Result<(), FormatError> {
-        let Some(view) = accessor.view().filter(|_| accessor.sparse().is_none()) else {
-            return Err(self.bad("plain, uncompressed buffers", "a sparse or compressed accessor"));
-        };
+    /// The bytes of every element, one after the other, with what a sparse accessor replaces.
+    fn elements(&self, accessor: &Accessor) -> Result<Vec<u8>, FormatError> {
         let (size, count) = (accessor.size(), accessor.count());
+        if count > 3 * MOST_POLYGONS {
+            return Err(self.bad(&format!("at most {MOST_POLYGONS} triangles"), "more"));
+        }
+        let sparse = accessor.sparse();
+        let mut all = match (accessor.view(), &sparse) {
+            (Some(view), _) => self.packed(&view, accessor.offset(), size, count)?,
+            (None, Some(_)) => vec![0; size * count],
+            (None, None) => return Err(self.bad("uncompressed buffers", "an accessor without one")),
+        };
+        if let Some(sparse) = sparse {
+            let (indices, values) = (sparse.indices(), sparse.values());
+            let wide = match indices.index_type() {
+                IndexType::U8 => 1,
+                IndexType::U16 => 2,
+                IndexType::U32 => 4,
+            };
+            let replaced = sparse.count().min(count);
+            let places = self.packed(&indices.view(), indices.offset(), wide, replaced)?;
+            let values = self.packed(&values.view(), values.offset(), size, replaced)?;
+            for (place, value) in places.chunks_exact(wide).map(unsigned).zip(values.chunks_exact(size)) {
+                let Some(element) = all.get_mut(place.saturating_mul(size)..).and_then(|e| e.get_mut(..size))
+                else {
+                    return Err(self.bad(&format!("a sparse index below {count}"), place.to_string()));
+                };
+                element.copy_from_slice(value);
+            }
+        }
+        Ok(all)
+    }
+
+    /// The bytes of `count` elements of a view, all of them known to lie in the buffer.
+    fn packed(&self, view: &View, offset: usize, size: usize, count: usize) -> Result<Vec<u8>, FormatError> {
         let stride = view.stride().unwrap_or(size).max(size);
         let buffer = self.buffers.get(view.buffer().index()).map_or(&[][..], |b| b);
         let end = view.offset().checked_add(view.length());
-        let bytes =
-            end.and_then(|end| buffer.get(view.offset()..end)).and_then(|v| v.get(accessor.offset()..));
+        let bytes = end.and_then(|end| buffer.get(view.offset()..end)).and_then(|v| v.get(offset..));
         let needed = count.saturating_sub(1).checked_mul(stride).and_then(|n| n.checked_add(size));
         match (bytes, needed) {
-            (Some(bytes), Some(needed)) if count == 0 || needed <= bytes.len() => {
-                (0..count).for_each(|i| each(&bytes[i * stride..i * stride + size]));
-                Ok(())
+            _ if count == 0 => Ok(Vec::new()),
+            (Some(bytes), Some(needed)) if needed <= bytes.len() => {
+                Ok((0..count).flat_map(|i| &bytes[i * stride..i * stride + size]).copied().collect())
             }
             _ => {
                 Err(self
@@ -237,4 +283,43 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// An unsigned number of any length, least byte first.
+fn unsigned(bytes: &[u8]) -> usize {
+    bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize)
+}
+
+/// A coordinate; quantised ones (KHR_mesh_quantization) are whole numbers, or, normalised, parts of
+/// the largest.
+fn float(kind: DataType, normalised: bool, bytes: &[u8]) -> f64 {
+    let at = |i: usize| bytes.get(i).copied().unwrap_or_default();
+    let (value, most) = match kind {
+        DataType::F32 => return f32::from_le_bytes([0, 1, 2, 3].map(at)).into(),
+        DataType::I8 => (i8::from_le_bytes([at(0)]).into(), f64::from(i8::MAX)),
+        DataType::U8 => (at(0).into(), f64::from(u8::MAX)),
+        DataType::I16 => (i16::from_le_bytes([0, 1].map(at)).into(), f64::from(i16::MAX)),
+        DataType::U16 => (u16::from_le_bytes([0, 1].map(at)).into(), f64::from(u16::MAX)),
+        DataType::U32 => (u32::from_le_bytes([0, 1, 2, 3].map(at)).into(), f64::from(u32::MAX)),
+    };
+    if normalised { f64::max(value / most, -1.0) } else { value }
+}
+
+/// The URI with `%20` and its like as the bytes they stand for.
+fn unescaped(uri: &str) -> String {
+    let mut parts = uri.split('%');
+    let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
+    for part in parts {
+        match part.get(..2).and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
+            Some(byte) => {
+                bytes.push(byte);
+                bytes.extend(&part.as_bytes()[2..]);
+            }
+            None => {
+                bytes.push(b'%');
+                bytes.extend(part.as_bytes());
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
 }

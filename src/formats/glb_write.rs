@@ -1,26 +1,49 @@
-//! GLB written: one node turned upright, one mesh, one primitive a facet.
+//! glTF written, binary or text: one node turned upright, one mesh, one primitive a facet.
 //!
 //! Positions are `f32`, shared by all facets, in the design's own unit (glTF would have metres;
 //! a stone of millimetres is then seen a thousand times too large, at once and without rounding).
 //! No normals are stored: glTF then asks for flat shading, which is what facets want.
 
 use super::error::FormatError;
-use super::facet_labels;
 use super::glb::FacetExtras;
-use crate::cut::Design;
+use super::surface::Surface;
 use ::gltf::binary::{Glb, Header};
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use ::gltf::json::validation::{Checked, USize64};
 use ::gltf::json::{self, Index, Root, buffer, mesh, serialize};
+use base64::Engine;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The design as a GLB file.
-pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let fail = |problem: String| FormatError::Encode { name: design.name.clone(), format: "glb", problem };
-    let (triangles, planes, labels) = (solid.triangulate(), design.planes(), facet_labels(design));
-    let positions: Vec<[f32; 3]> = triangles.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
+/// The surface as a GLB file.
+pub fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let (root, mut bin) = parts(surface)?;
+    let fail = |problem: String| failed(surface, problem);
+    let mut text = serialize::to_string(&root).map_err(|e| fail(e.to_string()))?.into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    bin.resize(bin.len().next_multiple_of(4), 0);
+    let length = u32::try_from(12 + 8 + text.len() + 8 + bin.len()).map_err(|e| fail(e.to_string()))?;
+    let header = Header { magic: *b"glTF", version: 2, length };
+    Glb { header, json: Cow::Owned(text), bin: Some(Cow::Owned(bin)) }
+        .to_vec()
+        .map_err(|e| fail(e.to_string()))
+}
+
+/// The surface as a glTF file that holds its buffer itself.
+pub fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let (mut root, bin) = parts(surface)?;
+    let data = base64::engine::general_purpose::STANDARD.encode(bin);
+    root.buffers[0].uri = Some(format!("data:application/octet-stream;base64,{data}"));
+    Ok(serialize::to_string(&root).map_err(|e| failed(surface, e.to_string()))?.into_bytes())
+}
+
+fn failed(surface: &Surface, problem: String) -> FormatError {
+    FormatError::Encode { name: surface.name.clone(), format: "glTF", problem }
+}
+
+/// The document and its buffer.
+fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
+    let positions: Vec<[f32; 3]> = surface.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
     let mut bin: Vec<u8> = positions.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     let positions_end = bin.len();
 
@@ -40,19 +63,16 @@ pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
     at.max = Some(json::Value::from(extreme(&positions, f32::max).to_vec()));
     let position = root.push(at);
 
-    let mut primitives = Vec::with_capacity(solid.faces.len());
-    for (number, face) in solid.faces.iter().enumerate() {
+    let mut primitives = Vec::with_capacity(surface.facets.len());
+    let mut of_facet = vec![Vec::new(); surface.facets.len()];
+    surface.triangles.iter().for_each(|(facet, t)| of_facet[*facet].extend(t.map(|c| c as u32)));
+    for ((label, normal), corners) in surface.facets.iter().zip(&of_facet) {
         let start = bin.len();
-        let of_facet = triangles.triangles.iter().zip(&triangles.faces).filter(|(_, f)| **f == number);
-        let corners: Vec<u32> = of_facet.flat_map(|(t, _)| t.map(|c| c as u32)).collect();
         bin.extend(corners.iter().flat_map(|c| c.to_le_bytes()));
         let offset = start - positions_end;
         let indices =
             root.push(accessor(index_view, offset, corners.len(), ComponentType::U32, Type::Scalar));
-        let said = FacetExtras {
-            facet: labels[face.plane].clone(),
-            normal: Some(planes[face.plane].normal.to_array()),
-        };
+        let said = FacetExtras { facet: label.clone(), normal: Some(normal.to_array()) };
         primitives.push(mesh::Primitive {
             attributes: BTreeMap::from([(Checked::Valid(mesh::Semantic::Positions), position)]),
             indices: Some(indices),
@@ -60,13 +80,13 @@ pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
             mode: Checked::Valid(mesh::Mode::Triangles),
             targets: None,
             extensions: None,
-            extras: Some(serde_json::value::to_raw_value(&said).map_err(|e| fail(e.to_string()))?),
+            extras: Some(serde_json::value::to_raw_value(&said).map_err(|e| failed(surface, e.to_string()))?),
         });
     }
     root.buffers[0].byte_length = USize64(bin.len() as u64);
     root.buffer_views[1].byte_length = USize64((bin.len() - positions_end) as u64);
     let mesh = root.push(json::Mesh {
-        name: Some(design.name.clone()),
+        name: Some(surface.name.clone()),
         primitives,
         weights: None,
         extensions: None,
@@ -77,14 +97,7 @@ pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
     let node = root.push(json::Node { mesh: Some(mesh), matrix: Some(upright), ..json::Node::default() });
     root.scene = Some(root_scene(&mut root, node));
 
-    let mut text = serialize::to_string(&root).map_err(|e| fail(e.to_string()))?.into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    bin.resize(bin.len().next_multiple_of(4), 0);
-    let length = u32::try_from(12 + 8 + text.len() + 8 + bin.len()).map_err(|e| fail(e.to_string()))?;
-    let header = Header { magic: *b"glTF", version: 2, length };
-    Glb { header, json: Cow::Owned(text), bin: Some(Cow::Owned(bin)) }
-        .to_vec()
-        .map_err(|e| fail(e.to_string()))
+    Ok((root, bin))
 }
 
 fn root_scene(root: &mut Root, node: Index<json::Node>) -> Index<json::Scene> {

@@ -8,8 +8,8 @@
 use super::error::FormatError;
 use super::shell::{MOST_CORNERS, STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
-use super::{Format, Reading, facet_labels};
-use crate::cut::{Design, Unit};
+use super::{Format, Reading, Surface, Writer};
+use crate::cut::Unit;
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use std::fmt::Write;
@@ -25,7 +25,7 @@ pub static FORMAT: Format = Format {
     about: "Wavefront OBJ mesh, one group a facet",
     sniff,
     read,
-    write: Some(write),
+    write: Some(Writer::Mesh(write)),
 };
 
 fn sniff(source: &Source) -> u8 {
@@ -33,7 +33,11 @@ fn sniff(source: &Source) -> u8 {
         let mut words = line.split_whitespace();
         words.next() == Some("v") && words.next().and_then(number).is_some()
     };
-    if lines(&source.beginning()).any(|(_, line)| vertex(line)) { 50 } else { 0 }
+    if lines(&source.beginning()).any(|(_, line)| vertex(line)) {
+        return 50;
+    }
+    // a long comment may come first
+    if source.extension() == "obj" { 10 } else { 0 }
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
@@ -98,6 +102,9 @@ fn checked(source: &Source) -> Result<Checked, FormatError> {
                 for _ in 0..3 {
                     let word = words.next().unwrap_or_default();
                     let what = if kind == "v" { "corner" } else { "normal" };
+                    // the normal of a face without area may be nan: 0 is as good as none
+                    let none = kind == "vn" && word.to_ascii_lowercase().contains("nan");
+                    let word = if none { "0" } else { word };
                     number(word)
                         .ok_or_else(|| source.at_line(at, format!("three numbers of a {what}"), word))?;
                     out.text.push(' ');
@@ -166,7 +173,8 @@ fn reference(word: &str, seen: [usize; 3], total: [usize; 3]) -> Option<(usize, 
     let mut found = [None; 3];
     for (k, part) in word.split('/').enumerate() {
         let slot = found.get_mut(k)?;
-        if part.is_empty() && k > 0 {
+        // a stone has no texture, and some files name one that they do not hold
+        if k == 1 || (part.is_empty() && k > 0) {
             continue;
         }
         let n: i64 = part.parse().ok()?;
@@ -176,25 +184,28 @@ fn reference(word: &str, seen: [usize; 3], total: [usize; 3]) -> Option<(usize, 
     Some((found[0]?, found[2]))
 }
 
-fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let (labels, planes) = (facet_labels(design), design.planes());
-    let unit = match design.unit {
+fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let unit = match surface.unit {
         Unit::Millimetre => "mm",
         Unit::Free => "none, only the shape is known",
     };
     let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut text =
-        format!("# {}\n# unit: {unit}\n# one group a facet, its normal as vn\n", one_line(&design.name));
+        format!("# {}\n# unit: {unit}\n# one group a facet, its normal as vn\n", one_line(&surface.name));
     let mut row = |start: &str, p: DVec3| {
         let _ = writeln!(text, "{start} {} {} {}", p.x, p.y, p.z); // a String takes every write
     };
-    solid.vertices.iter().for_each(|&v| row("v", v));
-    solid.faces.iter().for_each(|f| row("vn", planes[f.plane].normal));
-    for (n, face) in solid.faces.iter().enumerate() {
-        let _ = write!(text, "g {}\nf", one_line(&labels[face.plane].replace(['#', '\\'], " ")));
-        for corner in &face.corners {
-            let _ = write!(text, " {}//{}", corner + 1, n + 1);
+    surface.vertices.iter().for_each(|&v| row("v", v));
+    surface.facets.iter().for_each(|(_, normal)| row("vn", *normal));
+    let mut open = None;
+    for (facet, corners) in &surface.polygons {
+        if open.replace(facet) != Some(facet) {
+            let label = surface.facets[*facet].0.replace(['#', '\\'], " ");
+            let _ = writeln!(text, "g {}", one_line(&label));
+        }
+        text.push('f');
+        for corner in corners {
+            let _ = write!(text, " {}//{}", corner + 1, facet + 1);
         }
         text.push('\n');
     }

@@ -2,7 +2,7 @@
 
 use super::error::{FormatError, shown};
 use super::source::{Source, lines};
-use super::{Format, Reading};
+use super::{Format, Reading, Writer};
 use crate::cut::Design;
 use crate::cut::document::{Document, DocumentError};
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ pub static FORMAT: Format = Format {
     about: "cutlab's own design file: tiers, or a family and its parameters",
     sniff,
     read,
-    write: Some(write),
+    write: Some(Writer::Design(write)),
 };
 
 fn sniff(source: &Source) -> u8 {

@@ -1,5 +1,5 @@
-//! PLY: polygons as text or binary in either byte order; written in binary with `f64` corners and
-//! the facets' normals, their names in comments.
+//! PLY: polygons as text or binary in either byte order; written with `f64` corners and the facets'
+//! normals, their names in comments.
 //!
 //! Own reader: the crates for it read a whole file into maps of values, several times its size.
 
@@ -9,22 +9,32 @@ mod values;
 use super::error::FormatError;
 use super::shell::{MOST_CORNERS, STATED_IN_F32, STATED_IN_F64, design_of_mesh, few_enough};
 use super::source::Source;
-use super::{Format, Reading, facet_labels};
-use crate::cut::Design;
+use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use header::{Element, Header, Kind, Property};
+use std::fmt::Write;
 use std::sync::Arc;
 use values::Values;
 
-/// PLY meshes of every kind; written in binary, little-endian.
-pub static FORMAT: Format = Format {
+/// Binary PLY.
+pub static BINARY: Format = Format {
     name: "ply",
     extensions: &["ply"],
-    about: "PLY mesh, text or binary: written in binary with f64 corners, one polygon a facet",
-    sniff: |source| if header::begins(source.bytes) { 98 } else { 0 },
+    about: "PLY mesh in binary: written with f64 corners and facets' normals",
+    sniff: |source| if header::begins(source.bytes) { 97 } else { 0 },
     read,
-    write: Some(write),
+    write: Some(Writer::Mesh(write_binary)),
+};
+
+/// Text PLY.
+pub static TEXT: Format = Format {
+    name: "ply-text",
+    extensions: &["ply"],
+    about: "PLY mesh as text: facets' normals; written for `--to ply-text`",
+    sniff: |source| if header::begins(source.bytes) && header::says_text(source) { 98 } else { 0 },
+    read,
+    write: Some(Writer::Mesh(write_text)),
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
@@ -42,7 +52,12 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
                 let places = places(source, element, ["x", "y", "z"])?;
                 exact = places.iter().all(|p| element.properties[*p].kind == Kind::F64) || header.is_text();
                 each(element, &mut values, |row, _| {
-                    vertices.push(DVec3::from_array(places.map(|p| row[p])));
+                    let corner = DVec3::from_array(places.map(|p| row[p]));
+                    if !corner.is_finite() {
+                        let found = format!("corner {} at {corner}", vertices.len());
+                        return Err(source.at_line(element.line, "finite numbers for x, y and z", &found));
+                    }
+                    vertices.push(corner);
                     fits(vertices.len(), element)
                 })?;
             }
@@ -125,29 +140,43 @@ fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatEr
         .ok_or_else(|| source.at_line(element.line, "property list … vertex_indices of face", "none"))
 }
 
-fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let planes = design.planes();
+/// Triangles, as some readers know no polygons of several lengths in one file.
+fn header_of(surface: &Surface, storage: &str) -> String {
     let ascii = |text: &str| text.replace(|c| !(' '..='~').contains(&c), "?");
-    let labels = facet_labels(design);
-    let names: String =
-        solid.faces.iter().map(|f| format!("comment facet {}\n", ascii(&labels[f.plane]))).collect();
-    let mut bytes = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment cutlab: {}\n{names}element vertex {}\n\
+    let name = |(facet, _): &(usize, [usize; 3])| ascii(&surface.facets[*facet].0);
+    let names: String = surface.triangles.iter().map(|t| format!("comment facet {}\n", name(t))).collect();
+    format!(
+        "ply\nformat {storage} 1.0\ncomment cutlab: {}\n{names}element vertex {}\n\
          property double x\nproperty double y\nproperty double z\nelement face {}\n\
-         property list uint int vertex_indices\n\
+         property list uchar int vertex_indices\n\
          property double nx\nproperty double ny\nproperty double nz\nend_header\n",
-        ascii(&design.name),
-        solid.vertices.len(),
-        solid.faces.len()
+        ascii(&surface.name),
+        surface.vertices.len(),
+        surface.triangles.len()
     )
-    .into_bytes();
+}
+
+fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let mut bytes = header_of(surface, "binary_little_endian").into_bytes();
     let put = |p: DVec3| p.to_array().into_iter().flat_map(f64::to_le_bytes);
-    solid.vertices.iter().for_each(|&v| bytes.extend(put(v)));
-    for face in &solid.faces {
-        bytes.extend((face.corners.len() as u32).to_le_bytes());
-        face.corners.iter().for_each(|&c| bytes.extend((c as i32).to_le_bytes()));
-        bytes.extend(put(planes[face.plane].normal));
+    surface.vertices.iter().for_each(|&v| bytes.extend(put(v)));
+    for (facet, corners) in &surface.triangles {
+        bytes.push(3);
+        corners.iter().for_each(|&c| bytes.extend((c as i32).to_le_bytes()));
+        bytes.extend(put(surface.facets[*facet].1));
     }
     Ok(bytes)
+}
+
+fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let mut text = header_of(surface, "ascii");
+    // a String takes every write
+    for v in &surface.vertices {
+        let _ = writeln!(text, "{} {} {}", v.x, v.y, v.z);
+    }
+    for (facet, [a, b, c]) in &surface.triangles {
+        let n = surface.facets[*facet].1;
+        let _ = writeln!(text, "3 {a} {b} {c} {} {} {}", n.x, n.y, n.z);
+    }
+    Ok(text.into_bytes())
 }

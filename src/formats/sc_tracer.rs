@@ -9,8 +9,7 @@ use super::error::FormatError;
 use super::shell::{STATED_IN_F64, design_of_mesh};
 use super::source::Source;
 use super::triangle_words::{first_count, records};
-use super::{Format, Reading};
-use crate::cut::Design;
+use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -27,7 +26,7 @@ pub static FORMAT: Format = Format {
         Some(_) => 70,
     },
     read,
-    write: Some(write),
+    write: Some(Writer::Mesh(write)),
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
@@ -70,13 +69,11 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
 }
 
 /// The stone as transparent triangles of the original renderer's colour, in the full form.
-fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let mesh = solid.triangulate();
+fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
     let mut text = String::new();
-    for triangle in &mesh.triangles {
+    for (_, triangle) in &surface.triangles {
         let mut start = "triangle ";
-        for v in triangle.map(|corner| mesh.vertices[corner]) {
+        for v in triangle.map(|corner| surface.vertices[corner]) {
             let _ = writeln!(text, "{start}{} {} {}", v.x, v.y, v.z); // a String takes every write
             start = "";
         }

@@ -22,7 +22,7 @@ pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
     let bytes = bytes_of(path, MOST_BYTES)?;
     let name = path.display().to_string();
     let source = Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) };
-    let (vertices, polygons) = if (glb::FORMAT.sniff)(&source) > 0 {
+    let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(&source) > 0) {
         let (vertices, polygons, _) = glb::polygons(&source)?;
         (vertices, polygons)
     } else {

@@ -1,23 +1,33 @@
-//! STL: bare triangles, binary or text, in `f32` and without unit.
+//! STL: bare triangles, binary (in `f32`) or text, without unit.
 //!
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::FormatError;
 use super::shell::{STATED_IN_F32, design_of_mesh, few_enough};
 use super::source::{Source, lines, number};
-use super::{Format, Reading};
-use crate::cut::Design;
+use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use glam::{DVec3, Vec3};
+use std::fmt::Write;
 
-/// STL meshes of both kinds; written in binary.
-pub static FORMAT: Format = Format {
+/// Binary STL.
+pub static BINARY: Format = Format {
     name: "stl",
     extensions: &["stl"],
-    about: "STL mesh, text or binary: triangles in f32, written in binary",
-    sniff,
-    read,
-    write: Some(write),
+    about: "STL mesh in binary: triangles in f32",
+    sniff: |source| if count_of_binary(source.bytes).is_some_and(|n| n > 0) { 95 } else { 0 },
+    read: read_binary,
+    write: Some(Writer::Mesh(write_binary)),
+};
+
+/// Text STL.
+pub static TEXT: Format = Format {
+    name: "stl-text",
+    extensions: &["stl"],
+    about: "STL mesh as text: triangles; written for `--to stl-text`",
+    sniff: sniff_text,
+    read: read_text,
+    write: Some(Writer::Mesh(write_text)),
 };
 
 const HEADER: usize = 80;
@@ -27,47 +37,51 @@ const TRIANGLE: usize = 50;
 fn count_of_binary(bytes: &[u8]) -> Option<usize> {
     let count: [u8; 4] = bytes.get(HEADER..HEADER + 4)?.try_into().ok()?;
     let count = u32::from_le_bytes(count) as usize;
-    (count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)? == bytes.len()).then_some(count)
+    let needed = count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)?;
+    // some writers pad the end with zeros
+    let padded = || bytes.get(needed..).is_some_and(|rest| count > 0 && rest.iter().all(|b| *b == 0));
+    (needed == bytes.len() || padded()).then_some(count)
 }
 
-fn sniff(source: &Source) -> u8 {
-    if count_of_binary(source.bytes).is_some_and(|n| n > 0) {
-        return 95;
-    }
-    let start = source.beginning();
+fn sniff_text(source: &Source) -> u8 {
+    let start = source.beginning().to_ascii_lowercase();
     let mut words = start.split_whitespace();
     match words.next() {
         Some("solid") if words.any(|w| w == "facet") => 90,
         Some("solid") => 20,
+        Some("facet") => 60,
         _ => 0,
     }
 }
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
-    let mut corners = Vec::new();
-    let mut normals = Vec::new();
-    match count_of_binary(source.bytes) {
-        Some(count) => {
-            few_enough(source, count)?;
-            for record in source.bytes[HEADER + 4..].chunks_exact(TRIANGLE) {
-                let float = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| record[4 * i + k])) as f64;
-                let point = |i: usize| DVec3::new(float(3 * i), float(3 * i + 1), float(3 * i + 2));
-                normals.push(point(0));
-                corners.extend([1, 2, 3].map(point));
-            }
-        }
-        None => text_triangles(source, &mut corners, &mut normals)?,
+fn read_binary(source: &Source) -> Result<Reading, FormatError> {
+    let count = count_of_binary(source.bytes).unwrap_or_default();
+    few_enough(source, count)?;
+    let (mut corners, mut normals) = (Vec::with_capacity(3 * count), Vec::with_capacity(count));
+    for record in source.bytes[HEADER + 4..].chunks_exact(TRIANGLE).take(count) {
+        let float = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| record[4 * i + k])) as f64;
+        let point = |i: usize| DVec3::new(float(3 * i), float(3 * i + 1), float(3 * i + 2));
+        normals.push(point(0));
+        corners.extend([1, 2, 3].map(point));
     }
-    let polygons: Vec<Polygon> = normals
-        .iter()
-        .enumerate()
-        .map(|(i, n)| Polygon {
-            corners: vec![3 * i, 3 * i + 1, 3 * i + 2],
-            normal: Some(*n),
-            ..Polygon::default()
-        })
-        .collect();
-    design_of_mesh(source, &corners, &polygons, STATED_IN_F32)
+    stone_of(source, &corners, &normals)
+}
+
+fn read_text(source: &Source) -> Result<Reading, FormatError> {
+    let (mut corners, mut normals) = (Vec::new(), Vec::new());
+    text_triangles(source, &mut corners, &mut normals)?;
+    few_enough(source, normals.len())?;
+    stone_of(source, &corners, &normals)
+}
+
+fn stone_of(source: &Source, corners: &[DVec3], normals: &[DVec3]) -> Result<Reading, FormatError> {
+    let polygon = |(i, n): (usize, &DVec3)| Polygon {
+        corners: vec![3 * i, 3 * i + 1, 3 * i + 2],
+        normal: Some(*n),
+        ..Polygon::default()
+    };
+    let polygons: Vec<Polygon> = normals.iter().enumerate().map(polygon).collect();
+    design_of_mesh(source, corners, &polygons, STATED_IN_F32)
 }
 
 /// Reads `normal` and `vertex` rows; the words between them say nothing more.
@@ -81,12 +95,13 @@ fn text_triangles(
     for (at, line) in lines(&text) {
         last = at;
         let mut words = line.split_whitespace();
-        let is_normal = match (words.next(), words.clone().next()) {
-            (Some("facet"), Some("normal")) => {
+        let is = |word: Option<&str>, name: &str| word.is_some_and(|w| w.eq_ignore_ascii_case(name));
+        let is_normal = match words.next() {
+            first if is(first, "facet") && is(words.clone().next(), "normal") => {
                 words.next();
                 true
             }
-            (Some("vertex"), _) => false,
+            first if is(first, "vertex") => false,
             _ => continue,
         };
         if !is_normal && corners.len() >= 3 * normals.len() {
@@ -109,20 +124,34 @@ fn text_triangles(
     Err(source.at_line(last, "three vertices to every normal", &found))
 }
 
-fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let (mesh, planes) = (solid.triangulate(), design.planes());
-    let mut header: Vec<u8> = format!("cutlab: {}", design.name).into_bytes();
-    header.resize(HEADER, b' ');
-    let mut bytes = header;
-    bytes.extend((mesh.triangles.len() as u32).to_le_bytes());
+fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let mut bytes: Vec<u8> = format!("cutlab: {}", surface.name).into_bytes();
+    bytes.resize(HEADER, b' ');
+    bytes.extend((surface.triangles.len() as u32).to_le_bytes());
     let put = |p: Vec3| p.to_array().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>();
-    for (triangle, &face) in mesh.triangles.iter().zip(&mesh.faces) {
-        bytes.extend(put(planes[solid.faces[face].plane].normal.as_vec3()));
+    for (facet, triangle) in &surface.triangles {
+        bytes.extend(put(surface.facets[*facet].1.as_vec3()));
         for &corner in triangle {
-            bytes.extend(put(mesh.vertices[corner].as_vec3()));
+            bytes.extend(put(surface.vertices[corner].as_vec3()));
         }
         bytes.extend([0, 0]);
     }
     Ok(bytes)
+}
+
+/// Numbers with all their digits; the name in ASCII, as some readers know nothing else.
+fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+    let name = surface.name.replace(|c| !(' '..='~').contains(&c), "?");
+    let mut text = format!("solid {name}\n");
+    // a String takes every write
+    for (facet, triangle) in &surface.triangles {
+        let n = surface.facets[*facet].1;
+        let _ = writeln!(text, "facet normal {} {} {}\nouter loop", n.x, n.y, n.z);
+        for v in triangle.map(|corner| surface.vertices[corner]) {
+            let _ = writeln!(text, "vertex {} {} {}", v.x, v.y, v.z);
+        }
+        text += "endloop\nendfacet\n";
+    }
+    let _ = writeln!(text, "endsolid {name}");
+    Ok(text.into_bytes())
 }

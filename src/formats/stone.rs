@@ -24,6 +24,9 @@ pub fn open(spec: &str) -> Result<Imported, FormatError> {
     if !spec.is_empty() && std::fs::symlink_metadata(path).is_ok() {
         return read(path);
     }
+    if let Some((why, nearest)) = library::impossible(name) {
+        return Err(FormatError::Impossible { spec: spec.into(), why, nearest });
+    }
     Err(FormatError::NoSuchStone { spec: spec.into(), nearest: library::nearest(name) })
 }
 

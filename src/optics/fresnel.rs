@@ -19,6 +19,7 @@ impl Facing {
     /// Fresnel's coefficients.
     ///
     /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
+    #[inline]
     pub fn new(cos_i: f64, eta: f64) -> Facing {
         let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
         if sin2_t < 1.0 {
@@ -36,6 +37,7 @@ impl Facing {
     }
 
     /// Reflectance of unpolarised light, (R_s + R_p)/2.
+    #[inline]
     pub fn mean(&self) -> f64 {
         0.5 * (self.r_s + self.r_p)
     }

@@ -47,6 +47,20 @@ impl Stokes {
         Stokes { i: share * self.i, q: share * self.q, u: share * self.u, v: share * self.v, ..self }
     }
 
+    /// What passes a facet of light given about its plane of incidence: what is not reflected.
+    #[inline]
+    pub fn transmitted(self, f: &Facing) -> Stokes {
+        let (t_s, t_p) = (1.0 - f.r_s, 1.0 - f.r_p);
+        let (mean, half, both) = (0.5 * (t_s + t_p), 0.5 * (t_s - t_p), (t_s * t_p).max(0.0).sqrt());
+        Stokes {
+            i: mean * self.i + half * self.q,
+            q: half * self.i + mean * self.q,
+            u: both * self.u,
+            v: both * self.v,
+            ..self
+        }
+    }
+
     /// What a facet reflects of light given about its plane of incidence.
     pub fn reflected(self, f: &Facing) -> Stokes {
         let (mean, half) = (f.mean(), 0.5 * (f.r_s - f.r_p));

@@ -1,7 +1,7 @@
 //! Everything about one stone: the files of `cutlab report`.
 
 use super::page::{Page, Section};
-use super::{aset, sections};
+use super::{aset, diagram, sections};
 use crate::cut::proportions::{self, Proportions};
 use crate::cut::{CutError, Design, families};
 use crate::formats::{self, FormatError};
@@ -120,6 +120,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         ("stone.toml", formats::encode(design, "toml")?),
         ("table.png", picture),
         ("aset.png", aset.png.clone()),
+        ("diagram.svg", diagram::draw(design, design.refractive_index)?.into_bytes()),
         ("scores.csv", table::csv(&plan.metrics, std::slice::from_ref(&row))?),
     ];
     let names: Vec<String> = files.iter().map(|(name, _)| name.to_string()).collect();

@@ -1,80 +1,142 @@
-//! Line drawings of a stone as SVG: crown, profile, pavilion.
+//! The cutting diagram that faceters print: two plans with the index wheel, two side views, the
+//! table of tiers, ratios; one page, A4, black on white.
 
-use crate::solid::Polyhedron;
-use glam::{DVec2, DVec3};
-use std::fmt::Write;
+mod facts;
+mod labels;
+mod pen;
+pub mod projection;
+mod rows;
+mod table;
+mod views;
+mod wheel;
 
-/// A direction to look from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum View {
-    /// From above: the facets that face up.
-    Crown,
-    /// From below, turned about the x axis: the facets that face down.
-    Pavilion,
-    /// From the front (−y), table up.
-    Profile,
+pub use projection::View;
+
+use crate::cut::{Design, proportions};
+use crate::solid::SolidError;
+use glam::DVec2;
+use pen::{Anchor, PAGE, Pen};
+use table::Set;
+use views::Stone;
+
+/// Edge of the page that stays white, in mm: what any printer reaches.
+const MARGIN: f64 = 12.0;
+
+/// Size of captions, and the height of their line, in mm.
+const CAPTION: f64 = 2.4;
+const CAPTION_LINE: f64 = 4.0;
+
+/// Space between the parts of the page, in mm.
+const SPACE: f64 = 3.0;
+
+/// How large the drawings may be, the first choice first: width of a plan with its wheel, most
+/// height of the side views, and the least print of the table at which it is still the choice.
+const CHOICES: [(f64, f64, f64); 5] =
+    [(92.0, 66.0, 2.5), (92.0, 48.0, 2.3), (84.0, 40.0, 2.2), (76.0, 32.0, 2.0), (68.0, 26.0, 1.8)];
+
+/// The diagram of a design as an SVG document of one page.
+///
+/// - `index`: the index of refraction that the angles are for, if it is known
+///
+/// Facets carry the names of their tiers where those are short, else P1, G1, C1, T … in cutting
+/// order; the table tells which is which. The pavilion is seen from below with the stone turned over
+/// left to right: index 0 stays at the foot and the wheel runs clockwise. The same design gives the
+/// same bytes. Errors are those of [`Design::solid`]. Checked in `tests/diagram.rs`.
+pub fn draw(design: &Design, index: Option<f64>) -> Result<String, SolidError> {
+    let solid = design.solid()?;
+    let measures = proportions::measure(&solid);
+    let rows = rows::rows(design, &solid);
+    let stone = Stone::new(&solid, &rows, design.gear);
+    let wide = PAGE.x - 2.0 * MARGIN;
+    let above = facts::above(design, &measures, index, wide);
+    let below = facts::below(design, &rows, wide);
+    let top = MARGIN + above.height() + SPACE;
+    let foot = PAGE.y - MARGIN - below.height();
+
+    let plans = |side: f64| side + CAPTION_LINE + SPACE;
+    let set = |side: f64, most: f64, least: f64| {
+        let (scale, height) = side_view(&stone, side, most);
+        let start = top + plans(side) + height + CAPTION_LINE + SPACE;
+        let room = DVec2::new(wide, foot - SPACE - start);
+        let table = match least {
+            0.0 => table::cut_short(&rows, design.gear, room),
+            _ => table::fit(&rows, design.gear, room, least),
+        };
+        table.map(|table| Layout { side, scale, height, start, table })
+    };
+    let last = CHOICES[CHOICES.len() - 1];
+    let layout = CHOICES.iter().find_map(|&(side, most, least)| set(side, most, least));
+    let layout = layout.or_else(|| set(last.0, last.1, 0.0));
+
+    let mut pen = Pen::new(&design.name);
+    above.draw(&mut pen, DVec2::new(MARGIN, MARGIN));
+    pen.rule(DVec2::new(MARGIN, top - 0.5 * SPACE), wide);
+    if let Some(layout) = layout {
+        layout.draw(&mut pen, &stone, top);
+    }
+    pen.rule(DVec2::new(MARGIN, foot - 0.3 * SPACE), wide);
+    below.draw(&mut pen, DVec2::new(MARGIN, foot));
+    Ok(pen.finish())
 }
 
-impl View {
-    /// Name under the drawing.
-    pub fn name(self) -> &'static str {
-        match self {
-            View::Crown => "crown",
-            View::Pavilion => "pavilion",
-            View::Profile => "profile",
-        }
-    }
-
-    /// Direction towards the eye.
-    fn eye(self) -> DVec3 {
-        match self {
-            View::Crown => DVec3::Z,
-            View::Pavilion => DVec3::NEG_Z,
-            View::Profile => DVec3::NEG_Y,
-        }
-    }
-
-    /// Picture coordinates, y downward.
-    fn project(self, p: DVec3) -> DVec2 {
-        match self {
-            View::Crown => DVec2::new(p.x, -p.y),
-            View::Pavilion => DVec2::new(p.x, p.y),
-            View::Profile => DVec2::new(p.x, -p.z),
-        }
-    }
+/// Where everything stands.
+struct Layout {
+    /// Width of a plan with its wheel.
+    side: f64,
+    /// Scale and height of the side views.
+    scale: f64,
+    height: f64,
+    /// Top of the table.
+    start: f64,
+    table: Set,
 }
 
-/// Inner width of a drawing in its own units; strokes are in proportion.
-const WIDTH: f64 = 200.0;
-const MARGIN: f64 = 4.0;
+/// Scale and height of the side views: the plans' scale, or less for a tall stone.
+fn side_view(stone: &Stone, side: f64, most: f64) -> (f64, f64) {
+    let tall = stone.extent(View::Side).y;
+    let scale = stone.scale(side).min(most / tall);
+    (scale, scale * tall)
+}
 
-/// One view as a self-contained `<svg>` element: the outline of every facet that faces the eye.
-/// All views of a stone share one scale.
-pub fn svg(solid: &Polyhedron, view: View) -> String {
-    let (lo, hi) = solid.bounds();
-    let scale = WIDTH / (hi - lo).truncate().max_element();
-    let middle = (lo + hi) * 0.5;
-    let place = |p: DVec3| view.project(p - middle) * scale;
-    let extent = solid.vertices.iter().map(|v| place(*v).abs()).fold(DVec2::ZERO, DVec2::max) + MARGIN;
-    let mut path = String::new();
-    for face in 0..solid.faces.len() {
-        // a facet seen edge-on is a line that its neighbours draw
-        if solid.area_vector(face).normalize_or_zero().dot(view.eye()) < 1e-9 {
-            continue;
+impl Layout {
+    fn draw(&self, pen: &mut Pen, stone: &Stone, top: f64) {
+        let middles = [0.27 * PAGE.x, 0.73 * PAGE.x];
+        let zero = wheel::index_name(stone.gear.offset, stone.gear);
+        let quarter = wheel::index_name(stone.gear.offset + 0.25 * stone.gear.teeth, stone.gear);
+        let runs = if stone.gear.teeth > 0.0 {
+            ("counter-clockwise", "clockwise")
+        } else {
+            ("clockwise", "counter-clockwise")
+        };
+        let plan = top + 0.5 * self.side;
+        let caption = top + self.side + CAPTION_LINE - 1.0;
+        for (middle, view, said) in [
+            (middles[0], View::Crown, format!("Crown, from above; indices {}", runs.0)),
+            (
+                middles[1],
+                View::Pavilion,
+                format!("Pavilion, from below, turned over left to right; indices {}", runs.1),
+            ),
+        ] {
+            let nowhere = stone.plan(pen, view, DVec2::new(middle, plan), self.side);
+            let small = if nowhere.is_empty() {
+                String::new()
+            } else {
+                format!("; too small: {}", nowhere.join(", "))
+            };
+            let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * PAGE.x - MARGIN);
+            pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);
         }
-        for (i, corner) in solid.polygon(face).enumerate() {
-            let p = place(corner);
-            let _ = write!(path, "{}{:.2} {:.2}", if i == 0 { "M" } else { "L" }, p.x, p.y);
+        let sides = caption + 1.0 + SPACE;
+        let smaller = self.scale / stone.scale(self.side);
+        let how = if smaller < 0.995 { format!(" (× {smaller:.2})") } else { String::new() };
+        for (middle, view, index) in [(middles[0], View::Side, zero), (middles[1], View::End, quarter)] {
+            stone.side(pen, view, DVec2::new(middle, sides + 0.5 * self.height), self.scale);
+            let name = if view == View::Side { "Side" } else { "End" };
+            let said = format!("{name}, from index {index}{how}");
+            let at = DVec2::new(middle, sides + self.height + CAPTION_LINE - 0.6);
+            pen.text(at, CAPTION, Anchor::Middle, false, &said);
         }
-        path.push('Z');
+        self.table.draw(pen, DVec2::new(MARGIN, self.start));
     }
-    format!(
-        "<svg viewBox=\"{:.1} {:.1} {:.1} {:.1}\" role=\"img\" aria-label=\"{}\">\
-         <path d=\"{path}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\".7\" stroke-linejoin=\"round\"/></svg>",
-        -extent.x,
-        -extent.y,
-        2.0 * extent.x,
-        2.0 * extent.y,
-        view.name()
-    )
 }

@@ -1,7 +1,8 @@
 //! The page about one stone: one HTML file that needs nothing beside it.
 
 use super::aset;
-use super::diagram::{self, View};
+use super::diagram::View;
+use super::diagram::projection;
 use crate::cut::proportions::Proportions;
 use crate::math::stats::Estimate;
 use crate::solid::Polyhedron;
@@ -67,8 +68,9 @@ pub struct Page<'a> {
     pub files: &'a [String],
 }
 
-/// Text as HTML.
-fn escaped(text: &str) -> String {
+/// Text as HTML or XML, which has no control characters.
+pub(super) fn escaped(text: &str) -> String {
+    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
@@ -169,11 +171,11 @@ impl Page<'_> {
 
     fn proportions(&self, out: &mut String) {
         *out += "<section>\n<h2>Proportions</h2>\n<div class=\"drawings\">";
-        for view in [View::Crown, View::Profile, View::Pavilion] {
+        for view in [View::Crown, View::Side, View::Pavilion] {
             let _ = write!(
                 out,
                 "<figure>{}<figcaption>{}</figcaption></figure>",
-                diagram::svg(self.solid, view),
+                projection::svg(self.solid, view),
                 view.name()
             );
         }
@@ -261,6 +263,6 @@ mod tests {
 
     #[test]
     fn names_cannot_break_the_page() {
-        assert_eq!(escaped("<b>&\"x\""), "&lt;b&gt;&amp;&quot;x&quot;");
+        assert_eq!(escaped("<b>&\"x\"\u{1}"), "&lt;b&gt;&amp;&quot;x&quot; ");
     }
 }

@@ -8,7 +8,7 @@
 use crate::experiments::exact::Strongest;
 use crate::experiments::view::{Band, band};
 use crate::walk::Stone;
-use crate::walk::beams::{Beams, Exit, Lit, Rest, Watch};
+use crate::walk::beams::{Beams, Exit, Lit, Rest, Until, Watch};
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
@@ -40,9 +40,14 @@ pub struct Pattern {
     pub shares: [f64; 5],
 }
 
+/// Footprints with less than this share of the outline have thinner lines, or the lines would hide
+/// the tones.
+const FINE: f64 = 1e-4;
+
 /// Polygons of each tone as path data.
 struct Drawing {
-    paths: [String; 5],
+    /// Large ones, and fine ones.
+    paths: [[String; 5]; 2],
     shares: [f64; 5],
     polygons: usize,
     middle: DVec2,
@@ -69,10 +74,11 @@ impl Watch<Strongest, 1> for Drawing {
     fn rest(&mut self, rest: &Rest<Strongest, 1>) {
         let Strongest { best, towards, .. } = rest.light;
         let tone = if best > 0.0 { band(towards.z as f32) as usize } else { Band::Below as usize + 1 };
-        let mut path = std::mem::take(&mut self.paths[tone]);
-        let corners = rest.footprint.iter().map(|c| self.place(rest.entrance.point(c.at)));
+        let fine = usize::from(rest.share < FINE);
+        let mut path = std::mem::take(&mut self.paths[fine][tone]);
+        let corners = rest.footprint.iter().map(|c| self.place(rest.entrance.point(*c)));
         Self::polygon(&mut path, corners);
-        self.paths[tone] = path;
+        self.paths[fine][tone] = path;
         self.shares[tone] += rest.share;
         self.polygons += 1;
     }
@@ -99,7 +105,7 @@ pub fn draw(stone: &Stone, index: f64, stop_power: f64) -> Pattern {
     beams.follow(
         &Lit { direction: DVec3::NEG_Z, indices: [index] },
         Strongest::FRESH,
-        stop_power,
+        Until::power(stop_power),
         &mut drawing,
     );
     let mut facets = String::new();
@@ -121,10 +127,15 @@ impl Drawing {
              patternTransform=\"rotate(45)\"><rect width=\"5\" height=\"5\" fill=\"#fff\"/>\
              <rect width=\"1\" height=\"5\" fill=\"#777\"/></pattern>\n\
              <rect x=\"{left}\" y=\"{left}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n\
-             <g stroke=\"#333\" stroke-width=\".35\" stroke-linejoin=\"round\">\n"
+             <g stroke=\"#333\" stroke-linejoin=\"round\">\n"
         );
-        for ((name, fill, _), path) in TONES.iter().zip(&self.paths).filter(|(_, path)| !path.is_empty()) {
-            let _ = writeln!(svg, "<path id=\"{name}\" fill=\"{fill}\" d=\"{path}\"/>");
+        for (size, paths, line) in [("large", &self.paths[0], 0.35), ("fine", &self.paths[1], 0.06)] {
+            for ((name, fill, _), path) in TONES.iter().zip(paths).filter(|(_, path)| !path.is_empty()) {
+                let _ = writeln!(
+                    svg,
+                    "<path id=\"{name}-{size}\" fill=\"{fill}\" stroke-width=\"{line}\" d=\"{path}\"/>"
+                );
+            }
         }
         let _ = writeln!(
             svg,

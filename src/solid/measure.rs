@@ -83,7 +83,7 @@ pub fn polygon_area(p: &[DVec2]) -> f64 {
 }
 
 /// Andrew's monotone chain.
-fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+pub(crate) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut hull: Vec<DVec2> = Vec::new();
@@ -105,7 +105,7 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 
 /// Least width over all directions, and the extent across it. The least width has one side of the
 /// hull flush with a caliper.
-fn calipers(hull: &[DVec2]) -> (f64, f64) {
+pub fn calipers(hull: &[DVec2]) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0);
     for i in 0..hull.len() {
         let along = hull[(i + 1) % hull.len()] - hull[i];

@@ -1,9 +1,11 @@
 //! Triangles of a solid's facets, by constrained Delaunay triangulation.
 
-use super::polyhedron::Polyhedron;
+use super::polyhedron::{Face, Fate, Polyhedron};
+use super::surface::{welded, without_repeats};
 use crate::math::sample;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use std::collections::HashMap;
 
 /// A triangulated surface.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +19,34 @@ pub struct Mesh {
 }
 
 impl Polyhedron {
+    /// The solid with corners nearer than `distance` to each other made one. Faces that shrink to an
+    /// edge or a point go, and count as redundant.
+    pub fn welded(&self, distance: f64) -> Polyhedron {
+        let first = welded(&self.vertices, distance);
+        if first.iter().enumerate().all(|(i, &f)| i == f) {
+            return self.clone();
+        }
+        let mut number: HashMap<usize, usize> = HashMap::new();
+        let mut solid = Polyhedron { vertices: Vec::new(), faces: Vec::new(), fates: self.fates.clone() };
+        for face in &self.faces {
+            let corners = without_repeats(face.corners.iter().map(|&c| first[c]));
+            if corners.len() < 3 {
+                solid.fates[face.plane] = Fate::Redundant;
+                continue;
+            }
+            solid.fates[face.plane] = Fate::Facet(solid.faces.len());
+            let mut numbered = |c: usize| {
+                *number.entry(c).or_insert_with(|| {
+                    solid.vertices.push(self.vertices[c]);
+                    solid.vertices.len() - 1
+                })
+            };
+            let corners = corners.into_iter().map(&mut numbered).collect();
+            solid.faces.push(Face { plane: face.plane, corners });
+        }
+        solid
+    }
+
     /// The facets as triangles: no sliver where a better diagonal exists, every edge shared by two.
     ///
     /// Each facet's corners are laid into its plane and triangulated with the outline as
@@ -26,10 +56,8 @@ impl Polyhedron {
         let mut mesh = Mesh { vertices: self.vertices.clone(), ..Mesh::default() };
         for (number, face) in self.faces.iter().enumerate() {
             let normal = self.area_vector(number).normalize_or_zero();
-            let triangles = delaunay(self, &face.corners, normal)
-                .filter(|t| t.len() == face.corners.len() - 2)
-                .unwrap_or_else(|| fan(face.corners.len()));
-            for t in triangles {
+            let corners: Vec<DVec3> = self.polygon(number).collect();
+            for t in triangles_of(&corners, normal) {
                 mesh.triangles.push(t.map(|i| face.corners[i]));
                 mesh.faces.push(number);
             }
@@ -38,15 +66,25 @@ impl Polyhedron {
     }
 }
 
-/// Triangles of one facet as numbers into its corners, counter-clockwise about `normal`.
-fn delaunay(solid: &Polyhedron, corners: &[usize], normal: DVec3) -> Option<Vec<[usize; 3]>> {
+/// Triangles of a plane polygon, convex or not, as numbers into its corners, counter-clockwise
+/// about `normal`; as a fan if its outline crosses or touches itself.
+pub(super) fn triangles_of(corners: &[DVec3], normal: DVec3) -> Vec<[usize; 3]> {
+    if corners.len() == 3 {
+        return fan(3);
+    }
     let (u, v) = sample::frame(normal.as_vec3());
     let (u, v) = (u.as_dvec3(), v.as_dvec3());
+    let flat = |p: &DVec3| DVec2::new((*p - corners[0]).dot(u), (*p - corners[0]).dot(v));
+    delaunay(&corners.iter().map(flat).collect::<Vec<_>>())
+        .filter(|t| t.len() == corners.len() - 2)
+        .unwrap_or_else(|| fan(corners.len()))
+}
+
+fn delaunay(corners: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut handles = Vec::with_capacity(corners.len());
-    for &c in corners {
-        let p = solid.vertices[c] - solid.vertices[corners[0]];
-        handles.push(cdt.insert(Point2::new(p.dot(u), p.dot(v))).ok()?);
+    for p in corners {
+        handles.push(cdt.insert(Point2::new(p.x, p.y)).ok()?);
     }
     if cdt.num_vertices() != corners.len() {
         return None;
@@ -58,7 +96,17 @@ fn delaunay(solid: &Polyhedron, corners: &[usize], normal: DVec3) -> Option<Vec<
         }
         cdt.add_constraint(a, b);
     }
-    Some(cdt.inner_faces().map(|f| f.vertices().map(|v| v.index())).collect())
+    let triangles = cdt.inner_faces().map(|f| f.vertices().map(|v| v.index()));
+    Some(triangles.filter(|t| holds(corners, t.iter().map(|&i| corners[i]).sum::<DVec2>() / 3.0)).collect())
+}
+
+/// Whether the point lies inside the polygon.
+fn holds(polygon: &[DVec2], p: DVec2) -> bool {
+    let crossed = |i: &usize| {
+        let (a, b) = (polygon[*i], polygon[(i + 1) % polygon.len()]);
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    (0..polygon.len()).filter(crossed).count() % 2 == 1
 }
 
 fn fan(n: usize) -> Vec<[usize; 3]> {

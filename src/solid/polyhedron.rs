@@ -4,9 +4,9 @@
 //! outside), and all facets around it use that judgement, so the result is a closed surface by
 //! construction however the roundings fall.
 
+use super::carving::Carving;
 use super::plane::Plane;
-use glam::{DMat3, DVec3};
-use std::collections::HashMap;
+use glam::DVec3;
 
 /// A corner nearer to a plane than this, times the largest distance of the planes from the origin,
 /// lies on it. Tried in turn until every cut leaves one closed outline: the first is far above the
@@ -18,6 +18,17 @@ const ON_PLANE: [f64; 5] = [1e-10, 1e-9, 1e-8, 1e-7, 1e-6];
 /// Half the side of the box that is cut, times the same distance: a stone that reaches further is
 /// called open.
 const BOX: f64 = 1e4;
+
+/// A stone so many times smaller than the largest distance of its planes is carved again by its own
+/// measure.
+const SMALL: f64 = 16.0;
+
+/// So many times its own radius a solid may lie from the origin.
+const AFAR: f64 = 1e5;
+
+/// A solid of less volume than this, times the cube of its radius, is refused: a needle a thousand
+/// times as long as it is wide has more.
+const SLIVER: f64 = 1e-7;
 
 /// One facet of a polyhedron.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +88,24 @@ pub enum SolidError {
         /// Its distance as given.
         distance: f64,
     },
+    /// A solid so far from the origin that `f64` has too few digits left for its shape.
+    #[error(
+        "the planes bound a solid of radius {radius:.1e} at {distance:.1e} from the origin, too far to be resolved"
+    )]
+    Afar {
+        /// Radius of the solid.
+        radius: f64,
+        /// Distance of its centre from the origin.
+        distance: f64,
+    },
+    /// A needle or a film, whose corners `f64` cannot tell apart.
+    #[error("the planes bound a sliver: its volume is {:.1e} of the cube of its radius", .volume / .cube)]
+    Sliver {
+        /// Its volume.
+        volume: f64,
+        /// The cube of its radius.
+        cube: f64,
+    },
     /// A cut whose outline did not close: the planes are too nearly degenerate for `f64`.
     #[error("plane {plane} meets the others too nearly degenerately to be resolved")]
     Degenerate {
@@ -90,9 +119,6 @@ fn list(planes: &[usize]) -> String {
     let more = if planes.len() > 8 { " …" } else { "" };
     format!("{}{more}", shown.join(", "))
 }
-
-/// Marks a face of the starting box instead of a given plane.
-const OF_THE_BOX: usize = usize::MAX;
 
 impl Polyhedron {
     /// The solid `{x : n·x ≤ d for every plane}`.
@@ -108,6 +134,19 @@ impl Polyhedron {
             }
         }
         let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
+        let solid = Self::resolved(planes, size)?;
+        let (centre, radius) = solid.bounding_sphere();
+        let distance = centre.length();
+        if distance > AFAR * radius {
+            return Err(SolidError::Afar { radius, distance });
+        }
+        if radius * SMALL < size { Self::near(planes, centre, radius) } else { Ok(solid) }
+    }
+
+    /// Carved with the least tolerance that leaves every outline closed.
+    ///
+    /// - `size`: what tolerance and box are measured by
+    fn resolved(planes: &[Plane], size: f64) -> Result<Self, SolidError> {
         let mut outcome = Err(SolidError::Degenerate { plane: 0 });
         for on_plane in ON_PLANE {
             outcome = Self::carved(planes, size, on_plane);
@@ -125,7 +164,29 @@ impl Polyhedron {
             fates.push(cut.by(i, planes)?);
         }
         cut.refuse_open(size)?;
-        Ok(cut.finish(planes, fates))
+        let solid = cut.finish(planes, fates);
+        let (volume, cube) = (solid.volume(), solid.bounding_sphere().1.powi(3));
+        if volume > SLIVER * cube { Ok(solid) } else { Err(SolidError::Sliver { volume, cube }) }
+    }
+
+    /// The solid again, for a stone that is small beside some plane's distance: seen from its own
+    /// centre, so that the tolerance is the stone's, and without the planes that lie far beyond it.
+    fn near(planes: &[Plane], centre: DVec3, radius: f64) -> Result<Self, SolidError> {
+        let reach = 2.0 * radius;
+        let (numbers, moved): (Vec<usize>, Vec<Plane>) = planes
+            .iter()
+            .map(|p| p.moved(-centre))
+            .enumerate()
+            .filter(|(_, p)| p.distance.abs() <= reach)
+            .unzip();
+        let mut solid = Self::resolved(&moved, reach)?;
+        solid.vertices.iter_mut().for_each(|v| *v += centre);
+        solid.faces.iter_mut().for_each(|f| f.plane = numbers[f.plane]);
+        let mut fates = vec![Fate::Redundant; planes.len()];
+        for (number, fate) in numbers.iter().zip(solid.fates) {
+            fates[*number] = if let Fate::Duplicate(of) = fate { Fate::Duplicate(numbers[of]) } else { fate };
+        }
+        Ok(Self { fates, ..solid })
     }
 
     /// Number of edges.
@@ -142,190 +203,6 @@ impl Polyhedron {
     pub fn polygon(&self, face: usize) -> impl ExactSizeIterator<Item = DVec3> + Clone + '_ {
         self.faces[face].corners.iter().map(|&v| self.vertices[v])
     }
-}
-
-/// The solid while it is being cut.
-struct Carving {
-    vertices: Vec<DVec3>,
-    faces: Vec<Face>,
-    on_plane: f64,
-}
-
-impl Carving {
-    fn box_of(half: f64, on_plane: f64) -> Self {
-        let vertices = (0..8)
-            .map(|i| {
-                let side = |bit: usize| if i >> bit & 1 == 1 { half } else { -half };
-                DVec3::new(side(0), side(1), side(2))
-            })
-            .collect();
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-            .map(|c| Face { plane: OF_THE_BOX, corners: c.to_vec() })
-            .to_vec();
-        Self { vertices, faces, on_plane }
-    }
-
-    /// Cuts by plane `number` of `planes`.
-    fn by(&mut self, number: usize, planes: &[Plane]) -> Result<Fate, SolidError> {
-        let plane = &planes[number];
-        let side: Vec<i8> = self
-            .vertices
-            .iter()
-            .map(|&v| {
-                let h = plane.height(v);
-                if h.abs() <= self.on_plane { 0 } else { h.signum() as i8 }
-            })
-            .collect();
-        let used = || self.faces.iter().flat_map(|f| f.corners.iter().map(|&c| side[c]));
-        if !used().any(|s| s > 0) {
-            let twin = self.faces.iter().find(|f| f.corners.iter().all(|&c| side[c] == 0));
-            return Ok(twin.map_or(Fate::Redundant, |f| Fate::Duplicate(f.plane)));
-        }
-        if !used().any(|s| s < 0) {
-            return Err(SolidError::Nothing { plane: number });
-        }
-        let mut on_cut: HashMap<(usize, usize), usize> = HashMap::new();
-        let mut rim: HashMap<usize, usize> = HashMap::new();
-        let faces = std::mem::take(&mut self.faces);
-        for face in faces {
-            if !face.corners.iter().any(|&c| side[c] < 0) {
-                continue;
-            }
-            let mut kept = Vec::with_capacity(face.corners.len() + 1);
-            for (i, &a) in face.corners.iter().enumerate() {
-                let b = face.corners[(i + 1) % face.corners.len()];
-                if side[a] <= 0 {
-                    kept.push(a);
-                }
-                if side[a] * side[b] < 0 {
-                    let next = self.vertices.len();
-                    let v = *on_cut.entry((a.min(b), a.max(b))).or_insert(next);
-                    if v == next {
-                        self.vertices.push(between(plane, self.vertices[a], self.vertices[b]));
-                    }
-                    kept.push(v);
-                }
-            }
-            let on = |c: usize| c >= side.len() || side[c] == 0;
-            for (i, &a) in kept.iter().enumerate() {
-                let b = kept[(i + 1) % kept.len()];
-                if on(a) && on(b) && rim.get(&a) != Some(&b) {
-                    rim.insert(b, a);
-                } else if on(a) && on(b) {
-                    rim.remove(&a); // both neighbours of this edge stay: it is no rim
-                }
-            }
-            self.faces.push(Face { plane: face.plane, corners: kept });
-        }
-        let corners = ring(rim).ok_or(SolidError::Degenerate { plane: number })?;
-        self.faces.push(Face { plane: number, corners });
-        self.settle_from(side.len(), planes);
-        Ok(Fate::Facet(0)) // the face's number is known at the end
-    }
-
-    /// Puts the corners from number `first` on onto their planes. A corner cut from an edge that
-    /// ran to the far box has that edge's rounding, ten thousand times the stone's own: unsettled,
-    /// it can miss a plane that passes through it, and the stone gets two corners in one place.
-    fn settle_from(&mut self, first: usize, planes: &[Plane]) {
-        let mut around = vec![Vec::new(); self.vertices.len() - first];
-        for f in self.faces.iter().filter(|f| f.plane != OF_THE_BOX) {
-            f.corners.iter().filter(|c| **c >= first).for_each(|&c| around[c - first].push(f.plane));
-        }
-        for (v, around) in self.vertices[first..].iter_mut().zip(&around) {
-            *v = settle(*v, around, planes);
-        }
-    }
-
-    fn refuse_open(&self, size: f64) -> Result<(), SolidError> {
-        let far: Vec<usize> = self
-            .faces
-            .iter()
-            .filter(|f| f.plane == OF_THE_BOX)
-            .flat_map(|f| f.corners.iter().copied())
-            .collect();
-        if far.is_empty() {
-            return Ok(());
-        }
-        let direction = far.iter().map(|&v| self.vertices[v] / size).sum::<DVec3>();
-        let mut planes: Vec<usize> = self
-            .faces
-            .iter()
-            .filter(|f| f.plane != OF_THE_BOX && f.corners.iter().any(|c| far.contains(c)))
-            .map(|f| f.plane)
-            .collect();
-        planes.sort_unstable();
-        Err(SolidError::Open { planes, direction: direction.normalize_or(DVec3::Z) })
-    }
-
-    /// Drops what is no corner any more, puts every corner on its planes, numbers the faces.
-    fn finish(mut self, planes: &[Plane], mut fates: Vec<Fate>) -> Polyhedron {
-        let mut around = vec![Vec::new(); self.vertices.len()];
-        for f in &self.faces {
-            f.corners.iter().for_each(|&c| around[c].push(f.plane));
-        }
-        for f in &mut self.faces {
-            f.corners.retain(|&c| around[c].len() > 2);
-        }
-        self.faces.retain(|f| f.corners.len() > 2);
-        self.faces.sort_by_key(|f| f.plane);
-        let mut number = vec![usize::MAX; self.vertices.len()];
-        let mut vertices = Vec::new();
-        for f in &mut self.faces {
-            for c in &mut f.corners {
-                if number[*c] == usize::MAX {
-                    number[*c] = vertices.len();
-                    vertices.push(settle(self.vertices[*c], &around[*c], planes));
-                }
-                *c = number[*c];
-            }
-        }
-        let mut face_of = HashMap::new();
-        self.faces.iter().enumerate().for_each(|(i, f)| {
-            face_of.insert(f.plane, i);
-        });
-        for (i, fate) in fates.iter_mut().enumerate() {
-            if let Fate::Facet(_) = fate {
-                *fate = face_of.get(&i).map_or(Fate::Redundant, |&f| Fate::Facet(f));
-            }
-        }
-        Polyhedron { vertices, faces: self.faces, fates }
-    }
-}
-
-/// Where the edge from `a` to `b` passes the plane.
-fn between(plane: &Plane, a: DVec3, b: DVec3) -> DVec3 {
-    let (ha, hb) = (plane.height(a), plane.height(b));
-    a + (b - a) * (ha / (ha - hb))
-}
-
-/// Chains directed edges into one closed ring; none if they do not form one.
-fn ring(next: HashMap<usize, usize>) -> Option<Vec<usize>> {
-    let start = *next.keys().min()?;
-    let mut corners = vec![start];
-    let mut at = next[&start];
-    while at != start {
-        corners.push(at);
-        if corners.len() > next.len() {
-            return None;
-        }
-        at = *next.get(&at)?;
-    }
-    (corners.len() == next.len() && corners.len() > 2).then_some(corners)
-}
-
-/// Moves a corner by least squares onto the planes that meet in it, undoing the rounding of the
-/// cuts; a corner of nearly parallel planes, where that is not determined, stays.
-fn settle(p: DVec3, around: &[usize], planes: &[Plane]) -> DVec3 {
-    let (mut m, mut rhs) = (DMat3::ZERO, DVec3::ZERO);
-    for &i in around {
-        let n = planes[i].normal;
-        m += DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-        rhs -= n * planes[i].height(p);
-    }
-    if m.determinant() < 1e-12 {
-        return p;
-    }
-    p + m.inverse() * rhs
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! triangles. What comes out are the planes that the stone was cut by, and whether the mesh was
 //! a closed convex surface at all.
 
+use super::body::{Body, BodyFacet};
 use super::plane::Plane;
 use super::polyhedron::{Polyhedron, SolidError};
 use super::surface::{Surface, welded};
@@ -17,9 +18,9 @@ const WELD: [f64; 4] = [1e-9, 1e-6, 1e-5, 1e-4];
 
 /// Heights within which the corners of two neighbours are coplanar, in parts of the mesh's
 /// diagonal, tried in turn until the facets make a convex solid of the mesh's volume. The first is
-/// ten times the rounding of `f32`, and a tenth of the sagitta of a girdle of 2,000 flats; the last
-/// still is below a micrometre on a stone of 6.5 mm.
-const COPLANAR: [f64; 3] = [1e-6, 1e-5, 1e-4];
+/// ten times the rounding of `f32` in a corner (2^-25 of a coordinate); the second a tenth of the
+/// sagitta of a girdle of 2,000 flats; the last still is below a micrometre on a stone of 6.5 mm.
+const COPLANAR: [f64; 4] = [3e-7, 1e-6, 1e-5, 1e-4];
 
 /// A corner may stand out of a facet's plane by the coplanar tolerance, or by this part of it over
 /// the facet's narrowness if that is more: the roundings that the tolerance is meant for are a few
@@ -66,19 +67,6 @@ pub struct Recovered {
     verdict: Result<(), RecoverError>,
 }
 
-/// A closed surface that is not convex.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dented {
-    /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
-    pub stands_out: f64,
-    /// Number of facets: flat regions of its surface.
-    pub facets: usize,
-    /// The volume it encloses, in the mesh's unit cubed.
-    pub volume: f64,
-    /// Smallest and largest coordinates.
-    pub bounds: (DVec3, DVec3),
-}
-
 /// A mesh of which no convex stone can be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecoverError {
@@ -108,13 +96,13 @@ pub enum RecoverError {
     #[error("the mesh is open: {0} edges are not shared by exactly two faces; only closed meshes are read")]
     Open(usize),
     /// Several surfaces.
-    #[error("the mesh holds {0} separate closed surfaces: one stone is wanted")]
-    Shells(usize),
+    #[error("the mesh holds {} separate closed surfaces: it is a mesh, not one convex stone", .0.shells)]
+    Shells(Box<Body>),
     /// A dent.
     #[error(
-        "the mesh is not convex: a corner stands out of a facet's plane by {:.1e} of its size; only convex stones are cut, traced and written", .0.stands_out
+        "the mesh is not convex: a corner stands out of a facet's plane by {:.1e} of its size; it is a mesh, not a convex stone", .0.stands_out
     )]
-    NotConvex(Box<Dented>),
+    NotConvex(Box<Body>),
     /// The planes leave another solid than the mesh.
     #[error("the facet planes enclose a volume of {planes}, the mesh one of {mesh}")]
     Volume {
@@ -214,23 +202,32 @@ fn judge(
         let doubt = (DOUBT / narrowness).max(1.0);
         convex &= out <= tolerance * doubt;
         stands_out = stands_out.max(out);
-        let name = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name).find(|n| !n.is_empty());
-        facets.push((name.map_or_else(String::new, |n| n.to_string()), plane));
+        facets.push((name_of(surface, polygons, region), plane));
     }
     let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
+    let body = || {
+        let named = |r: &Vec<usize>| BodyFacet {
+            name: name_of(surface, polygons, r),
+            normal: surface.area_of(r).normalize_or(DVec3::Z),
+        };
+        let facets = regions.iter().map(named).collect();
+        let (vertices, triangles, facet_of) = surface.triangles(&regions);
+        let shells = surface.shells;
+        Box::new(Body { vertices, facets, triangles, facet_of, shells, stands_out, volume })
+    };
     let verdict = match (surface.open_edges, surface.shells, convex) {
         (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
-        (_, 2.., _) => Err(RecoverError::Shells(surface.shells)),
-        (_, _, false) => {
-            let bounds = corners
-                .iter()
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)));
-            let facets = regions.len();
-            Err(RecoverError::NotConvex(Box::new(Dented { stands_out, facets, volume, bounds })))
-        }
+        (_, 2.., _) => Err(RecoverError::Shells(body())),
+        (_, _, false) => Err(RecoverError::NotConvex(body())),
         _ => enclose(&facets, volume, tolerance),
     };
     Ok(Recovered { facets, open_edges: surface.open_edges, convex, stands_out, volume, tolerance, verdict })
+}
+
+/// The first name among a region's polygons.
+fn name_of(surface: &Surface, polygons: &[Polygon], region: &[usize]) -> String {
+    let names = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name);
+    names.into_iter().find(|n| !n.is_empty()).map_or_else(String::new, |n| n.to_string())
 }
 
 /// Checks that the planes enclose the mesh's volume.
@@ -241,6 +238,16 @@ fn enclose(facets: &[(String, Plane)], mesh: f64, tolerance: f64) -> Result<(), 
         Ok(())
     } else {
         Err(RecoverError::Volume { planes: volume, mesh })
+    }
+}
+
+impl RecoverError {
+    /// The closed surface that is no convex stone; none where there is no closed surface.
+    pub fn body(&self) -> Option<&Body> {
+        match self {
+            RecoverError::Shells(body) | RecoverError::NotConvex(body) => Some(body),
+            _ => None,
+        }
     }
 }
 

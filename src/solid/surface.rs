@@ -1,9 +1,10 @@
 //! A mesh as a surface: welded corners, consistent outward winding, coplanar regions.
 
+use super::mesh::triangles_of;
 use super::plane::Plane;
 use super::recover::Polygon;
 use glam::DVec3;
-use std::collections::{HashMap, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 
 /// Names differ and stated normals differ by more than this: two facets, however nearly coplanar.
 /// Far above the rounding of `f64`, far below any angle cut on purpose.
@@ -52,7 +53,7 @@ pub(super) fn welded(vertices: &[DVec3], distance: f64) -> Vec<usize> {
 }
 
 /// The ring without repeated corners and without spikes (`a b a`).
-fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize> {
+pub(super) fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut ring: Vec<usize> = Vec::new();
     for c in corners {
         ring.push(c);
@@ -91,9 +92,13 @@ impl Surface {
     /// The surface of the polygons, corners replaced by those they are welded to.
     pub fn of(vertices: &[DVec3], polygons: &[Polygon], first: &[usize]) -> Surface {
         let mut surface = Surface { vertices: vertices.to_vec(), ..Surface::default() };
+        // faces that are drawn from both sides are there twice
+        let mut seen = HashSet::new();
         for (polygon, p) in polygons.iter().enumerate() {
             let corners = without_repeats(p.corners.iter().map(|&c| first[c]));
-            if corners.len() > 2 {
+            let mut set = corners.clone();
+            set.sort_unstable();
+            if corners.len() > 2 && seen.insert(set) {
                 let area = area_vector(vertices, &corners);
                 surface.faces.push(SurfaceFace { polygon, corners, area });
             }
@@ -245,6 +250,40 @@ impl Surface {
             && a.normal.zip(b.normal).is_some_and(apart)
     }
 
+    /// The area of a region as a vector along its outward normal.
+    pub fn area_of(&self, region: &[usize]) -> DVec3 {
+        region.iter().map(|&f| self.faces[f].area).sum()
+    }
+
+    /// Corners in use, triangles in those corners, and the region of each. A face without area,
+    /// which is of no region, goes with a neighbour: without it the surface would be open.
+    pub fn triangles(&self, regions: &[Vec<usize>]) -> (Vec<DVec3>, Vec<[usize; 3]>, Vec<usize>) {
+        let mut number: HashMap<usize, usize> = HashMap::new();
+        let mut vertices = Vec::new();
+        let mut region_of: HashMap<usize, usize> = HashMap::new();
+        regions.iter().enumerate().for_each(|(r, faces)| {
+            faces.iter().for_each(|&f| {
+                region_of.insert(f, r);
+            });
+        });
+        let (mut triangles, mut regions) = (Vec::new(), Vec::new());
+        for (f, face) in self.faces.iter().enumerate() {
+            let beside = || self.neighbours[f].iter().find_map(|g| region_of.get(g));
+            let region = region_of.get(&f).or_else(beside).copied().unwrap_or_default();
+            let points: Vec<DVec3> = face.corners.iter().map(|&c| self.vertices[c]).collect();
+            for triangle in triangles_of(&points, face.area.normalize_or(DVec3::Z)) {
+                triangles.push(triangle.map(|i| {
+                    *number.entry(face.corners[i]).or_insert_with(|| {
+                        vertices.push(points[i]);
+                        vertices.len() - 1
+                    })
+                }));
+                regions.push(region);
+            }
+        }
+        (vertices, triangles, regions)
+    }
+
     fn points(&self, region: &[usize]) -> impl Iterator<Item = DVec3> + Clone {
         region.iter().flat_map(|&f| self.faces[f].corners.iter().map(|&c| self.vertices[c]))
     }
@@ -258,7 +297,7 @@ impl Surface {
         stated_within: f64,
         broad: bool,
     ) -> Option<Plane> {
-        let area: DVec3 = region.iter().map(|&f| self.faces[f].area).sum();
+        let area = self.area_of(region);
         // corners as the file has them: welding moves some by more than `stated_within`
         let own = || region.iter().flat_map(|&f| &polygons[self.faces[f].polygon].corners);
         let levelled = |normal: DVec3| {
@@ -287,7 +326,7 @@ impl Surface {
 
     /// Area of a region over its longest extent and the mesh's size: how well its normal is known.
     pub fn narrowness(&self, region: &[usize], size: f64) -> f64 {
-        let area: DVec3 = region.iter().map(|&f| self.faces[f].area).sum();
+        let area = self.area_of(region);
         let (lo, hi) = self
             .points(region)
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));

@@ -11,18 +11,17 @@ mod clip;
 mod facets;
 mod frame;
 mod light;
+mod queue;
 pub mod remainder;
-mod run;
+pub(super) mod run;
 
-pub use clip::Corner;
 pub use facets::{Facets, WELD};
 pub use frame::{Entrance, Frame};
 pub use light::{Interface, Light, Scalar};
 
-use super::Stone;
+use super::{Stone, dispatch};
 use crate::solid::Plane;
 use glam::{DVec2, DVec3};
-use light::refract;
 
 /// A facet faces along a beam if the cosine is above this; one that is seen edge-on has no area.
 const FACING: f64 = 1e-13;
@@ -52,7 +51,7 @@ pub struct Exit<'a, L, const K: usize> {
     /// Facets met inside, this one included.
     pub meetings: u32,
     /// Its footprint in the plane of the entry facet, counter-clockwise.
-    pub footprint: &'a [Corner],
+    pub footprint: &'a [DVec2],
     /// Its power, as a share of the light on the outline of the stone.
     pub power: f64,
     /// The footprint's share of the outline.
@@ -69,8 +68,8 @@ pub struct Exit<'a, L, const K: usize> {
 impl<L, const K: usize> Exit<'_, L, K> {
     /// Unit direction outside of line `k`; none if that line is reflected totally.
     pub fn direction_of(&self, k: usize) -> Option<DVec3> {
-        let (_, cos_t, passed) = refract(self.frames[k].direction, self.normal, 1.0 / self.indices[k]);
-        (cos_t > 0.0).then_some(passed)
+        let at = Interface::new(self.frames[k].direction, self.normal, 1.0 / self.indices[k], true);
+        (at.facing.cos_t > 0.0).then_some(at.passed)
     }
 }
 
@@ -79,35 +78,54 @@ impl<L, const K: usize> Exit<'_, L, K> {
 pub struct Rest<'a, L, const K: usize> {
     /// Where it entered.
     pub entrance: &'a Entrance,
-    /// The facet that it has just been thrown back by.
+    /// The facet that it leaves: thrown back by it, or entering there.
     pub facet: usize,
+    /// The facet's plane, walking frame.
+    pub plane: Plane,
     /// Its footprint in the plane of the entry facet, counter-clockwise.
-    pub footprint: &'a [Corner],
-    /// Its power, as a share of the light on the outline of the stone.
+    pub footprint: &'a [DVec2],
+    /// Its power, as a share of the light on the outline.
     pub power: f64,
     /// The footprint's share of the outline.
     pub share: f64,
     /// Its light, as a share of the light that fell on the footprint.
     pub light: L,
-    /// The beam that arrived at the facet, line by line.
-    arrives: &'a [Frame; K],
-    plane: Plane,
+    /// The beam, line by line.
+    pub frames: &'a [Frame; K],
 }
 
-impl<L, const K: usize> Rest<'_, L, K> {
-    /// Unit direction of line `k` after the facet.
-    pub fn direction_of(&self, k: usize) -> DVec3 {
-        self.arrives[k].mirrored(&self.plane).direction
+/// When to leave beams to the caller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Until {
+    /// A beam is not followed when its power is below this share of the light on the outline.
+    pub power: f64,
+    /// None is when all beams still to be followed hold less than this share together. The strongest
+    /// go first, so that this is reached with about the fewest.
+    pub left: f64,
+    /// A beam is not followed after so many facets inside, [`FACETS_LIMIT`] at most.
+    pub facets: u32,
+}
+
+impl Until {
+    /// Follows beams down to a power.
+    pub fn power(power: f64) -> Until {
+        Until { power, left: 0.0, facets: FACETS_LIMIT }
     }
 
-    /// Where line `k` of the ray that entered at (u, v) meets the facet, walking frame.
-    pub fn point_of(&self, k: usize, uv: DVec2) -> DVec3 {
-        self.arrives[k].point_on(uv, &self.plane)
+    /// Follows beams until this share of the light is left.
+    pub fn left(left: f64) -> Until {
+        /// Far below what adds up to any share that matters, and far above the memory of a machine.
+        const LEAST: f64 = 1e-9;
+        Until { power: LEAST, left, facets: FACETS_LIMIT }
     }
 }
 
 /// What becomes of the beams.
 pub trait Watch<L, const K: usize> {
+    /// Light is reflected at entry, in a unit direction; its power is a share of the light on the
+    /// outline.
+    fn reflected(&mut self, _entrance: &Entrance, _direction: DVec3, _power: f64) {}
+
     /// Light leaves the stone.
     fn exit(&mut self, exit: &Exit<L, K>);
 
@@ -140,14 +158,20 @@ impl Totals {
 
 /// A stone made ready for beams.
 #[derive(Debug, Clone)]
-pub struct Beams {
+pub struct Beams<'a> {
+    stone: &'a Stone,
     facets: Facets,
 }
 
-impl Beams {
+impl<'a> Beams<'a> {
     /// Welds the corners of a stone.
-    pub fn new(stone: &Stone) -> Beams {
-        Beams { facets: Facets::new(stone) }
+    pub fn new(stone: &'a Stone) -> Self {
+        Beams { stone, facets: Facets::new(stone) }
+    }
+
+    /// The stone.
+    pub fn stone(&self) -> &'a Stone {
+        self.stone
     }
 
     /// The welded facets.
@@ -158,17 +182,16 @@ impl Beams {
     /// Follows a parallel beam along every facet sequence.
     ///
     /// - `light`: what falls on the stone, power 1
-    /// - `stop_power`: a beam is not followed when its power after reflection is below this share
-    ///   of the light on the outline
+    /// - `until`: when beams are left to the caller
     ///
     /// A stone without light on it (a direction that is not a number) gives totals of 0.
     pub fn follow<L: Light, const K: usize>(
         &self,
         lit: &Lit<K>,
         light: L,
-        stop_power: f64,
+        until: Until,
         watch: &mut impl Watch<L, K>,
     ) -> Totals {
-        run::Run::new(&self.facets, lit, stop_power, watch).all(light)
+        dispatch::follow(self.stone, run::Run::new(self, lit, until, watch), light)
     }
 }

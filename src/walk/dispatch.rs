@@ -7,9 +7,11 @@
 
 #![allow(unsafe_code)]
 
-use super::kernel;
-use super::packet::{Meeting, Packet};
+use super::beams::run::Run;
+use super::beams::{Light, Totals, Watch};
+use super::packet::{Meeting, NextFacets, Packet};
 use super::stone::{Hit, Stone};
+use super::{kernel, search};
 use glam::Vec3;
 
 /// An instruction set that this machine has.
@@ -96,20 +98,32 @@ fn meet_avx2(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
+fn next_facets_avx512(stone: &Stone, packet: &Packet, next: &mut NextFacets) {
+    search::next_facets::<true, 16, 4>(stone, packet, next);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn next_facets_avx2(stone: &Stone, packet: &Packet, next: &mut NextFacets) {
+    search::next_facets::<true, 8, 2>(stone, packet, next);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
 fn first_hit_avx512(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
-    kernel::first_hit(stone, origin, direction)
+    search::first_hit::<true>(stone, origin, direction)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn first_hit_avx2(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
-    kernel::first_hit(stone, origin, direction)
+    search::first_hit::<true>(stone, origin, direction)
 }
 
 /// [`kernel::meet`] with the stone's instruction set.
 pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
     match stone.isa.0 {
-        Level::Portable => meet_as_needed::<false, 4, 2>(stone, packet, out),
+        Level::Portable => meet_as_needed::<false, 8, 1>(stone, packet, out),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { meet_avx2(stone, packet, out) },
@@ -119,15 +133,59 @@ pub(super) fn meet(stone: &Stone, packet: &mut Packet, out: &mut Meeting) {
     }
 }
 
-/// [`kernel::first_hit`] with the stone's instruction set.
+/// [`search::next_facets`] with the stone's instruction set.
+pub(super) fn next_facets(stone: &Stone, packet: &Packet) -> NextFacets {
+    let mut next = NextFacets::default();
+    match stone.isa.0 {
+        Level::Portable => search::next_facets::<false, 8, 1>(stone, packet, &mut next),
+        // SAFETY: an Isa of this level exists only where the features were detected
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => unsafe { next_facets_avx2(stone, packet, &mut next) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => unsafe { next_facets_avx512(stone, packet, &mut next) },
+    }
+    next
+}
+
+/// [`search::first_hit`] with the stone's instruction set.
 pub(super) fn first_hit(stone: &Stone, origin: Vec3, direction: Vec3) -> Option<Hit> {
     match stone.isa.0 {
-        Level::Portable => kernel::first_hit(stone, origin, direction),
+        Level::Portable => search::first_hit::<false>(stone, origin, direction),
         // SAFETY: an Isa of this level exists only where the features were detected
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { first_hit_avx2(stone, origin, direction) },
         // SAFETY: as above
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 => unsafe { first_hit_avx512(stone, origin, direction) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
+fn follow_avx512<L: Light, W: Watch<L, K>, const K: usize>(run: Run<L, W, K>, light: L) -> Totals {
+    run.all(light)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn follow_avx2<L: Light, W: Watch<L, K>, const K: usize>(run: Run<L, W, K>, light: L) -> Totals {
+    run.all(light)
+}
+
+/// [`Run::all`] with the stone's instruction set.
+pub(super) fn follow<L: Light, W: Watch<L, K>, const K: usize>(
+    stone: &Stone,
+    run: Run<L, W, K>,
+    light: L,
+) -> Totals {
+    match stone.isa.0 {
+        Level::Portable => run.all(light),
+        // SAFETY: an Isa of this level exists only where the features were detected
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2 => unsafe { follow_avx2(run, light) },
+        // SAFETY: as above
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => unsafe { follow_avx512(run, light) },
     }
 }

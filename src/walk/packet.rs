@@ -136,6 +136,25 @@ impl Packet {
     }
 }
 
+/// The facet number of a lane that meets none: its direction is not a number.
+pub const NO_FACET: u32 = u32::MAX;
+
+/// What a packet meets next, one a lane (see [`super::Stone::next_facets`]).
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct NextFacets {
+    /// The facet, or [`NO_FACET`].
+    pub facet: [u32; LANES],
+    /// The distance to it, in units of the stone's frame; of no meaning if there is none.
+    pub distance: Lanes,
+}
+
+impl Default for NextFacets {
+    fn default() -> Self {
+        Self { facet: [NO_FACET; LANES], distance: [0.0; LANES] }
+    }
+}
+
 /// What a packet leaves at one meeting with facets, one a lane.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]

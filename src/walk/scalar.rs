@@ -23,6 +23,16 @@ pub struct Ray {
     pub stokes: Option<Stokes>,
 }
 
+impl Ray {
+    /// Goes `distance` through the stone by the law of Beer and Lambert; returns the power taken.
+    pub(super) fn absorb(&mut self, distance: f64) -> f64 {
+        let (before, left) = (self.power, (-self.absorption * distance).exp());
+        self.power *= left;
+        self.stokes = self.stokes.map(|light| light.dimmed(left));
+        before - self.power
+    }
+}
+
 /// What a ray leaves at a meeting with a facet.
 #[derive(Debug, Clone, Copy)]
 pub struct Meeting {
@@ -69,10 +79,7 @@ pub fn walk(planes: &[Plane], mut ray: Ray, stop_power: f64, mut visit: impl FnM
         let normal = planes[facet].normal;
         ray.point += ray.direction * distance;
         ray.point -= normal * planes[facet].height(ray.point);
-        let left = (-ray.absorption * distance).exp();
-        let absorbed = ray.power - ray.power * left;
-        ray.power *= left;
-        ray.stokes = ray.stokes.map(|light| light.dimmed(left));
+        let absorbed = ray.absorb(distance);
         let cos_inside = ray.direction.dot(normal).clamp(0.0, 1.0);
         let facing = Facing::new(cos_inside, 1.0 / ray.index);
         let cos_outside = facing.cos_t;

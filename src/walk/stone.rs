@@ -1,7 +1,8 @@
 //! A stone made ready for light.
 
+use super::belt::{Belt, Planes};
 use super::dispatch::{self, Isa};
-use super::packet::LANES;
+use super::packet::{NextFacets, Packet};
 use crate::optics::fresnel::Facing;
 use crate::solid::{Plane, Polyhedron};
 use glam::{DVec3, Vec3};
@@ -20,20 +21,22 @@ pub struct Stone {
     pub centre: DVec3,
     /// Length of one walking unit, in the design's unit.
     pub unit: f64,
-    /// Planes (normal, distance) for the packet kernel: sloping facets, then the girdle's flats.
-    pub(super) rows: Vec<[f32; 4]>,
-    /// How many of the rows are sloping facets.
-    pub(super) slopes: usize,
-    /// For each row, the facet's number.
-    pub(super) facet_of: Vec<u32>,
-    /// Square of the radius about the frame's axis within which no girdle flat is met.
-    pub(super) belt_radius2: f32,
-    /// Planes by facet for the single-ray kernel, padded to a multiple of [`LANES`] with planes that nothing meets.
-    pub(super) nx: Vec<f32>,
-    pub(super) ny: Vec<f32>,
-    pub(super) nz: Vec<f32>,
-    pub(super) d: Vec<f32>,
+    /// Planes (normal, distance) by facet for the packet kernel.
+    pub(super) facets: Vec<[f32; 4]>,
+    /// The facets that all rays of a packet try.
+    pub(super) rows: Vec<Row>,
+    /// Those that few rays need to try; part of the rows if they are few.
+    pub(super) belt: Option<Belt>,
+    /// The rows again for single rays.
+    pub(super) slopes: Vec<Planes>,
     pub(super) isa: Isa,
+}
+
+/// A plane as the packet kernel reads it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub plane: [f32; 4],
+    pub facet: u32,
 }
 
 /// Where a ray from outside meets the stone.
@@ -79,28 +82,16 @@ impl Stone {
                 Plane { normal, distance: normal.dot(corner - centre) / unit }
             })
             .collect();
-        let padded = planes.len().next_multiple_of(LANES);
-        let column = |value: &dyn Fn(&Plane) -> f64, pad: f32| {
-            let mut column: Vec<f32> = planes.iter().map(|p| value(p) as f32).collect();
-            column.resize(padded, pad);
-            column
-        };
-        let (order, slopes) = belt_last(&planes);
-        let row = |f: &usize| {
-            let n = planes[*f].normal.as_vec3();
-            [n.x, n.y, n.z, planes[*f].distance as f32]
-        };
-        // a hair less than the nearest flat, for the rounding of a ray's end
-        let belt = order[slopes..].iter().map(|f| planes[*f].distance).fold(f64::INFINITY, f64::min) - 1e-5;
+        let belt = Belt::of(&planes);
+        let slopes: Vec<usize> =
+            (0..planes.len()).filter(|f| belt.is_none() || !Belt::holds(&planes[*f])).collect();
+        let facets: Vec<[f32; 4]> =
+            planes.iter().map(|p| p.normal.as_vec3().extend(p.distance as f32).into()).collect();
         Stone {
-            rows: order.iter().map(row).collect(),
-            facet_of: order.iter().map(|f| *f as u32).collect(),
-            slopes,
-            belt_radius2: (belt.max(0.0).powi(2)) as f32,
-            nx: column(&|p| p.normal.x, 0.0),
-            ny: column(&|p| p.normal.y, 0.0),
-            nz: column(&|p| p.normal.z, 0.0),
-            d: column(&|p| p.distance, 1.0),
+            rows: slopes.iter().map(|f| Row { plane: facets[*f], facet: *f as u32 }).collect(),
+            slopes: Planes::all(&planes, &slopes),
+            facets,
+            belt,
             normals: planes.iter().map(|p| p.normal.as_vec3()).collect(),
             isa,
             planes,
@@ -135,6 +126,14 @@ impl Stone {
         dispatch::first_hit(self, origin, direction)
     }
 
+    /// The facet that every lane of a packet meets next, and how far it is: the search that a walk
+    /// does at every meeting.
+    ///
+    /// Checked in `tests/walk_search.rs` against brute force in `f64`.
+    pub fn next_facets(&self, packet: &Packet) -> NextFacets {
+        dispatch::next_facets(self, packet)
+    }
+
     /// Refraction of a ray into facet `facet`.
     ///
     /// - `direction`: unit, pointing at the facet from outside
@@ -164,31 +163,12 @@ impl Stone {
     /// The planes as the kernel has them, `f32` values widened: the scalar twin walks the very
     /// same stone.
     pub fn kernel_planes(&self) -> Vec<Plane> {
-        (0..self.planes.len())
-            .map(|i| Plane {
-                normal: DVec3::new(self.nx[i].into(), self.ny[i].into(), self.nz[i].into()),
-                distance: self.d[i].into(),
+        self.facets
+            .iter()
+            .map(|[x, y, z, distance]| Plane {
+                normal: Vec3::new(*x, *y, *z).as_dvec3(),
+                distance: (*distance).into(),
             })
             .collect()
-    }
-}
-
-/// The facets with the vertical ones last, and how many come before them.
-///
-/// The belt is left out (all facets come before it) if it is too small to be worth a look of its
-/// own.
-fn belt_last(planes: &[Plane]) -> (Vec<usize>, usize) {
-    /// Fewer flats cost less than finding out whether they are needed.
-    const FLATS_WORTH_SKIPPING: usize = 8;
-    /// Flats of a design are vertical to rounding; the cylinder inside them needs no more slack.
-    const VERTICAL: f64 = 1e-9;
-    let is_flat = |f: &usize| planes[*f].normal.z.abs() < VERTICAL;
-    let (flats, mut order): (Vec<usize>, Vec<usize>) = (0..planes.len()).partition(is_flat);
-    let slopes = order.len();
-    order.extend(&flats);
-    if flats.len() < FLATS_WORTH_SKIPPING {
-        ((0..planes.len()).collect(), planes.len())
-    } else {
-        (order, slopes)
     }
 }

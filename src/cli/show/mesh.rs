@@ -3,12 +3,15 @@
 use crate::cli::outcome::{Failure, Shape};
 use serde::Serialize;
 
-/// A closed mesh with dents: shown, though it is no stone that can be cut.
+/// A closed mesh with dents or in several parts: shown, though it is no stone that can be cut.
 #[derive(Debug, Serialize)]
 pub struct MeshSheet {
     file: String,
     format: &'static str,
     facets: usize,
+    triangles: usize,
+    /// Separate closed surfaces.
+    parts: usize,
     closed: bool,
     convex: bool,
     /// In the file's own unit cubed.
@@ -20,17 +23,20 @@ pub struct MeshSheet {
 }
 
 impl MeshSheet {
-    /// What is known of the file; none if it is not a mesh with dents.
+    /// What is known of the file; none if it is no closed mesh.
     pub fn of(file: &str, failure: &Failure) -> Option<MeshSheet> {
-        let Shape { format, closed, dented: Some(mesh), .. } = failure.shape()? else { return None };
+        let Shape { format, closed, body: Some(mesh), .. } = failure.shape()? else { return None };
+        let (low, high) = mesh.bounds();
         Some(MeshSheet {
             file: file.into(),
             format,
-            facets: mesh.facets,
-            closed,
+            facets: mesh.facets.len(),
+            triangles: mesh.triangles.len(),
+            parts: mesh.shells,
+            closed: *closed,
             convex: false,
             volume: mesh.volume,
-            bounds: [mesh.bounds.0.to_array(), mesh.bounds.1.to_array()],
+            bounds: [low.to_array(), high.to_array()],
             reason: failure.message(),
         })
     }
@@ -40,11 +46,13 @@ impl MeshSheet {
         let [low, high] = self.bounds;
         let side = |a: usize| format!("{:.6}", high[a] - low[a]);
         format!(
-            "{} ({})\n  facets          {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
+            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
              file's own unit\n  closed          yes\n  convex          no\n  note            {}\n",
             self.file,
             self.format,
             self.facets,
+            self.triangles,
+            if self.parts == 1 { "one part".into() } else { format!("{} parts", self.parts) },
             side(0),
             side(1),
             side(2),

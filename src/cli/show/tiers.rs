@@ -1,6 +1,7 @@
 //! The tiers of a design, as `cutlab show` lists them.
 
 use crate::cut::Tier;
+use crate::cut::design::read_alike;
 use serde::Serialize;
 
 /// One tier of the design.
@@ -29,10 +30,7 @@ impl TierRow {
 
     /// Whether two rows differ in their distances only: the girdle of a fancy outline.
     pub fn reads_like(&self, other: &TierRow) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() < 0.005;
-        !self.name.is_empty()
-            && self.name == other.name
-            && self.angle_deg.zip(other.angle_deg).is_some_and(|(a, b)| same(a, b))
+        read_alike((&self.name, self.angle_deg), (&other.name, other.angle_deg))
     }
 
     /// Rows that read alike, as one.

@@ -137,8 +137,9 @@ pub fn tiers_of(name: &str, gear: Gear, planes: Vec<Plane>) -> Vec<Tier> {
         let angle = if plane.normal.z < 0.0 { -angle } else { angle };
         let level = across.length() < 1e-12;
         let turns = if level { 0.0 } else { across.x.atan2(-across.y) / std::f64::consts::TAU };
-        let index = (turns * gear.teeth).rem_euclid(gear.teeth);
-        let index = if (index - index.round()).abs() < 1e-9 { index.round() % gear.teeth } else { index };
+        let teeth = gear.teeth.abs();
+        let index = (turns * gear.teeth + gear.offset).rem_euclid(teeth);
+        let index = if (index - index.round()).abs() < 1e-9 { index.round() % teeth } else { index };
         let facet = Facet {
             name: if single { name.into() } else { format!("{name} {}", i + 1) },
             index: Some(index),

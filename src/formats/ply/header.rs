@@ -1,7 +1,7 @@
 //! The header of a PLY file: its kind, and its elements with their properties.
 
 use crate::formats::error::FormatError;
-use crate::formats::source::Source;
+use crate::formats::source::{Source, lines};
 
 /// Most elements, and most properties of one: many times what any program writes.
 const MOST: usize = 100;
@@ -85,6 +85,11 @@ pub struct Header {
 /// Whether the file begins as a PLY file does.
 pub fn begins(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+}
+
+/// Whether the header says that values are words.
+pub fn says_text(source: &Source) -> bool {
+    lines(&source.beginning()).any(|(_, line)| line.trim_start().starts_with("format ascii"))
 }
 
 impl Header {

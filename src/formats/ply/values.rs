@@ -41,13 +41,15 @@ impl<'s> Values<'s> {
         }
     }
 
-    /// The next value, of the property `name`.
+    /// The next value, of the property `name`; maybe not finite.
     pub fn next(&mut self, kind: Kind, name: &str) -> Result<f64, FormatError> {
-        let value = match self.storage {
+        match self.storage {
             Storage::Text => {
                 let (line, word) = self.words.next().unwrap_or((self.at, ""));
                 self.at = line;
-                return number(word).ok_or_else(|| self.wrong(format!("a number for {name}"), word));
+                // confidence, shading normals and the like may be nan
+                let none = word.to_ascii_lowercase().contains("nan").then_some(f64::NAN);
+                number(word).or(none).ok_or_else(|| self.wrong(format!("a number for {name}"), word))
             }
             _ => match kind {
                 Kind::I8 => self.bytes::<1>(name).map(|b| i8::from_le_bytes(b).into()),
@@ -59,14 +61,7 @@ impl<'s> Values<'s> {
                 Kind::F32 => self.bytes(name).map(|b| f32::from_le_bytes(b).into()),
                 Kind::F64 => self.bytes(name).map(f64::from_le_bytes),
             },
-        };
-        value.and_then(|value: f64| {
-            if value.is_finite() {
-                Ok(value)
-            } else {
-                Err(self.wrong(format!("a finite number for {name}"), &value.to_string()))
-            }
-        })
+        }
     }
 
     /// The next bytes, least first.

@@ -1,6 +1,10 @@
-//! Clipping a convex footprint by the ring of a facet, and finding the facet to begin with.
+//! Clipping a convex footprint by the ring of a facet.
 
-use super::facets::{Facets, NONE};
+// lanes in lockstep: an index is what says so, and what vectorises
+#![allow(clippy::needless_range_loop)]
+
+use super::FACING;
+use super::facets::{Edges, Facets, NONE, WIDTH};
 use super::frame::Frame;
 use glam::DVec2;
 
@@ -9,36 +13,111 @@ use glam::DVec2;
 /// symmetrical to the light leave slivers of area 1e-17 along every edge.
 const ON_LINE: f64 = 1e-14;
 
-/// A corner of a footprint and the facet edge that its next side lies on (`NONE` for a side that
-/// the footprint had before).
-#[derive(Debug, Clone, Copy)]
-pub struct Corner {
-    /// Where, in the plane of the entry facet.
-    pub at: DVec2,
-    side: u32,
+/// The lines of a few edges in the coordinates of a beam: `slope · (u, v) + height` is positive on
+/// the facet's side, in units of the edge's length.
+struct Lines {
+    slope: [[f64; WIDTH]; 2],
+    height: [f64; WIDTH],
 }
 
-/// Buffers of the clipper, kept from beam to beam.
+impl Lines {
+    /// Edges seen along `frame`.
+    ///
+    /// - `turn`: 1 if the frame shows facets counter-clockwise, −1 after an odd number of mirrors
+    #[inline(always)]
+    fn of(edges: &Edges, frame: &Frame, turn: f64) -> Lines {
+        let Frame { across: a, along: b, offset, .. } = frame;
+        let Edges { from: [x, y, z], along: [ex, ey, ez] } = edges;
+        let mut lines = Lines { slope: [[0.0; WIDTH]; 2], height: [0.0; WIDTH] };
+        for i in 0..WIDTH {
+            let from_u = a.x * x[i] + a.y * y[i] + a.z * z[i] - offset.x;
+            let from_v = b.x * x[i] + b.y * y[i] + b.z * z[i] - offset.y;
+            let along_u = (a.x * ex[i] + a.y * ey[i] + a.z * ez[i]) * turn;
+            let along_v = (b.x * ex[i] + b.y * ey[i] + b.z * ez[i]) * turn;
+            lines.slope[0][i] = -along_v;
+            lines.slope[1][i] = along_u;
+            lines.height[i] = along_v * from_u - along_u * from_v;
+        }
+        lines
+    }
+
+    #[inline(always)]
+    fn height(&self, i: usize, at: DVec2) -> f64 {
+        self.slope[0][i] * at.x + self.slope[1][i] * at.y + self.height[i]
+    }
+
+    /// The least height of any corner, edge by edge.
+    #[inline(always)]
+    fn least(&self, corners: &[DVec2]) -> [f64; WIDTH] {
+        let mut least = [f64::INFINITY; WIDTH];
+        for at in corners {
+            for i in 0..WIDTH {
+                let height = self.height(i, *at);
+                least[i] = if height < least[i] { height } else { least[i] };
+            }
+        }
+        least
+    }
+}
+
+#[inline(always)]
+fn faces(facets: &Facets, facet: usize, frame: &Frame) -> bool {
+    facets.planes[facet].normal.dot(frame.direction) > FACING
+}
+
+/// Whether a footprint lies within `facet` seen along `frame` (see [`Clipper::clip`]).
+#[inline(always)]
+pub fn holds(facets: &Facets, facet: usize, frame: &Frame, turn: f64, corners: &[DVec2]) -> bool {
+    if !faces(facets, facet, frame) {
+        return false;
+    }
+    for edges in facets.edges(facet) {
+        let least = Lines::of(edges, frame, turn).least(corners);
+        let mut outside = false;
+        for i in 0..WIDTH {
+            outside |= least[i] < -ON_LINE;
+        }
+        if outside {
+            return false;
+        }
+    }
+    true
+}
+
+/// A footprint that is being cut, in buffers kept from beam to beam.
 #[derive(Debug, Default)]
 pub struct Clipper {
-    ring: Vec<Corner>,
-    next: Vec<Corner>,
+    ring: Ring,
+    next: Ring,
     heights: Vec<f64>,
-    /// Middle and half sides of a box around the footprint that was taken up.
-    middle: DVec2,
-    half: DVec2,
+}
+
+/// Corners, and for each the facet edge that the side after it lies on (`NONE` for a side that the
+/// footprint had before).
+#[derive(Debug, Default)]
+struct Ring {
+    at: Vec<DVec2>,
+    sides: Vec<u32>,
+}
+
+impl Ring {
+    fn push(&mut self, at: DVec2, side: u32) {
+        self.at.push(at);
+        self.sides.push(side);
+    }
+
+    fn clear(&mut self) {
+        self.at.clear();
+        self.sides.clear();
+    }
 }
 
 impl Clipper {
     /// Takes a footprint up.
-    pub fn load(&mut self, polygon: &[DVec2]) {
-        let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    pub fn load(&mut self, corners: &[DVec2]) {
         self.ring.clear();
-        for at in polygon {
-            (lo, hi) = (lo.min(*at), hi.max(*at));
-            self.ring.push(Corner { at: *at, side: NONE });
-        }
-        (self.middle, self.half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+        self.ring.at.extend_from_slice(corners);
+        self.ring.sides.resize(corners.len(), NONE);
     }
 
     /// Cuts away what of the footprint lies outside `facet` seen along `frame`.
@@ -46,87 +125,77 @@ impl Clipper {
     /// - `turn`: 1 if the frame shows facets counter-clockwise, −1 after an odd number of mirrors
     ///
     /// False if nothing is left.
-    #[inline(never)] // for the profile: it costs nothing
+    #[inline(always)]
     pub fn clip(&mut self, facets: &Facets, facet: usize, frame: &Frame, turn: f64) -> bool {
-        let ring = facets.ring(facet);
-        let Some(last) = ring.last() else { return false };
-        let mut from = frame.project(*last);
-        for (i, corner) in ring.iter().enumerate() {
-            let to = frame.project(*corner);
-            // the edge that ends in corner i starts in the one before
-            let edge = if i == 0 { ring.len() - 1 } else { i - 1 };
-            let along = (to - from) * turn;
-            // most edges pass the box around the footprint by: five operations instead of five a corner
-            let height = along.perp_dot(self.middle - from);
-            let reach = along.x.abs() * self.half.y + along.y.abs() * self.half.x;
-            if height < reach && (height < -reach || !self.cut(from, along, edge as u32)) {
-                return false;
-            }
-            from = to;
+        if !faces(facets, facet, frame) {
+            self.ring.clear();
         }
-        true
+        for (group, edges) in facets.edges(facet).iter().enumerate() {
+            let lines = Lines::of(edges, frame, turn);
+            let least = lines.least(&self.ring.at);
+            for (i, least) in least.iter().enumerate() {
+                if *least < -ON_LINE && !self.cut(&lines, i, (group * WIDTH + i) as u32) {
+                    return false;
+                }
+            }
+        }
+        !self.is_spent()
     }
 
-    /// Cuts by the line through `from` along `along`, whose left is inside.
-    #[inline(never)] // for the profile: it costs nothing
-    fn cut(&mut self, from: DVec2, along: DVec2, edge: u32) -> bool {
+    /// Cuts by a line; `edge` is its number in the facet.
+    #[inline(always)]
+    fn cut(&mut self, lines: &Lines, line: usize, edge: u32) -> bool {
         self.heights.clear();
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for corner in &self.ring {
-            let h = along.perp_dot(corner.at - from);
-            least = least.min(h);
-            most = most.max(h);
-            self.heights.push(h);
-        }
-        if least >= -ON_LINE {
-            return true;
-        }
-        if most <= ON_LINE {
-            return false;
-        }
+        self.heights.extend(self.ring.at.iter().map(|at| lines.height(line, *at)));
         self.next.clear();
-        let n = self.ring.len();
+        let n = self.heights.len();
         for i in 0..n {
             let j = if i + 1 == n { 0 } else { i + 1 };
-            let (a, b, ha, hb) = (self.ring[i], self.ring[j], self.heights[i], self.heights[j]);
-            let crossing = || a.at + (b.at - a.at) * (ha / (ha - hb));
+            let (a, b, ha, hb) = (self.ring.at[i], self.ring.at[j], self.heights[i], self.heights[j]);
+            let crossing = || a + (b - a) * (ha / (ha - hb));
+            let side = self.ring.sides[i];
             if ha > ON_LINE {
-                self.next.push(a);
+                self.next.push(a, side);
                 if hb < -ON_LINE {
-                    self.next.push(Corner { at: crossing(), side: edge });
+                    self.next.push(crossing(), edge);
                 }
             } else if ha >= -ON_LINE {
                 // on the line: the next side is the cut if it leads outside
-                self.next.push(Corner { at: a.at, side: if hb < -ON_LINE { edge } else { a.side } });
+                self.next.push(a, if hb < -ON_LINE { edge } else { side });
             } else if hb > ON_LINE {
-                self.next.push(Corner { at: crossing(), side: a.side });
+                self.next.push(crossing(), side);
             }
         }
         std::mem::swap(&mut self.ring, &mut self.next);
-        self.ring.len() > 2
+        // corners on the line alone are no surface
+        if self.ring.at.len() < 3 || self.heights.iter().all(|h| *h <= ON_LINE) {
+            self.ring.clear();
+        }
+        !self.is_spent()
     }
 
-    /// Area of the footprint, in the plane of the entry facet.
-    #[inline]
-    pub fn area(&self) -> f64 {
-        let [first, rest @ ..] = &self.ring[..] else { return 0.0 };
-        let mut twice = 0.0;
-        for pair in rest.windows(2) {
-            twice += (pair[0].at - first.at).perp_dot(pair[1].at - first.at);
-        }
-        0.5 * twice
+    /// Whether nothing is left.
+    pub fn is_spent(&self) -> bool {
+        self.ring.at.is_empty()
     }
 
     /// The footprint's corners, counter-clockwise.
-    pub fn corners(&self) -> &[Corner] {
-        &self.ring
+    pub fn corners(&self) -> &[DVec2] {
+        &self.ring.at
     }
 
     /// Numbers of the facet edges across which the footprint went on before it was cut.
     #[inline]
     pub fn cut_edges(&self) -> impl Iterator<Item = usize> + '_ {
-        self.ring.iter().filter(|c| c.side != NONE).map(|c| c.side as usize)
+        self.ring.sides.iter().filter(|side| **side != NONE).map(|side| *side as usize)
     }
+}
+
+/// Area of a footprint, in the plane of the entry facet.
+#[inline]
+pub fn area(corners: &[DVec2]) -> f64 {
+    let [first, rest @ ..] = corners else { return 0.0 };
+    0.5 * rest.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first)).sum::<f64>()
 }
 
 /// The facet that the ray `at` of a beam meets next: from facet `start`, which must face along the
@@ -135,29 +204,18 @@ impl Clipper {
 /// The facets that face along the beam tile the outline of the stone, and this walk over them
 /// cannot go in a circle, because they are the lower envelope of planes (H. Edelsbrunner,
 /// *Combinatorica* 10 (1990) 251). `None` if rounding led astray.
-#[inline(never)] // for the profile: it costs nothing
 pub fn locate(facets: &Facets, start: usize, frame: &Frame, turn: f64, at: DVec2) -> Option<usize> {
-    let mut facet = start;
-    let mut came_from = NONE;
+    let (mut facet, mut came_from) = (start, NONE);
     for _ in 0..facets.count() {
-        let (ring, beyond) = (facets.ring(facet), facets.beyond(facet));
-        let mut from = frame.project(*ring.last()?);
-        let mut before = ring.len() - 1;
-        let mut next = NONE;
-        for (i, corner) in ring.iter().enumerate() {
-            let to = frame.project(*corner);
-            let outside = ((to - from) * turn).perp_dot(at - from) < 0.0;
-            if outside && beyond[before] != came_from {
-                next = beyond[before];
-                break;
-            }
-            (from, before) = (to, i);
+        let beyond = facets.beyond(facet);
+        let lines = facets.edges(facet).iter().map(|edges| Lines::of(edges, frame, turn));
+        let heights = lines.flat_map(|lines| std::array::from_fn::<f64, WIDTH, _>(|i| lines.height(i, at)));
+        let outside = heights.zip(beyond).find(|(height, next)| *height < 0.0 && **next != came_from);
+        let Some((_, next)) = outside else { return Some(facet) };
+        if *next == NONE {
+            return None;
         }
-        if next == NONE {
-            return Some(facet);
-        }
-        came_from = facet as u32;
-        facet = next as usize;
+        (came_from, facet) = (facet as u32, *next as usize);
     }
     None
 }

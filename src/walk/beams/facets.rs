@@ -13,6 +13,20 @@ pub const WELD: f64 = 1e-9;
 /// No facet beyond an edge (a facet that welding has closed up).
 pub const NONE: u32 = u32::MAX;
 
+/// Edges that are looked at side by side: one register of AVX2.
+pub const WIDTH: usize = 4;
+
+/// A few edges of a facet, axis by axis, walking frame. Two facets have their common edge from the
+/// same corner on, so that rounding cuts both along the same line. What is left over of the last
+/// few has length 0: no footprint lies outside.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Edges {
+    /// A corner.
+    pub from: [[f64; WIDTH]; 3],
+    /// Counter-clockwise seen from outside.
+    pub along: [[f64; WIDTH]; 3],
+}
+
 /// Rings of all facets of a stone, walking frame. Facets have the stone's numbers; one that welding
 /// has closed up has an empty ring.
 #[derive(Debug, Clone)]
@@ -21,6 +35,8 @@ pub struct Facets {
     pub planes: Vec<Plane>,
     firsts: Vec<u32>,
     corners: Vec<DVec3>,
+    groups: Vec<u32>,
+    edges: Vec<Edges>,
     beyond: Vec<u32>,
 }
 
@@ -39,12 +55,31 @@ impl Facets {
         for facet in 0..rings.len() {
             owner.extend(edges(facet).map(|edge| (edge, facet as u32)));
         }
-        let mut made =
-            Facets { planes: stone.planes.clone(), firsts: vec![0], corners: Vec::new(), beyond: Vec::new() };
+        let mut made = Facets {
+            planes: stone.planes.clone(),
+            firsts: vec![0],
+            corners: Vec::new(),
+            groups: vec![0],
+            edges: Vec::new(),
+            beyond: Vec::new(),
+        };
         for (facet, ring) in rings.iter().enumerate() {
             made.corners.extend(ring.iter().map(|c| corners[*c as usize]));
-            made.beyond.extend(edges(facet).map(|(a, b)| owner.get(&(b, a)).copied().unwrap_or(NONE)));
             made.firsts.push(made.corners.len() as u32);
+            for (i, (a, b)) in edges(facet).enumerate() {
+                if i % WIDTH == 0 {
+                    made.edges.push(Edges::default());
+                    made.beyond.extend([NONE; WIDTH]);
+                }
+                let last = made.edges.len() - 1;
+                let along = corners[b as usize] - corners[a as usize];
+                for axis in 0..3 {
+                    made.edges[last].from[axis][i % WIDTH] = corners[a.min(b) as usize][axis];
+                    made.edges[last].along[axis][i % WIDTH] = along[axis];
+                }
+                made.beyond[last * WIDTH + i % WIDTH] = owner.get(&(b, a)).copied().unwrap_or(NONE);
+            }
+            made.groups.push(made.edges.len() as u32);
         }
         made
     }
@@ -54,14 +89,10 @@ impl Facets {
         self.planes.len()
     }
 
-    fn range(&self, facet: usize) -> std::ops::Range<usize> {
-        self.firsts[facet] as usize..self.firsts[facet + 1] as usize
-    }
-
     /// Corners of a facet, counter-clockwise seen from outside.
     #[inline]
     pub fn ring(&self, facet: usize) -> &[DVec3] {
-        &self.corners[self.range(facet)]
+        &self.corners[self.firsts[facet] as usize..self.firsts[facet + 1] as usize]
     }
 
     /// Area of a facet in its plane, walking units squared.
@@ -71,10 +102,21 @@ impl Facets {
         0.5 * twice.dot(self.planes[facet].normal)
     }
 
-    /// For each edge of a facet, from its corner on, the facet beyond it, or `NONE`.
+    fn groups(&self, facet: usize) -> std::ops::Range<usize> {
+        self.groups[facet] as usize..self.groups[facet + 1] as usize
+    }
+
+    /// Edges of a facet, from its first corner on.
+    #[inline]
+    pub fn edges(&self, facet: usize) -> &[Edges] {
+        &self.edges[self.groups(facet)]
+    }
+
+    /// For each edge of [`Facets::edges`], the facet beyond it, or `NONE`.
     #[inline]
     pub fn beyond(&self, facet: usize) -> &[u32] {
-        &self.beyond[self.range(facet)]
+        let groups = self.groups(facet);
+        &self.beyond[groups.start * WIDTH..groups.end * WIDTH]
     }
 }
 

@@ -75,27 +75,28 @@ impl Frame {
         DVec2::new(self.across.dot(p), self.along.dot(p)) - self.offset
     }
 
-    /// The frame after reflection at a facet.
-    #[inline]
-    pub fn mirrored(&self, plane: &Plane) -> Frame {
+    /// Reflects the beam at a facet.
+    #[inline(always)]
+    pub fn mirror(&mut self, plane: &Plane) {
         let n = plane.normal;
         let (a, b) = (2.0 * n.dot(self.across), 2.0 * n.dot(self.along));
-        Frame {
-            across: self.across - n * a,
-            along: self.along - n * b,
-            offset: self.offset - DVec2::new(a, b) * plane.distance,
-            direction: self.direction - n * (2.0 * n.dot(self.direction)),
-        }
+        self.across -= n * a;
+        self.along -= n * b;
+        self.offset -= DVec2::new(a, b) * plane.distance;
+        self.direction -= n * (2.0 * n.dot(self.direction));
+    }
+
+    /// The point of the ray (u, v) that lies nearest to the origin.
+    #[inline]
+    pub fn point(&self, uv: DVec2) -> DVec3 {
+        let at = uv + self.offset;
+        let (of_u, of_v) = (self.along.cross(self.direction), self.direction.cross(self.across));
+        (of_u * at.x + of_v * at.y) / self.across.dot(of_u)
     }
 
     /// Where the ray (u, v) passes a plane that the beam is not parallel to.
     pub fn point_on(&self, uv: DVec2, plane: &Plane) -> DVec3 {
-        let at = uv + self.offset;
-        // across and along span the cross-section: solve for the point in it, then along the beam
-        let (a, b) = (self.across, self.along);
-        let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
-        let det = aa * bb - ab * ab;
-        let p = a * ((at.x * bb - at.y * ab) / det) + b * ((at.y * aa - at.x * ab) / det);
+        let p = self.point(uv);
         p - self.direction * (plane.height(p) / plane.normal.dot(self.direction))
     }
 }
@@ -117,7 +118,8 @@ mod tests {
         assert!((frame.point_on(uv, &plane) - entrance.point(uv)).length() < 1e-15);
         let mirror = Plane::new(DVec3::new(0.3, 0.1, -0.8), 0.5);
         let met = frame.point_on(uv, &mirror);
-        let next = frame.mirrored(&mirror);
+        let mut next = frame;
+        next.mirror(&mirror);
         assert!((next.project(met) - uv).length() < 1e-15);
         assert!((next.project(met + next.direction * 0.7) - uv).length() < 1e-15);
     }

@@ -5,8 +5,9 @@
 //! at a random point of its footprint. A batch's photons thus stand for the whole remainder without
 //! bias, and the spread of the batches is the error.
 
-use super::{Corner, Rest, Watch};
+use super::{Light, Rest, Watch};
 use crate::math::random::{Purpose, Stream};
+use crate::optics::stokes::Stokes;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{Meeting, Packet, Stone};
 use glam::{DVec2, Vec3};
@@ -23,6 +24,8 @@ const FIRST_STEP: f64 = 1e-5;
 struct Photon<const K: usize> {
     points: [Vec3; K],
     directions: [Vec3; K],
+    /// Polarisation of the leading line, if it is followed; its company is there for its directions.
+    stokes: Option<Stokes>,
 }
 
 /// The photons of one batch.
@@ -67,7 +70,7 @@ impl<const K: usize> Remainder<K> {
     }
 
     /// Takes a beam that is not followed.
-    pub fn add<L>(&mut self, rest: &Rest<L, K>) {
+    pub fn add<L: Light>(&mut self, rest: &Rest<L, K>) {
         self.power += rest.power;
         if self.power <= self.mark {
             return;
@@ -100,17 +103,19 @@ impl<const K: usize> Remainder<K> {
     ) -> (f64, f64) {
         let Some(batch) = self.batches.get(batch) else { return (0.0, 0.0) };
         let indices = indices.map(|n| n as f32);
-        let mut shower = Shower { photons: batch.photons.iter(), indices, watch };
+        let polarised = batch.photons.first().is_some_and(|photon| photon.stokes.is_some());
+        let mut shower = Shower { photons: batch.photons.iter(), polarised, indices, watch };
         (batch.step, feed::walk_all(stone, STOP_POWER, &mut shower))
     }
 }
 
 impl<const K: usize> Batch<K> {
-    fn draw<L>(&mut self, rest: &Rest<L, K>) {
+    fn draw<L: Light>(&mut self, rest: &Rest<L, K>) {
         let uv = point_in(rest.footprint, &mut self.stream);
         self.photons.push(Photon {
-            points: std::array::from_fn(|k| rest.point_of(k, uv).as_vec3()),
-            directions: std::array::from_fn(|k| rest.direction_of(k).as_vec3().normalize()),
+            points: std::array::from_fn(|k| rest.frames[k].point_on(uv, &rest.plane).as_vec3()),
+            directions: std::array::from_fn(|k| rest.frames[k].direction.as_vec3().normalize()),
+            stokes: rest.light.stokes(),
         });
         self.next += self.step;
     }
@@ -133,9 +138,9 @@ impl<const K: usize> Batch<K> {
 }
 
 /// A point of a convex polygon, uniform by area.
-fn point_in(corners: &[Corner], stream: &mut Stream) -> DVec2 {
+fn point_in(corners: &[DVec2], stream: &mut Stream) -> DVec2 {
     let [first, rest @ ..] = corners else { return DVec2::ZERO };
-    let twice = |pair: &[Corner]| (pair[0].at - first.at).perp_dot(pair[1].at - first.at).max(0.0);
+    let twice = |pair: &[DVec2]| (pair[0] - first).perp_dot(pair[1] - first).max(0.0);
     let mut left = stream.unit64() * rest.windows(2).map(twice).sum::<f64>();
     let mut chosen = rest;
     for pair in rest.windows(2) {
@@ -145,9 +150,9 @@ fn point_in(corners: &[Corner], stream: &mut Stream) -> DVec2 {
             break;
         }
     }
-    let [b, c, ..] = chosen else { return first.at };
+    let [b, c, ..] = chosen else { return *first };
     let (root, along) = (stream.unit64().sqrt(), stream.unit64());
-    first.at + (b.at - first.at) * (root * (1.0 - along)) + (c.at - first.at) * (root * along)
+    *first + (b - first) * (root * (1.0 - along)) + (c - first) * (root * along)
 }
 
 /// What photons of the remainder leave.
@@ -161,6 +166,7 @@ pub trait Photons {
 
 struct Shower<'a, W, const K: usize> {
     photons: std::slice::Iter<'a, Photon<K>>,
+    polarised: bool,
     indices: [f32; K],
     watch: &'a mut W,
 }
@@ -168,10 +174,19 @@ struct Shower<'a, W, const K: usize> {
 impl<W: Photons, const K: usize> Rays for Shower<'_, W, K> {
     const WIDTH: usize = K;
 
+    fn polarised(&self) -> bool {
+        self.polarised
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(photon) = self.photons.next() else { return false };
         for k in 0..K {
             packet.set(lane + k, photon.points[k], photon.directions[k], 1.0, self.indices[k]);
+        }
+        if let Some(Stokes { i, q, u, v, axis }) = photon.stokes {
+            let part = |x: f64| (x / i) as f32;
+            (packet.q[lane], packet.u[lane], packet.v[lane]) = (part(q), part(u), part(v));
+            (packet.ax[lane], packet.ay[lane], packet.az[lane]) = axis.as_vec3().into();
         }
         self.watch.begins(lane);
         true
@@ -183,7 +198,7 @@ impl<W: Photons, const K: usize> Rays for Shower<'_, W, K> {
 }
 
 /// A remainder takes what is left over and lets exits pass.
-impl<L, const K: usize> Watch<L, K> for Remainder<K> {
+impl<L: Light, const K: usize> Watch<L, K> for Remainder<K> {
     fn exit(&mut self, _: &super::Exit<L, K>) {}
 
     fn rest(&mut self, rest: &Rest<L, K>) {

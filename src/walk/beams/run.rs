@@ -1,41 +1,32 @@
-//! The loop over beams: a stack of footprints, each clipped by the facets that it meets.
+//! The loop over beams: the strongest first, each clipped by the facets that it meets.
 
-use super::clip::{Clipper, locate};
-use super::facets::{Facets, NONE};
-use super::light::{Interface, Light, refract};
-use super::{Entrance, Exit, FACETS_LIMIT, FACING, Frame, Lit, Rest, Totals, Watch};
+use super::clip::{self, Clipper, locate};
+use super::facets::NONE;
+use super::light::{Interface, Light};
+use super::queue::Queue;
+use super::{Beams, Entrance, Exit, FACETS_LIMIT, FACING, Frame, Lit, Rest, Totals, Until, Watch};
+use crate::walk::{LANES, NO_FACET, NextFacets, Packet};
 use glam::DVec2;
 
-/// A beam on its way; its footprint is in the arena.
+/// A beam on its way; its footprint lies beside it.
 #[derive(Debug, Clone, Copy)]
-struct Pending<L, const K: usize> {
+struct Beam<L, const K: usize> {
     frames: [Frame; K],
     light: L,
+    /// The footprint's share of the outline.
+    share: f64,
     /// Facet it leaves.
-    facet: usize,
-    start: usize,
+    facet: u32,
+    /// Number of its origin.
+    origin: u32,
     meetings: u32,
 }
 
-/// One call of [`super::Beams::follow`]; what it allocates serves all beams.
-pub(super) struct Run<'a, L, W, const K: usize> {
-    facets: &'a Facets,
-    lit: &'a Lit<K>,
-    stop_power: f64,
-    watch: &'a mut W,
-    totals: Totals,
-    /// Beams still to be followed, the last one first, and their footprints in the same order.
-    stack: Vec<Pending<L, K>>,
-    arena: Vec<DVec2>,
-    polygon: Vec<DVec2>,
-    clipper: Clipper,
-    /// Facets that the present beam meets, and for each facet the beam that saw it last.
-    queue: Vec<usize>,
-    seen_by: Vec<u64>,
-    /// Beams taken up so far.
-    number: u64,
-    /// For each facet, the one that the last beam from it met first.
-    last_met: Vec<usize>,
+/// A beam that is followed, and its footprint.
+struct Slot<L, const K: usize> {
+    beam: Option<Beam<L, K>>,
+    footprint: Vec<DVec2>,
+    middle: DVec2,
 }
 
 /// What all beams of one entry facet have in common.
@@ -45,157 +36,282 @@ struct Origin {
     density: f64,
 }
 
+/// One call of [`Beams::follow`]; what it allocates serves all beams.
+pub(in crate::walk) struct Run<'a, L, W, const K: usize> {
+    beams: &'a Beams<'a>,
+    lit: &'a Lit<K>,
+    until: Until,
+    watch: &'a mut W,
+    totals: Totals,
+    origins: Vec<Origin>,
+    queue: Queue<Beam<L, K>>,
+    clipper: Clipper,
+    /// Facets that the present beam meets, and for each facet the beam that saw it last.
+    ahead: Vec<usize>,
+    seen_by: Vec<u64>,
+    /// Beams divided so far.
+    number: u64,
+    /// Power of all beams not yet at their end.
+    inside: f64,
+}
+
 impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
-    pub(super) fn new(facets: &'a Facets, lit: &'a Lit<K>, stop_power: f64, watch: &'a mut W) -> Self {
+    pub(super) fn new(beams: &'a Beams<'a>, lit: &'a Lit<K>, until: Until, watch: &'a mut W) -> Self {
         Run {
-            facets,
+            beams,
             lit,
-            stop_power,
+            until,
             watch,
             totals: Totals::default(),
-            stack: Vec::new(),
-            arena: Vec::new(),
-            polygon: Vec::new(),
+            origins: Vec::new(),
+            queue: Queue::new(until.left > 0.0),
             clipper: Clipper::default(),
-            queue: Vec::new(),
-            seen_by: vec![0; facets.count()],
+            ahead: Vec::new(),
+            seen_by: vec![0; beams.facets.count()],
             number: 0,
-            last_met: (0..facets.count()).collect(),
+            inside: 0.0,
         }
     }
 
-    /// Follows all light; see [`super::Beams::follow`].
-    pub(super) fn all(mut self, light: L) -> Totals {
-        let (facets, toward) = (self.facets, self.lit.direction);
+    /// Follows all light; see [`Beams::follow`].
+    #[inline(always)]
+    pub(in crate::walk) fn all(mut self, light: L) -> Totals {
+        let (facets, toward) = (&self.beams.facets, self.lit.direction);
         let cosine = |f: usize| -facets.planes[f].normal.dot(toward);
         let lit = || (0..facets.count()).filter(|f| cosine(*f) > FACING && !facets.ring(*f).is_empty());
         self.totals.outline = lit().map(|f| facets.area(f) * cosine(f)).sum();
         for facet in lit() {
             let entrance = Entrance::new(facet, facets.planes[facet], toward);
-            let origin = Origin { entrance, density: cosine(facet) / self.totals.outline };
-            self.enter(&origin, light);
-            while let Some(beam) = self.stack.pop() {
-                self.advance(&origin, &beam);
+            self.enter(Origin { entrance, density: cosine(facet) / self.totals.outline }, light);
+        }
+        let slot = |_| Slot { beam: None, footprint: Vec::new(), middle: DVec2::ZERO };
+        let mut slots: [Slot<L, K>; LANES] = std::array::from_fn(slot);
+        while self.fill(&mut slots) {
+            let next = self.ahead(&slots);
+            for (slot, facet) in slots.iter_mut().zip(next.facet) {
+                if let Some(beam) = &mut slot.beam
+                    && !self.step(beam, &slot.footprint, slot.middle, facet)
+                {
+                    slot.beam = None;
+                }
             }
+        }
+        for slot in &slots {
+            if let Some(beam) = &slot.beam {
+                self.leave(beam, &slot.footprint);
+            }
+        }
+        let mut footprint = Vec::new();
+        while let Some(beam) = self.queue.pop(&mut footprint) {
+            self.leave(&beam, &footprint);
         }
         self.totals
     }
 
-    /// Lets the light into a facet.
-    fn enter(&mut self, origin: &Origin, light: L) {
-        let Origin { entrance, density } = origin;
-        let plane = entrance.plane;
-        let refracted = |n: f64| refract(self.lit.direction, -plane.normal, n);
-        let frames = self.lit.indices.map(|n| entrance.frame(refracted(n).2));
-        let (cos_i, cos_t, passed) = refracted(self.lit.indices[0]);
-        let eta = self.lit.indices[0];
-        let at = Interface { cos_i, cos_t, eta, normal: plane.normal, passed, frame: &frames[0] };
-        let (inside, reflected) = light.split(&at);
-        self.totals.reflected += reflected.power() * density * self.facets.area(entrance.facet);
-        self.totals.beams += 1;
-        let start = self.arena.len();
-        self.arena.extend(self.facets.ring(entrance.facet).iter().map(|p| entrance.coordinates(*p)));
-        self.stack.push(Pending { frames, light: inside, facet: entrance.facet, start, meetings: 0 });
+    /// Takes up the strongest beams that wait; false if none is to be followed further.
+    fn fill(&mut self, slots: &mut [Slot<L, K>]) -> bool {
+        if self.inside <= self.until.left {
+            return false;
+        }
+        let mut some = false;
+        for slot in slots {
+            if slot.beam.is_none() {
+                slot.beam = self.queue.pop(&mut slot.footprint);
+                slot.middle = slot.footprint.iter().sum::<DVec2>() / slot.footprint.len() as f64;
+            }
+            some |= slot.beam.is_some();
+        }
+        some
     }
 
-    /// Takes a beam to the facets that it meets next.
-    fn advance(&mut self, origin: &Origin, beam: &Pending<L, K>) {
-        self.polygon.clear();
-        self.polygon.extend_from_slice(&self.arena[beam.start..]);
-        self.arena.truncate(beam.start);
-        self.number += 1;
+    /// The facets that the middles of all beams meet next: a first guess, in `f32`.
+    #[inline(always)]
+    fn ahead(&self, slots: &[Slot<L, K>; LANES]) -> NextFacets {
+        let mut packet = Packet::default();
+        for (lane, slot) in slots.iter().enumerate() {
+            if let Some(beam) = &slot.beam {
+                let frame = &beam.frames[0];
+                let plane = &self.beams.facets.planes[beam.facet as usize];
+                let point = frame.point_on(slot.middle, plane);
+                (packet.x[lane], packet.y[lane], packet.z[lane]) = point.as_vec3().into();
+                (packet.dx[lane], packet.dy[lane], packet.dz[lane]) = frame.direction.as_vec3().into();
+            }
+        }
+        self.beams.stone.next_facets(&packet)
+    }
+
+    /// Lets the light into a facet.
+    fn enter(&mut self, origin: Origin, light: L) {
+        let Origin { entrance, density } = &origin;
+        let (facets, normal) = (&self.beams.facets, entrance.plane.normal);
+        let met = self.lit.indices.map(|n| Interface::new(self.lit.direction, -normal, n, false));
+        let frames = met.map(|at| entrance.frame(at.passed));
+        let (inside, reflected) = light.split(&met[0]);
+        let share = density * facets.area(entrance.facet);
+        let (glare, toward) = (reflected.power() * share, self.lit.direction);
+        self.totals.reflected += glare;
+        self.watch.reflected(entrance, toward.reflect(normal), glare);
+        let corners: Vec<_> = facets.ring(entrance.facet).iter().map(|p| entrance.coordinates(*p)).collect();
+        let (facet, number) = (entrance.facet as u32, self.origins.len() as u32);
+        let beam = Beam { frames, light: inside, share, facet, origin: number, meetings: 0 };
+        self.inside += inside.power() * share;
+        self.queue.push(beam, inside.power() * share, &corners);
+        self.origins.push(origin);
+    }
+
+    /// Takes a beam to the facets that it meets next, of which `guess` is likely to be one. False if
+    /// it is not to be followed at once.
+    #[inline(always)]
+    fn step(&mut self, beam: &mut Beam<L, K>, footprint: &[DVec2], middle: DVec2, guess: u32) -> bool {
+        self.totals.beams += 1;
         // beams enter against the facet's normal, which shows the facets ahead clockwise
         let turn = if beam.meetings.is_multiple_of(2) { -1.0 } else { 1.0 };
-        self.queue.clear();
-        if let Some(first) = self.first_met(beam, turn) {
-            self.last_met[beam.facet] = first;
-            self.seen_by[first] = self.number;
-            self.queue.push(first);
+        let facet = if guess == NO_FACET { 0 } else { guess as usize };
+        for frame in &beam.frames {
+            if !clip::holds(&self.beams.facets, facet, frame, turn, footprint) {
+                self.divide(beam, footprint, middle, facet, turn);
+                return false;
+            }
         }
+        let Some(power) = self.meet(beam, facet, footprint) else { return false };
+        let next = self.queue.is_next(power);
+        if !next {
+            self.queue.push(*beam, power, footprint);
+        }
+        next
+    }
+
+    /// Parts a beam among the facets that it meets, of which `guess` is likely to be one.
+    #[inline(always)]
+    fn divide(&mut self, beam: &Beam<L, K>, footprint: &[DVec2], middle: DVec2, guess: usize, turn: f64) {
+        let mut clipper = std::mem::take(&mut self.clipper);
+        self.spread(&mut clipper, beam, footprint, guess, turn);
+        if self.ahead.is_empty()
+            && let Some(first) = self.first_met(beam, middle, turn)
+        {
+            self.spread(&mut clipper, beam, footprint, first, turn);
+        }
+        self.clipper = clipper;
+    }
+
+    /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the
+    /// beam does not meet the facet, no facet is left in `ahead`.
+    #[inline(always)]
+    fn spread(
+        &mut self,
+        clipper: &mut Clipper,
+        beam: &Beam<L, K>,
+        footprint: &[DVec2],
+        first: usize,
+        turn: f64,
+    ) {
+        let facets = &self.beams.facets;
+        let [lead, company @ ..] = &beam.frames[..] else { return };
+        self.number += 1;
+        self.seen_by[first] = self.number;
+        self.ahead.clear();
+        self.ahead.push(first);
         let mut next = 0;
-        while let Some(&facet) = self.queue.get(next) {
+        while let Some(&facet) = self.ahead.get(next) {
             next += 1;
-            self.meet(origin, beam, facet, turn);
+            clipper.load(footprint);
+            if !clipper.clip(facets, facet, lead, turn) {
+                continue;
+            }
+            for edge in clipper.cut_edges() {
+                let neighbour = facets.beyond(facet)[edge];
+                if neighbour != NONE && self.seen_by[neighbour as usize] != self.number {
+                    self.seen_by[neighbour as usize] = self.number;
+                    self.ahead.push(neighbour as usize);
+                }
+            }
+            let mut stays = true;
+            for frame in company {
+                stays = stays && clipper.clip(facets, facet, frame, turn);
+            }
+            if !stays {
+                continue;
+            }
+            let part = clipper.corners();
+            let share = clip::area(part) * self.origins[beam.origin as usize].density;
+            let mut beam = Beam { share, ..*beam };
+            if share > 0.0
+                && let Some(power) = self.meet(&mut beam, facet, part)
+            {
+                self.queue.push(beam, power, part);
+            }
+        }
+        if next == 1 && clipper.is_spent() {
+            self.ahead.clear();
         }
     }
 
-    /// The facet that the middle of a beam meets.
-    fn first_met(&self, beam: &Pending<L, K>, turn: f64) -> Option<usize> {
-        let middle = self.polygon.iter().sum::<DVec2>() / self.polygon.len() as f64;
-        let frame = &beam.frames[0];
-        let cosine = |f: usize| self.facets.planes[f].normal.dot(frame.direction);
-        let usable = |f: &usize| cosine(*f) > FACING && !self.facets.ring(*f).is_empty();
-        let start = Some(self.last_met[beam.facet]).filter(usable);
-        let start = start.or_else(|| (0..self.facets.count()).find(usable))?;
-        locate(self.facets, start, frame, turn, middle).filter(usable).or_else(|| {
+    /// The facet that the middle of a beam meets, sought step by step in `f64`.
+    fn first_met(&self, beam: &Beam<L, K>, middle: DVec2, turn: f64) -> Option<usize> {
+        let (facets, frame) = (&self.beams.facets, &beam.frames[0]);
+        let cosine = |f: usize| facets.planes[f].normal.dot(frame.direction);
+        let usable = |f: &usize| cosine(*f) > FACING && !facets.ring(*f).is_empty();
+        let start = (0..facets.count()).find(usable)?;
+        locate(facets, start, frame, turn, middle).filter(usable).or_else(|| {
             // rounding led astray: ask every plane
-            let on_facet = frame.point_on(middle, &self.facets.planes[beam.facet]);
-            let distance = |f: &usize| -self.facets.planes[*f].height(on_facet) / cosine(*f);
-            let ahead = (0..self.facets.count()).filter(usable);
-            ahead.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            let point = frame.point(middle);
+            let distance = |f: &usize| -facets.planes[*f].height(point) / cosine(*f);
+            (0..facets.count()).filter(usable).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         })
     }
 
-    /// What of a beam meets `facet`: part leaves, part is thrown back.
-    fn meet(&mut self, origin: &Origin, beam: &Pending<L, K>, facet: usize, turn: f64) {
-        let plane = self.facets.planes[facet];
-        let faces = |frame: &Frame| plane.normal.dot(frame.direction) > FACING;
-        let [lead, company @ ..] = &beam.frames[..] else { return };
-        self.clipper.load(&self.polygon);
-        if !faces(lead) || !self.clipper.clip(self.facets, facet, lead, turn) {
-            return;
-        }
-        let beyond = self.facets.beyond(facet);
-        for edge in self.clipper.cut_edges() {
-            let neighbour = beyond[edge];
-            if neighbour != NONE && self.seen_by[neighbour as usize] != self.number {
-                self.seen_by[neighbour as usize] = self.number;
-                self.queue.push(neighbour as usize);
-            }
-        }
-        for frame in company {
-            if !faces(frame) || !self.clipper.clip(self.facets, facet, frame, turn) {
-                return;
-            }
-        }
-        let share = self.clipper.area() * origin.density;
-        if share <= 0.0 {
-            return;
-        }
-        let eta = 1.0 / self.lit.indices[0];
-        let (cos_i, cos_t, passed) = refract(lead.direction, plane.normal, eta);
-        let at = Interface { cos_i, cos_t, eta, normal: plane.normal, passed, frame: lead };
+    /// A beam meets a facet: part leaves, the rest is thrown back. Returns the power that goes on, as
+    /// a share of the light on the outline.
+    #[inline(always)]
+    fn meet(&mut self, beam: &mut Beam<L, K>, facet: usize, footprint: &[DVec2]) -> Option<f64> {
+        let plane = &self.beams.facets.planes[facet];
+        let at = Interface::new(beam.frames[0].direction, plane.normal, 1.0 / self.lit.indices[0], true);
         let (out, kept) = beam.light.split(&at);
-        let (meetings, footprint) = (beam.meetings + 1, self.clipper.corners());
-        let left = out.power() * share;
-        if cos_t > 0.0 {
-            self.totals.exited += left;
+        beam.meetings += 1;
+        if at.facing.cos_t > 0.0 {
+            let power = out.power() * beam.share;
+            self.totals.exited += power;
+            self.inside -= power;
             self.watch.exit(&Exit {
-                entrance: &origin.entrance,
+                entrance: &self.origins[beam.origin as usize].entrance,
                 facet,
-                direction: passed,
-                meetings,
+                direction: at.passed,
+                meetings: beam.meetings,
                 footprint,
-                power: left,
-                share,
+                power,
+                share: beam.share,
                 light: out,
                 frames: &beam.frames,
                 normal: plane.normal,
                 indices: self.lit.indices,
             });
         }
-        let stays = kept.power() * share;
-        if stays < self.stop_power || meetings >= FACETS_LIMIT || !kept.goes_on() {
-            self.totals.not_followed += stays;
-            let (entrance, arrives) = (&origin.entrance, &beam.frames);
-            let rest = Rest { entrance, facet, footprint, power: stays, share, light: kept, arrives, plane };
-            self.watch.rest(&rest);
-            return;
+        (beam.light, beam.facet) = (kept, facet as u32);
+        for frame in &mut beam.frames {
+            frame.mirror(plane);
         }
-        self.totals.beams += 1;
-        let start = self.arena.len();
-        self.arena.extend(footprint.iter().map(|c| c.at));
-        let frames = beam.frames.map(|f| f.mirrored(&plane));
-        self.stack.push(Pending { frames, light: kept, facet, start, meetings });
+        let power = kept.power() * beam.share;
+        if power < self.until.power || beam.meetings >= self.until.facets.min(FACETS_LIMIT) || !kept.goes_on()
+        {
+            self.leave(beam, footprint);
+            return None;
+        }
+        Some(power)
+    }
+
+    /// Follows a beam no further.
+    fn leave(&mut self, beam: &Beam<L, K>, footprint: &[DVec2]) {
+        let power = beam.light.power() * beam.share;
+        self.totals.not_followed += power;
+        self.watch.rest(&Rest {
+            entrance: &self.origins[beam.origin as usize].entrance,
+            facet: beam.facet as usize,
+            plane: self.beams.facets.planes[beam.facet as usize],
+            footprint,
+            power,
+            share: beam.share,
+            light: beam.light,
+            frames: &beam.frames,
+        });
     }
 }

@@ -1,0 +1,108 @@
+//! The four views of a stone: which facets each shows, and where their corners fall on the page.
+
+use crate::cut::Zone;
+use crate::solid::Polyhedron;
+use glam::{DVec2, DVec3};
+use std::fmt::Write;
+
+/// A direction to look from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum View {
+    /// From above, the front (−y, where index 0 of most gears stands) at the foot of the page.
+    Crown,
+    /// From below, the stone turned over left to right, so that the front stays at the foot.
+    Pavilion,
+    /// From the front (−y), table up.
+    Side,
+    /// From the right (+x), table up.
+    End,
+}
+
+/// A facet as a view shows it.
+#[derive(Debug, Clone)]
+pub struct Seen {
+    /// Number of the solid's face.
+    pub face: usize,
+    /// Its corners, y downward.
+    pub corners: Vec<DVec2>,
+}
+
+/// A facet whose normal is nearer than this to the plane of a side view is a line there: 0.06°.
+const EDGE_ON: f64 = 1e-3;
+
+impl View {
+    /// Name under the drawing.
+    pub fn name(self) -> &'static str {
+        match self {
+            View::Crown => "crown",
+            View::Pavilion => "pavilion",
+            View::Side => "side",
+            View::End => "end",
+        }
+    }
+
+    /// Page coordinates in the design's unit, y downward.
+    pub fn project(self, p: DVec3) -> DVec2 {
+        match self {
+            View::Crown => DVec2::new(p.x, -p.y),
+            View::Pavilion => DVec2::new(-p.x, -p.y),
+            View::Side => DVec2::new(p.x, -p.z),
+            View::End => DVec2::new(p.y, -p.z),
+        }
+    }
+
+    /// Whether a facet with unit normal `n` is drawn. A stone is convex: what faces the eye is seen
+    /// whole, all else is hidden. Girdle facets are lines in the two plans.
+    fn shows(self, n: DVec3) -> bool {
+        match self {
+            View::Crown => matches!(Zone::of(n), Zone::Table | Zone::Crown),
+            View::Pavilion => matches!(Zone::of(n), Zone::Pavilion | Zone::Culet),
+            View::Side => n.y < -EDGE_ON,
+            View::End => n.x > EDGE_ON,
+        }
+    }
+
+    /// The facets of the solid that the view shows, in the order of its faces.
+    pub fn facets(self, solid: &Polyhedron) -> Vec<Seen> {
+        (0..solid.faces.len())
+            .filter(|&face| self.shows(solid.area_vector(face).normalize_or_zero()))
+            .map(|face| Seen { face, corners: solid.polygon(face).map(|p| self.project(p)).collect() })
+            .collect()
+    }
+}
+
+/// Closed polygons as path data, to a hundredth of the unit.
+pub fn path<'a>(polygons: impl IntoIterator<Item = &'a [DVec2]>) -> String {
+    let mut data = String::new();
+    for polygon in polygons {
+        for (i, p) in polygon.iter().enumerate() {
+            let _ = write!(data, "{}{:.2} {:.2}", if i == 0 { "M" } else { "L" }, p.x, p.y);
+        }
+        data.push('Z');
+    }
+    data
+}
+
+/// One view as a self-contained `<svg>` element in the page's own colour, without names. All views
+/// of a stone share one scale: 200 units are its greatest extent in plan.
+pub fn svg(solid: &Polyhedron, view: View) -> String {
+    const WIDTH: f64 = 200.0;
+    const MARGIN: f64 = 4.0;
+    let (lo, hi) = solid.bounds();
+    let scale = WIDTH / (hi - lo).truncate().max_element();
+    let middle = view.project((lo + hi) * 0.5);
+    let place = |p: DVec2| (p - middle) * scale;
+    let extent = place(view.project(lo)).abs() + MARGIN;
+    let placed: Vec<Vec<DVec2>> =
+        view.facets(solid).iter().map(|f| f.corners.iter().map(|p| place(*p)).collect()).collect();
+    format!(
+        "<svg viewBox=\"{:.1} {:.1} {:.1} {:.1}\" role=\"img\" aria-label=\"{}\">\
+         <path d=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\".7\" stroke-linejoin=\"round\"/></svg>",
+        -extent.x,
+        -extent.y,
+        2.0 * extent.x,
+        2.0 * extent.y,
+        view.name(),
+        path(placed.iter().map(Vec::as_slice)),
+    )
+}

@@ -1,0 +1,54 @@
+//! A closed surface that is no convex solid: dented, or in several parts.
+
+use super::measure::{calipers, convex_hull};
+use glam::DVec3;
+
+/// A facet of a [`Body`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyFacet {
+    /// Its name in the file, possibly empty.
+    pub name: String,
+    /// Outward unit normal.
+    pub normal: DVec3,
+}
+
+/// A closed triangulated surface. What a mesh reader hands out where the mesh is not the solid of
+/// its facets' planes; see [`super::recover::RecoverError::body`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Corners in use, each once, in the mesh's own unit.
+    pub vertices: Vec<DVec3>,
+    /// Facets: flat regions of the surface.
+    pub facets: Vec<BodyFacet>,
+    /// Corner numbers, counter-clockwise seen from outside.
+    pub triangles: Vec<[usize; 3]>,
+    /// For each triangle the facet it is part of.
+    pub facet_of: Vec<usize>,
+    /// Number of separate closed surfaces.
+    pub shells: usize,
+    /// How far the farthest corner stands out of a facet's plane, in parts of the diagonal.
+    pub stands_out: f64,
+    /// Volume enclosed, in the mesh's unit cubed; shells add up.
+    pub volume: f64,
+}
+
+impl Body {
+    /// Smallest and largest coordinates.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        self.vertices
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+    }
+
+    /// Girdle width, as [`super::Polyhedron::width`].
+    pub fn width(&self) -> f64 {
+        calipers(&convex_hull(self.vertices.iter().map(|v| v.truncate()).collect())).0
+    }
+
+    /// The body made `k` times as large about its origin.
+    pub fn scaled(mut self, k: f64) -> Body {
+        self.vertices.iter_mut().for_each(|v| *v *= k);
+        self.volume *= k.powi(3);
+        self
+    }
+}

@@ -1,0 +1,65 @@
+//! The fuzz targets of `tools/fuzz/` as bounded property tests, and what fuzzing has found.
+
+#[path = "../tools/fuzz/targets.rs"]
+mod targets;
+
+use cutlab::formats::{self, FORMATS, stone};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+
+/// For each format that is written, its number and an octahedron in it; then every small good file.
+static SAMPLES: LazyLock<Vec<(u8, Vec<u8>)>> = LazyLock::new(|| {
+    let octahedron = stone::open("octahedron").expect("a library cut").design;
+    let written = FORMATS.iter().enumerate().filter(|(_, f)| f.write.is_some());
+    let mut samples: Vec<(u8, Vec<u8>)> = written
+        .map(|(i, f)| (i as u8, formats::encode(&octahedron, f.name).expect("can be written")))
+        .collect();
+    let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good");
+    let mut files: Vec<_> =
+        fs::read_dir(good).expect("the folder").map(|e| e.expect("an entry").path()).collect();
+    files.sort();
+    samples.extend(files.iter().filter(|f| f.is_file()).map(|f| (u8::MAX, fs::read(f).expect("a file"))));
+    samples
+});
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_files_are_read_or_refused(
+        sample in any::<prop::sample::Index>(),
+        forced in any::<bool>(),
+        damage in vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        cut in prop::option::of(any::<prop::sample::Index>()),
+    ) {
+        let (format, bytes) = &SAMPLES[sample.index(SAMPLES.len())];
+        let mut data = vec![if forced { *format } else { u8::MAX }];
+        data.extend(bytes);
+        for (at, junk) in damage {
+            let at = 1 + at.index(bytes.len());
+            data[at] = junk;
+        }
+        if let Some(end) = cut {
+            data.truncate(1 + end.index(bytes.len()));
+        }
+        targets::readers(&data);
+    }
+
+    #[test]
+    fn any_half_spaces_make_a_correct_solid_or_an_error(data in vec(any::<u8>(), 0..200)) {
+        targets::solids(&data);
+    }
+
+    #[test]
+    fn any_meets_make_a_stone_or_an_error(data in vec(any::<u8>(), 0..200)) {
+        targets::meets(&data);
+    }
+
+    #[test]
+    fn any_parameters_make_a_stone_or_an_error(data in vec(any::<u8>(), 0..40)) {
+        targets::cuts(&data);
+    }
+}

@@ -1,0 +1,86 @@
+//! Stones and rays that the tests of the walk share.
+
+use cutlab::cut::families;
+use cutlab::math::{
+    random::{Purpose, Stream},
+    sample,
+};
+use cutlab::solid::{Plane, Polyhedron};
+use cutlab::walk::{LANES, Packet, Stone, scalar};
+use glam::{DVec3, Vec3};
+use std::collections::BTreeMap;
+
+/// The only seed of these tests.
+pub const SEED: u64 = 1;
+
+pub const DIAMOND: f32 = 2.417;
+
+pub fn brilliant() -> Polyhedron {
+    let design = families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+    design.solid().expect("closed")
+}
+
+/// A cube of half side 1.
+pub fn cube() -> Polyhedron {
+    let planes = DVec3::AXES.map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).concat();
+    Polyhedron::from_planes(&planes).expect("closed")
+}
+
+pub fn random_direction(s: &mut Stream) -> Vec3 {
+    let [z, phi] = [1.0 - 2.0 * s.unit(), std::f32::consts::TAU * s.unit()];
+    let r = (1.0 - z * z).sqrt();
+    Vec3::new(r * phi.cos(), r * phi.sin(), z)
+}
+
+/// A closed stone of `count` planes: a tetrahedron knocked about, and planes near the unit sphere.
+pub fn random_stone(count: usize, number: u64) -> Polyhedron {
+    let mut s = Stream::new(SEED, Purpose::Test, number);
+    let tetrahedron =
+        [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(Vec3::from_array);
+    let mut planes: Vec<Plane> = tetrahedron
+        .map(|n| {
+            let knocked = n.normalize() + 0.3 * random_direction(&mut s);
+            Plane::new(knocked.as_dvec3(), 1.0 + 0.1 * s.unit64())
+        })
+        .into();
+    while planes.len() < count {
+        planes.push(Plane::new(random_direction(&mut s).as_dvec3(), 1.0 + 0.02 * s.unit64()));
+    }
+    Polyhedron::from_planes(&planes).expect("a knocked tetrahedron is closed")
+}
+
+/// A packet of rays that enter anywhere from anywhere, and what each reflects.
+pub fn entering(stone: &Stone, s: &mut Stream, index: f32) -> (Packet, [f32; LANES]) {
+    let mut packet = Packet::default();
+    let mut reflected = [0.0; LANES];
+    for (lane, reflected) in reflected.iter_mut().enumerate() {
+        let facet = ((s.unit64() * stone.facet_count() as f64) as usize).min(stone.facet_count() - 1);
+        let corners: Vec<_> = stone.solid.polygon(facet).map(|v| stone.from_design(v)).collect();
+        let i = 1 + (s.unit64() * (corners.len() - 2) as f64) as usize;
+        let [b, c] = sample::triangle(s.pair()).map(f64::from);
+        let point = corners[0] + (corners[i] - corners[0]) * b + (corners[i + 1] - corners[0]) * c;
+        let direction = -sample::about(stone.normals[facet], sample::cosine_hemisphere(s.pair()));
+        let entry = stone.enter(facet, direction, index);
+        packet.set(lane, point.as_vec3(), entry.direction, 1.0 - entry.reflectance, index);
+        *reflected = entry.reflectance;
+    }
+    (packet, reflected)
+}
+
+/// The same ray for the `f64` twin.
+pub fn twin_of(packet: &Packet, lane: usize) -> scalar::Ray {
+    scalar::Ray {
+        point: packet.point(lane).as_dvec3(),
+        direction: packet.direction(lane).as_dvec3().normalize(),
+        power: packet.power[lane].into(),
+        index: packet.index[lane].into(),
+        absorption: 0.0,
+        stokes: None,
+    }
+}
+
+/// Distance at which a ray meets the plane of one facet; none if it does not head for it.
+pub fn distance_to(plane: &Plane, point: DVec3, direction: DVec3) -> Option<f64> {
+    let toward = plane.normal.dot(direction);
+    (toward > 0.0).then(|| (-plane.height(point)).max(0.0) / toward)
+}

@@ -1,0 +1,187 @@
+//! What is asked of every input: no panic, no hang, an error of one line or a correct stone.
+//!
+//! Each target takes the fuzzer's bytes. They are run by libFuzzer (`fuzz_targets/`) and, bounded, by
+//! proptest on every change (`tests/hostile.rs`).
+
+#![allow(dead_code)] // every binary uses one of them
+
+use cutlab::cut::Design;
+use cutlab::cut::families::{self, FAMILIES};
+use cutlab::formats::{self, FORMATS, FormatError, Source};
+use cutlab::solid::{Plane, Polyhedron};
+use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Bytes as numbers, zeros when they are used up.
+struct Bytes<'a>(&'a [u8]);
+
+impl Bytes<'_> {
+    fn byte(&mut self) -> u8 {
+        let (first, rest) = self.0.split_first().map_or((0, self.0), |(b, rest)| (*b, rest));
+        self.0 = rest;
+        first
+    }
+
+    fn float(&mut self) -> f64 {
+        f32::from_le_bytes(std::array::from_fn(|_| self.byte())).into()
+    }
+
+    /// A whole number from −128 to 127: corners of many planes come from few numbers.
+    fn small(&mut self) -> f64 {
+        f64::from(self.byte() as i8)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+fn is_one_line(error: &impl std::fmt::Display) {
+    let text = error.to_string();
+    assert!(!text.is_empty() && !text.trim_end().contains('\n'), "not one line: {text:?}");
+}
+
+/// What holds for every solid.
+fn is_correct(solid: &Polyhedron) {
+    assert_eq!(solid.euler(), 2, "V − E + F");
+    let size = solid.bounding_sphere().1;
+    let volume = solid.volume();
+    assert!(volume > 0.0 && volume.is_finite(), "volume {volume}");
+    assert!(volume < 4.2 * size.powi(3) * (1.0 + 1e-9), "volume {volume} in a sphere of {size}");
+    let open: DVec3 = (0..solid.faces.len()).map(|f| solid.area_vector(f)).sum();
+    assert!(open.length() <= 1e-9 * size * size, "open by {open} for size {size}");
+    assert!(solid.faces.iter().all(|f| f.corners.len() >= 3));
+}
+
+/// A file: the first byte says whether its format is found or forced, the rest is the file.
+pub fn readers(data: &[u8]) {
+    let Some((which, bytes)) = data.split_first() else { return };
+    let read: Result<Design, FormatError> = match FORMATS.get(*which as usize) {
+        Some(format) => {
+            let source = Source { name: "fuzzed", bytes, folder: None };
+            (format.read)(&source).map(|reading| reading.design)
+        }
+        None => formats::read_bytes("fuzzed", bytes, None).map(|imported| imported.design),
+    };
+    match read {
+        Ok(design) => stands_or_says_why(&design),
+        Err(error) => is_one_line(&error),
+    }
+}
+
+/// A design that was read is a stone that can be written in every format and read again, or an error.
+fn stands_or_says_why(design: &Design) {
+    if design.facets().count() > 200 {
+        return; // the time goes into small ones
+    }
+    match design.solid() {
+        Ok(solid) => is_correct(&solid),
+        Err(error) => return is_one_line(&error),
+    }
+    for format in FORMATS.iter().filter(|f| f.write.is_some()) {
+        match formats::encode(design, format.name) {
+            Ok(bytes) => {
+                if let Err(error) = formats::read_bytes("written", &bytes, None) {
+                    is_one_line(&error);
+                }
+            }
+            Err(error) => is_one_line(&error),
+        }
+    }
+}
+
+/// Half-spaces: correct, and the same however they are shuffled and turned; or an error.
+pub fn solids(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let (whole, scale) = (bytes.byte().is_multiple_of(2), 10f64.powi(i32::from(bytes.byte() % 13) - 6));
+    let mut planes = Vec::new();
+    while !bytes.is_empty() && planes.len() < 100 {
+        let mut number = || if whole { bytes.small() } else { bytes.float() };
+        let normal = DVec3::new(number(), number(), number());
+        let distance = number() * scale;
+        planes.push(Plane { normal: normal.normalize_or_zero(), distance });
+    }
+    let turn = DMat3::from_euler(glam::EulerRot::XYZ, 0.7, -0.4, 2.1);
+    let half = planes.len() / 2;
+    let shuffled: Vec<Plane> =
+        planes[half..].iter().chain(planes[..half].iter().rev()).map(|p| p.turned(turn)).collect();
+    match (Polyhedron::from_planes(&planes), Polyhedron::from_planes(&shuffled)) {
+        (Ok(a), Ok(b)) => {
+            is_correct(&a);
+            is_correct(&b);
+            let size = a.bounding_sphere().1;
+            let apart = (a.volume() - b.volume()).abs();
+            assert!(apart <= 1e-9 * size.powi(3), "{} and {} for size {size}", a.volume(), b.volume());
+        }
+        (a, b) => [a.err(), b.err()].iter().flatten().for_each(is_one_line),
+    }
+}
+
+/// Tiers with meets, as a design file.
+pub fn meets(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let mut text = format!("name = \"f\"\ngear = {{ teeth = {} }}\n", bytes.byte() % 100);
+    for tier in 0..12 {
+        if bytes.is_empty() {
+            break;
+        }
+        let indices: Vec<_> = (0..1 + bytes.byte() % 3).map(|_| bytes.byte().to_string()).collect();
+        let _ = writeln!(text, "[[tier]]\nname = \"t{tier}\"\nindices = [{}]", indices.join(", "));
+        let mut entries = BTreeMap::new();
+        for _ in 0..1 + bytes.byte() % 4 {
+            let (key, value) = entry(&mut bytes);
+            entries.insert(key, value);
+        }
+        entries.iter().for_each(|(key, value)| text += &format!("{key} = {value}\n"));
+    }
+    match formats::read_bytes("fuzzed.toml", text.as_bytes(), None) {
+        Ok(read) => stands_or_says_why(&read.design),
+        Err(error) => is_one_line(&error),
+    }
+}
+
+/// A key of a tier and its value.
+fn entry(bytes: &mut Bytes) -> (&'static str, String) {
+    let facet = |bytes: &mut Bytes| match bytes.byte() {
+        b if b % 3 == 0 => format!("t{}", b % 12),
+        b if b % 3 == 1 => format!("t{} {}", b % 12, 1 + b / 12),
+        b => format!("t{}@{}", b % 12, bytes.byte()),
+    };
+    let corner = |bytes: &mut Bytes| [facet(bytes), facet(bytes), facet(bytes)].join(" & ");
+    match bytes.byte() % 10 {
+        0 => ("angle", bytes.small().to_string()),
+        1 => ("angle", (bytes.small() / 1.4).to_string()),
+        2 => ("distance", (bytes.small() / 64.0).to_string()),
+        3 => ("meets", format!("\"{}\"", corner(bytes))),
+        4 => ("meets", format!("[\"{}\", \"{}\"]", corner(bytes), corner(bytes))),
+        5 => ("girdle", (bytes.small() / 1000.0).to_string()),
+        6 => ("width", (bytes.small() / 32.0).to_string()),
+        7 => ("table", (bytes.small() / 100.0).to_string()),
+        8 => ("repeat", bytes.byte().to_string()),
+        _ => ("mirror", bytes.byte().is_multiple_of(2).to_string()),
+    }
+}
+
+/// Parameters of a family, any numbers.
+pub fn cuts(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let family = FAMILIES[bytes.byte() as usize % FAMILIES.len()];
+    let mut values = BTreeMap::new();
+    while !bytes.is_empty() && values.len() < 8 {
+        let parameter = &family.parameters[bytes.byte() as usize % family.parameters.len().max(1)];
+        let value = match bytes.byte() % 3 {
+            0 => bytes.float(),
+            1 => f64::from(bytes.byte()) / 2.0,
+            _ => bytes.small(),
+        };
+        values.insert(parameter.key.to_string(), value);
+    }
+    match families::build(family.name, &values) {
+        Ok(design) => match design.solid() {
+            Ok(solid) => is_correct(&solid),
+            Err(error) => is_one_line(&error),
+        },
+        Err(error) => is_one_line(&error),
+    }
+}
