@@ -27,7 +27,10 @@ pub struct Settings {
     pub seed: u64,
 }
 
-/// Side of the grid of shadow rays on each light for a surface that the camera sees directly.
+/// Shadow rays to each light that a pixel of a surface seen directly takes at least, over all its
+/// camera rays: a penumbra of 2 % noise.
+const SHADOW_RAYS: u32 = 200;
+/// Largest side of the grid of shadow rays of one camera ray.
 const SHADOW_STRATA: usize = 5;
 
 /// Mirrors in a row, after which a camera ray sees black.
@@ -202,7 +205,7 @@ impl View<'_> {
         sight
     }
 
-    /// A surface that the camera sees directly: 25 shadow rays a light.
+    /// A surface that the camera sees directly.
     ///
     /// - `share`: of each wavelength that the surface and the mirrors before it give back
     fn see_surface(
@@ -214,13 +217,15 @@ impl View<'_> {
         sight: &mut Sight,
         stream: &mut Stream,
     ) {
+        let per_ray = SHADOW_RAYS.div_ceil(self.settings.rays.max(1));
+        let strata = ((per_ray as f32).sqrt().ceil() as usize).min(SHADOW_STRATA);
         let lit: Vec<(&Light, Vec3)> = self
             .scene
             .lights
             .iter()
             .map(|light| {
                 let jitter = || stream.pair();
-                (light, self.scene.direct_irradiance(light, point, normal, SHADOW_STRATA, jitter))
+                (light, self.scene.direct_irradiance(light, point, normal, strata, jitter))
             })
             .collect();
         let caustic = self.maps.caustic.irradiance(s, point);

@@ -167,7 +167,7 @@ mod tests {
             }
             for share in [0.0, 0.5] {
                 let aim = Aim { targets: vec![target], share, world };
-                let (mut caught, mut all) = (0.0f64, 0.0f64);
+                let (mut caught, mut all, mut hits) = (0.0f64, 0.0f64, 0);
                 for _ in 0..n {
                     let u = std::array::from_fn(|_| stream.unit());
                     let Some(start) = light.leave(&aim, u) else { continue };
@@ -176,9 +176,12 @@ mod tests {
                     let at = start.point + start.direction * t;
                     if start.direction.z < 0.0 && t > 0.0 && at.truncate().length() < 0.3 {
                         caught += f64::from(start.power.y) / f64::from(n);
+                        hits += 1;
                     }
                 }
-                assert!((caught / seen - 1.0).abs() < 0.06, "{name} {share}: {caught} {seen}");
+                // powers of hits differ by less than a factor of two
+                let tolerance = 4.0 * 1.2 / f64::from(hits).sqrt() + 0.005;
+                assert!((caught / seen - 1.0).abs() < tolerance, "{name} {share}: {caught} {seen}");
                 if let Some(power) = light.power() {
                     assert!((all / f64::from(power) - 1.0).abs() < 0.03, "{name} {share}: {all} {power}");
                 }
