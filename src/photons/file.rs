@@ -80,7 +80,7 @@ impl Origin {
             stone: listed(scene, |p| {
                 format!("of {} facets ({:08x})", p.stone.facet_count(), stone_checksum(p))
             }),
-            material: listed(scene, |p| format!("{} ({:08x})", p.material.name, material_checksum(p))),
+            material: listed(scene, substance),
             polarised: listed(scene, |p| (if p.polarised { "on" } else { "off" }).into()),
             surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
@@ -119,16 +119,16 @@ fn stone_checksum(placed: &PlacedStone) -> u32 {
         let world = placed.point_to_world(placed.stone.from_design(*v).as_vec3());
         world.to_array().iter().for_each(|x| crc.update(&x.to_le_bytes()));
     }
-    if !placed.material.is_clear() {
-        crc.update(&placed.stone.unit.to_le_bytes()); // how deep its colour is
-    }
     crc.finalize()
 }
 
-/// Checksum of the laws by which the stone refracts and absorbs.
-fn material_checksum(placed: &PlacedStone) -> u32 {
+/// The material with a checksum of the laws by which it refracts and absorbs, and with the size of
+/// the stone if its colour depends on it.
+fn substance(placed: &PlacedStone) -> String {
     let material = &placed.material;
-    crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes())
+    let laws = crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes());
+    let radius = format!(", {:.6} mm in radius", placed.stone.unit);
+    format!("{} ({laws:08x}{})", material.name, if material.is_clear() { "" } else { &radius })
 }
 
 /// Checksum of surfaces and lights.

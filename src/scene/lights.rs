@@ -98,7 +98,13 @@ impl Light {
     /// Radiance or power at `nm` of a colour that the emitter gave.
     pub fn at(&self, colour: Vec3, nm: f32) -> f32 {
         let colour = colour * self.radiance;
-        if colour == Vec3::ZERO { 0.0 } else { self.spectrum.power(nm) * rgb::basis(nm).dot(colour) }
+        if colour == Vec3::ZERO {
+            0.0
+        } else if colour == Vec3::splat(colour.x) {
+            self.spectrum.power(nm) * colour.x // the parts add up to 1
+        } else {
+            self.spectrum.power(nm) * rgb::basis(nm).dot(colour)
+        }
     }
 }
 
