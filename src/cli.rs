@@ -2,18 +2,25 @@
 //!
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
+mod compare;
 mod console;
 mod drawing;
+mod folders;
 mod generate;
 mod import;
 mod list;
+mod merge;
 mod outcome;
 mod parameters;
 mod render;
 mod report;
 mod score;
+mod scoring;
 mod show;
 mod stones;
+mod sweep;
+mod tables;
+mod words;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
@@ -48,6 +55,12 @@ enum Command {
     Render(render::Args),
     /// Scores of brilliance and fire, one row a stone
     Score(score::Args),
+    /// Scores over a grid of parameters, with curves and maps
+    Sweep(sweep::Args),
+    /// Join the parts that --shard made of a table
+    Merge(merge::Args),
+    /// Scores of stones beside each other, with their differences
+    Compare(compare::Args),
     /// Everything about one stone: pictures, scores and a page
     Report(report::Args),
     /// What there is to choose from
@@ -62,6 +75,9 @@ impl Command {
             Command::Show(args) => show::run(args, console),
             Command::Render(args) => render::run(args, console),
             Command::Score(args) => score::run(args, console),
+            Command::Sweep(args) => sweep::run(args, console),
+            Command::Merge(args) => merge::run(args, console),
+            Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::List(args) => list::run(args, console),
         }

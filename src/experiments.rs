@@ -1,23 +1,37 @@
-//! The three experiments that the scores read, each traced once a stone.
+//! The experiments that the scores read, each traced once a stone.
 //!
-//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye above the
-//! stone, traced backward. [`Beam`]: a point light at infinity above the stone, in colours. An
-//! experiment adds up small sums in independent batches ([`Traced`]); a metric is a ratio of such
-//! sums, and the spread of the batches is its error.
+//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of
+//! the stone, traced backward; [`Iso`] the same by the rules of faceters; [`Contrast`] and
+//! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`Beam`]: a
+//! point light at infinity, in colours. An experiment adds up small sums in independent batches
+//! ([`Traced`]); a metric is a function of such sums, and the spread of the batches is its error.
+//! The viewer, and light with him, looks from an [`Aspect`].
 
+pub mod aspect;
 pub mod batches;
 pub mod beam;
+pub mod by_beams;
+pub mod cells;
+pub mod contrast;
 mod entrance;
 pub mod exact;
 pub mod hemisphere;
+pub mod iso;
+pub mod quadrature;
+pub mod scintillation;
 pub mod separation;
 mod together;
 pub mod view;
 pub mod weigh;
 
+pub use aspect::Aspect;
 pub use batches::{BATCHES, Experiment, Traced};
 pub use beam::Beam;
+pub use contrast::Contrast;
 pub use hemisphere::Hemisphere;
+pub use iso::Iso;
+pub use quadrature::Quadrature;
+pub use scintillation::Scintillation;
 pub use view::View;
 
 use crate::optics::Material;
@@ -40,6 +54,12 @@ struct Optics {
     index: f32,
     /// Absorption coefficient per walking unit.
     absorption: f32,
+}
+
+impl Optics {
+    fn absorbs(&self) -> bool {
+        self.absorption > 0.0
+    }
 }
 
 impl Medium<'_> {

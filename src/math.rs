@@ -1,5 +1,6 @@
 //! Mathematics that knows nothing of gems: random streams, sampling warps, statistics.
 
+pub mod histogram;
 pub mod points;
 pub mod random;
 pub mod sample;

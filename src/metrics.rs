@@ -1,4 +1,4 @@
-//! The catalogue of scores, one a file. A score reads one experiment and is a ratio of its sums.
+//! The catalogue of scores, one a file. A score reads one experiment and is a function of its sums.
 
 mod absorbed;
 mod aset_blue;
@@ -6,19 +6,38 @@ mod aset_blue_strongest;
 mod aset_green;
 mod aset_green_strongest;
 mod aset_leak;
+mod aset_leak_strongest;
 mod aset_red;
 mod aset_red_strongest;
+mod brightness;
+mod contrast;
+mod cos;
 mod dispersion_mean;
+mod dispersion_median;
+mod extinction;
 mod fire_lit;
 mod fire_streak;
 mod glare;
+mod ideal_scope_black;
+mod ideal_scope_red;
+mod ideal_scope_white;
+mod iso;
 mod leakage;
 mod leakage_strongest;
 mod light_return;
 mod lost;
+mod sc2;
+mod scintillation;
+mod spread;
+mod table_cos;
+mod table_iso;
+mod table_sc2;
+mod weight_ratio;
+mod windowing;
 mod wlr;
 
-use crate::experiments::{beam, hemisphere, view};
+use crate::experiments;
+use crate::solid::Polyhedron;
 
 /// One score.
 #[derive(Debug)]
@@ -31,24 +50,39 @@ pub struct Metric {
     pub unit: &'static str,
     /// Least and greatest value it can take.
     pub range: (f64, f64),
+    /// What an error asked for is measured against: 1 for fractions and degrees, 100 for percentages.
+    pub scale: f64,
+    /// Half-angle in degrees of the observer's dark cone, for a metric that has one; a plan may set
+    /// another.
+    pub observer: Option<f64>,
+    /// Whether beams give it too (`--exact`).
+    pub by_beams: bool,
     /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
     pub definition: &'static str,
     /// Where the definition is from.
     pub source: &'static str,
-    /// The experiment it reads, and the numerator and denominator in it.
+    /// The experiment it reads, and what of its sums.
     pub reading: Reading,
 }
 
-/// Numerator and denominator of a score, from the tally of the experiment that it reads. None of
-/// them changes when the stone is turned about its axis.
+/// A score as a function of the tally of the experiment that it reads. None but `scintillation`,
+/// whose axes stay, changes when the stone is turned about its own axis.
 #[derive(Debug, Clone, Copy)]
 pub enum Reading {
-    /// A dome of light: [`hemisphere`].
-    Hemisphere(fn(&hemisphere::Tally) -> (f64, f64)),
-    /// A parallel eye: [`view`].
-    View(fn(&view::Tally) -> (f64, f64)),
-    /// A point light at infinity: [`beam`].
-    Beam(fn(&beam::Tally) -> (f64, f64)),
+    /// A dome of light: [`experiments::hemisphere`].
+    Hemisphere(fn(&experiments::hemisphere::Tally) -> f64),
+    /// A parallel eye: [`experiments::view`].
+    View(fn(&experiments::view::Tally) -> f64),
+    /// A parallel eye by the rules of faceters: [`experiments::iso`].
+    Iso(fn(&experiments::iso::Tally) -> f64),
+    /// Cells of the picture: [`experiments::contrast`].
+    Contrast(fn(&experiments::contrast::Tally) -> f64),
+    /// Cells of the rocked picture: [`experiments::scintillation`].
+    Scintillation(fn(&experiments::scintillation::Tally) -> f64),
+    /// A point light at infinity: [`experiments::beam`].
+    Beam(fn(&experiments::beam::Tally) -> f64),
+    /// The solid itself: a closed form.
+    Solid(fn(&Polyhedron) -> Option<f64>),
 }
 
 impl Reading {
@@ -57,7 +91,11 @@ impl Reading {
         match self {
             Reading::Hemisphere(_) => "hemisphere",
             Reading::View(_) => "view",
+            Reading::Iso(_) => "iso",
+            Reading::Contrast(_) => "contrast",
+            Reading::Scintillation(_) => "scintillation",
             Reading::Beam(_) => "beam",
+            Reading::Solid(_) => "solid",
         }
     }
 }
@@ -78,13 +116,12 @@ impl Metric {
 pub static METRICS: &[&Metric] = &[
     &wlr::WLR,
     &light_return::LIGHT_RETURN,
-    &glare::GLARE,
     &leakage::LEAKAGE,
+    &leakage_strongest::LEAKAGE_STRONGEST,
+    &glare::GLARE,
     &absorbed::ABSORBED,
     &lost::LOST,
-    &fire_lit::FIRE_LIT,
-    &fire_streak::FIRE_STREAK,
-    &dispersion_mean::DISPERSION_MEAN,
+    &brightness::BRIGHTNESS,
     &aset_green::ASET_GREEN,
     &aset_red::ASET_RED,
     &aset_blue::ASET_BLUE,
@@ -92,7 +129,26 @@ pub static METRICS: &[&Metric] = &[
     &aset_green_strongest::ASET_GREEN_STRONGEST,
     &aset_red_strongest::ASET_RED_STRONGEST,
     &aset_blue_strongest::ASET_BLUE_STRONGEST,
-    &leakage_strongest::LEAKAGE_STRONGEST,
+    &aset_leak_strongest::ASET_LEAK_STRONGEST,
+    &ideal_scope_red::IDEAL_SCOPE_RED,
+    &ideal_scope_white::IDEAL_SCOPE_WHITE,
+    &ideal_scope_black::IDEAL_SCOPE_BLACK,
+    &fire_lit::FIRE_LIT,
+    &fire_streak::FIRE_STREAK,
+    &dispersion_mean::DISPERSION_MEAN,
+    &dispersion_median::DISPERSION_MEDIAN,
+    &contrast::CONTRAST,
+    &scintillation::SCINTILLATION,
+    &iso::ISO,
+    &cos::COS,
+    &sc2::SC2,
+    &table_iso::TABLE_ISO,
+    &table_cos::TABLE_COS,
+    &table_sc2::TABLE_SC2,
+    &windowing::WINDOWING,
+    &extinction::EXTINCTION,
+    &spread::SPREAD,
+    &weight_ratio::WEIGHT_RATIO,
 ];
 
 #[cfg(test)]
@@ -103,9 +159,13 @@ mod tests {
     fn every_metric_says_what_it_is_and_has_a_name_of_its_own() {
         for (i, m) in METRICS.iter().enumerate() {
             assert!(!m.source.is_empty() && !m.about.is_empty() && m.range.0 < m.range.1, "{}", m.name);
-            for word in ["npolarised", "Fresnel", "line"] {
+            let light = !matches!(m.reading, Reading::Solid(_));
+            for word in ["npolarised", "Fresnel", "D line"].iter().filter(|_| light && !m.needs_dispersion())
+            {
                 assert!(m.definition.contains(word), "{} does not state: {word}", m.name);
             }
+            assert_eq!(m.observer.is_some(), m.definition.contains("--observer"), "{}", m.name);
+            assert_eq!(m.scale == 100.0, m.unit == "%", "{}", m.name);
             assert!(METRICS[..i].iter().all(|other| other.name != m.name), "{}", m.name);
             assert_eq!(Metric::named(m.name).map(|m| m.name), Some(m.name));
         }

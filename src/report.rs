@@ -5,7 +5,9 @@ pub mod bundle;
 pub mod diagram;
 pub mod page;
 pub mod pattern;
+pub mod plot;
 pub mod raster;
 pub mod sections;
+pub mod versus;
 
 pub use bundle::{Bundle, ReportError, Request, make};

@@ -1,3 +1,4 @@
 //! The only place that writes files.
 
+pub mod progress;
 pub mod replace;

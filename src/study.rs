@@ -1,4 +1,11 @@
 //! Studies: many stones, many scores.
 
+pub mod batch;
+pub mod compare;
+pub mod identity;
+pub mod merge;
+pub mod meta;
 pub mod score;
+pub mod shard;
+pub mod sweep;
 pub mod table;

@@ -154,7 +154,7 @@ fn a_plate_follows_its_closed_form() {
         let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
         let back = through * r * x;
         let share =
-            |of: fn(&cutlab::experiments::view::Tally) -> f64| traced.estimate(|t| (of(t), t.rays)).value;
+            |of: fn(&cutlab::experiments::view::Tally) -> f64| traced.estimate(|t| of(t) / t.rays).value;
         assert!((share(|t| t.bands[3]) - through).abs() < 2e-4, "{per_mm}: {through}");
         assert!((share(|t| t.up()) - back).abs() < 2e-4, "{per_mm}: {back}");
         assert!((share(|t| t.absorbed) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
@@ -170,6 +170,7 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
             stone: "s".into(),
             material,
             solid: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed")),
+            tilt: None,
         };
         let plan = Plan { effort: Effort::Samples(1 << 14), seed: SEED, ..Plan::default() };
         let row = score(&subject, &plan);

@@ -6,6 +6,7 @@ mod targets;
 use cutlab::formats::{self, FORMATS, stone};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -25,8 +26,22 @@ static SAMPLES: LazyLock<Vec<(u8, Vec<u8>)>> = LazyLock::new(|| {
     samples
 });
 
+/// The same cases every time; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` ask for others.
+fn config() -> ProptestConfig {
+    let given = ProptestConfig::default();
+    let fixed = given.rng_seed == RngSeed::Random;
+    let rng_seed = if fixed { RngSeed::Fixed(1) } else { given.rng_seed };
+    ProptestConfig { cases: given.cases.max(600), failure_persistence: None, rng_seed, ..given }
+}
+
+#[test]
+fn an_stl_shorter_than_its_header_is_refused() {
+    let stl = FORMATS.iter().position(|f| f.name == "stl").expect("in the catalogue");
+    targets::readers(&[stl as u8, b's', b'o', b'l', b'i', b'd']);
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn damaged_files_are_read_or_refused(

@@ -168,7 +168,7 @@ fn polarisation_changes_a_view_by_as_much_as_is_known() {
             SEED,
         );
         traced.extend_to(1 << 17);
-        traced.estimate(|t| (t.up(), t.rays))
+        traced.estimate(|t| t.up() / t.rays)
     };
     let (with, without) = (up(true), up(false));
     let change = (with.value - without.value).abs();

@@ -123,7 +123,7 @@ fn errors(stone: &Stone, material: &Material, real: bool, runs: usize) -> Result
         let trace = || {
             let mut view = Traced::new(View::new(stone, &Medium { material, polarised: false })?, 1);
             view.extend_to(samples);
-            Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| (t.up(), t.rays)))
+            Ok::<_, cutlab::experiments::ExperimentError>(view.estimate(|t| t.up() / t.rays))
         };
         let (time, up) = best_of(runs.min(3), trace);
         let up = up?;

@@ -5,7 +5,7 @@ use super::drawing::Drawing;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
-use crate::cut::{families, library};
+use crate::cut::families;
 use crate::formats;
 use crate::store::replace;
 use std::path::{Path, PathBuf};
@@ -53,13 +53,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = takes_size(&args.stone);
+    let has_size = stones::family(&args.stone).is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
-    let name = args.stone.split(':').next().unwrap_or_default();
-    let is_cut = library::names().any(|n| n == name) || families::family(name).is_ok();
-    if let (false, Some(flag)) = (is_cut, parameters.0.keys().next())
+    if let (false, Some(flag)) = (stones::is_cut(&args.stone), parameters.0.keys().next())
         && Path::new(&args.stone).exists()
     {
         return Err(Failure::input(format!(
@@ -100,12 +98,4 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print(&summary)?;
     }
     Ok(Code::Done)
-}
-
-/// Whether the stone's family has a parameter `size`; other stones are scaled as a whole.
-fn takes_size(spec: &str) -> bool {
-    let name = spec.split(':').next().unwrap_or_default();
-    let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
-    families::family(family.as_deref().unwrap_or(name))
-        .is_ok_and(|f| f.parameters.iter().any(|p| p.key == "size"))
 }

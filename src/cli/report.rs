@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
+use super::words;
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::optics::dispersion::VISIBLE_UM;
@@ -47,7 +48,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
     let size = args.size.or((imported.design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(imported.design, size)?;
-    let request = Request { stone: args.stone.clone(), design, material, seed: args.seed, command: typed() };
+    let request =
+        Request { stone: args.stone.clone(), design, material, seed: args.seed, command: words::typed() };
 
     let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {
@@ -87,15 +89,6 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     text += &format!("{}: {}", args.output.display(), names.join(", "));
     console.print(&text)?;
     Ok(Code::Done)
-}
-
-/// The command as typed, for the page.
-fn typed() -> String {
-    let words = std::env::args().skip(1).map(|word| {
-        let plain = |c: char| c.is_alphanumeric() || "-_./:=,+%@".contains(c);
-        if !word.is_empty() && word.chars().all(plain) { word } else { format!("'{word}'") }
-    });
-    std::iter::once("cutlab".to_string()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
 impl From<ReportError> for Failure {

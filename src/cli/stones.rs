@@ -2,7 +2,8 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
-use crate::cut::{Design, Unit};
+use crate::cut::families::Family;
+use crate::cut::{Design, Unit, families, library};
 use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
@@ -46,6 +47,19 @@ pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
         _ if failed.iter().all(|c| *c == Code::Io) => Code::Io,
         _ => Code::NoGoodInput,
     }
+}
+
+/// Whether STONE names a cut of the library or a family, with parameters or not.
+pub fn is_cut(spec: &str) -> bool {
+    let name = spec.split(':').next().unwrap_or_default();
+    library::names().any(|n| n == name) || families::family(name).is_ok()
+}
+
+/// The family that STONE is made by; none for a file and for a cut of fixed tiers.
+pub fn family(spec: &str) -> Option<&'static Family> {
+    let name = spec.split(':').next().unwrap_or_default();
+    let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
+    families::family(family.as_deref().unwrap_or(name)).ok()
 }
 
 /// Value parser of `--size`.
@@ -125,6 +139,11 @@ pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a
 /// Girdle width of a stone of which nobody says how large it is, in millimetres.
 pub const USUAL_SIZE: f64 = 6.5;
 
+/// [`USUAL_SIZE`] for a design without unit in a material whose colour depends on the size.
+pub fn usual_size(design: &Design, material: &Material) -> Option<f64> {
+    (design.unit == Unit::Free && !material.is_clear()).then_some(USUAL_SIZE)
+}
+
 /// The stone's design as large as its colour needs to know: with `--size` applied, or as it is, or
 /// 6.5 mm wide if its file has no unit and the material absorbs, which is noted.
 pub fn sized_for_colour(
@@ -133,14 +152,14 @@ pub fn sized_for_colour(
     material: &Material,
     console: &Console,
 ) -> Result<Design, Failure> {
-    let unknown = size.is_none() && design.unit == Unit::Free && !material.is_clear();
-    if unknown {
+    let usual = usual_size(&design, material).filter(|_| size.is_none());
+    if let Some(mm) = usual {
         console.note(&format!(
-            "note: {} has no size, which its colour depends on: taken as {USUAL_SIZE} mm wide; --size MM sets it",
+            "note: {} has no size, which its colour depends on: taken as {mm} mm wide; --size MM sets it",
             design.name
         ));
     }
-    sized(design, size.or(unknown.then_some(USUAL_SIZE)))
+    sized(design, size.or(usual))
 }
 
 /// The stone's design, with `--size` applied.

@@ -118,6 +118,16 @@ static ENVELOPES: &[Envelope] = &[
     ("Fair", [(44.0, 72.0), (20.0, 41.5), (37.4, 44.0), ANY, ANY, (0.0, 10.5), (7.0, 21.0), (51.9, 70.9)]),
 ];
 
+/// The parameters of the round brilliant that an envelope bounds, in the order of its bounds.
+const BOUNDED: [&str; 6] = ["table", "crown-angle", "pavilion-angle", "star", "lower-half", "girdle"];
+
+/// What each envelope asks of the parameter `key` of the family round-brilliant: its name, from and
+/// to, the narrowest first; nothing for a parameter that none bounds.
+pub fn bounds(key: &str) -> impl Iterator<Item = (&'static str, f64, f64)> {
+    let at = BOUNDED.iter().position(|k| *k == key);
+    ENVELOPES.iter().filter_map(move |(name, bounds)| Some((*name, bounds[at?].0, bounds[at?].1)))
+}
+
 /// The narrowest envelope that a round brilliant lies in: `Excellent`, `Very good`, `Good`, `Fair`;
 /// none outside all of them, or for another cut.
 pub fn envelope(p: &Proportions) -> Option<&'static str> {

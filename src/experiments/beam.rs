@@ -1,15 +1,17 @@
-//! Beam: light from a point at infinity above the stone, in the six lines B C D e F G.
+//! Beam: light from a point at infinity behind the viewer, in the six lines B C D e F G.
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
 use super::together::Together;
-use super::{ExperimentError, Medium, Optics};
+use super::{Aspect, ExperimentError, Medium, Optics};
+use crate::math::histogram::Histogram;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
+use crate::math::stats::Sum;
 use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::ops::Range;
 
 /// A path is followed while it holds this share of the light that fell on its point.
@@ -27,15 +29,18 @@ const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
 /// The other three of the six.
 const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
 
-/// A vertical beam on one stone: points uniform over the outline, unpolarised outside.
+/// Width of the classes that the median separation is taken from, in degrees.
+pub const CLASS_DEG: f64 = 0.05;
+
+/// A beam from the viewer's side on one stone: points uniform over the outline, unpolarised outside.
 ///
 /// The exiting beam is m = (cos t / cos i) at entry × (cos out / cos in) at exit times as wide as
 /// the entering one; its irradiance is power / m. Crown exits above the horizon count.
 #[derive(Debug, Clone)]
 pub struct Beam<'a> {
     stone: &'a Stone,
+    aspect: Aspect,
     polarised: bool,
-    absorbing: bool,
     optics: [[Optics; LINES]; 2],
     outline: Outline,
     crown: Vec<f32>,
@@ -56,20 +61,38 @@ pub struct Tally {
     pub power_angle_deg: f64,
     /// Σ power over the same exits.
     pub paired_power: f64,
+    /// The same power by angle, in classes of [`CLASS_DEG`].
+    pub power_by_angle: Histogram,
+}
+
+impl Sum for Tally {
+    fn add(&mut self, other: &Tally) {
+        self.points += other.points;
+        self.lit += other.lit;
+        self.streak_deg += other.streak_deg;
+        self.power_angle_deg += other.power_angle_deg;
+        self.paired_power += other.paired_power;
+        Sum::add(&mut self.power_by_angle, &other.power_by_angle);
+    }
 }
 
 impl<'a> Beam<'a> {
-    /// Lights a stone; a material without dispersion gives no angles.
+    /// Lights a face-up stone; a material without dispersion gives no angles.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
+        Self::seen_from(stone, medium, Aspect::FACE_UP)
+    }
+
+    /// Lights a stone from the viewer's side.
+    pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
         let mut optics = [[Optics::default(); LINES]; 2];
         for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
             for (optics, um) in into.iter_mut().zip(lines) {
                 *optics = medium.optics(stone, um)?;
             }
         }
-        let (outline, crown) = (Outline::new(stone)?, entrance::crown_flags(stone));
-        let absorbing = !medium.material.is_clear();
-        Ok(Self { stone, polarised: medium.polarised, absorbing, optics, outline, crown })
+        let (outline, crown) = (Outline::new(stone, aspect)?, entrance::crown_flags(stone));
+        let polarised = medium.polarised;
+        Ok(Self { stone, aspect, polarised, optics, outline, crown })
     }
 }
 
@@ -99,15 +122,16 @@ impl Rays for Shine<'_> {
     }
 
     fn absorbing(&self) -> bool {
-        self.experiment.absorbing
+        self.optics.iter().any(Optics::absorbs)
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
-        let Beam { stone, outline, .. } = self.experiment;
+        let Beam { stone, outline, aspect, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
+        let toward = -aspect.axis.as_vec3();
         for (lane, optics) in (lane..).zip(self.optics) {
-            let entry = stone.enter(facet, -Vec3::Z, optics.index);
+            let entry = stone.enter(facet, toward, optics.index);
             packet.enter(lane, point, &entry, optics.index);
             packet.absorption[lane] = optics.absorption;
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
@@ -120,9 +144,11 @@ impl Rays for Shine<'_> {
     }
 
     fn meet(&mut self, m: &Meeting, _: &Packet) {
-        let mut seen = [0.0; LANES];
-        for (l, seen) in seen.iter_mut().enumerate() {
-            let z = m.dz[l];
+        let axis = self.experiment.aspect.axis.as_vec3();
+        let (mut seen, mut height) = ([0.0; LANES], [0.0; LANES]);
+        for (l, (seen, height)) in seen.iter_mut().zip(&mut height).enumerate() {
+            let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
+            *height = z;
             let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
             let visible = m.power[l] > THRESHOLD * width && z > 0.0;
             let weight = width * z * z * self.experiment.crown[m.facet[l] as usize];
@@ -131,13 +157,14 @@ impl Rays for Shine<'_> {
         let six = lines::SIX.len() as f64;
         self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
         for d in Together::<LINES>::lanes() {
-            let up = m.dz[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
+            let up = height[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
             if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);
                 self.tally.streak_deg += f64::from(seen[d]) * angle;
                 self.tally.power_angle_deg += power * angle;
                 self.tally.paired_power += power;
+                self.tally.power_by_angle.put(angle / CLASS_DEG, power);
             }
         }
     }

@@ -1,18 +1,39 @@
-//! Where light enters: points of the outline seen from above, points of the crown by area.
+//! Where light enters: points of the outline that a viewer sees, points of the crown by area.
 
-use super::ExperimentError;
+use super::{Aspect, ExperimentError};
 use crate::cut::Zone;
+use crate::solid::measure::convex_hull;
 use crate::walk::Stone;
 use glam::{DVec2, DVec3, Vec3};
 
 /// Whether light through facet with unit normal `n` goes through the crown (the table included).
-fn is_crown(n: DVec3) -> bool {
+pub(super) fn is_crown(n: DVec3) -> bool {
     matches!(Zone::of(n), Zone::Table | Zone::Crown)
 }
 
 /// For each facet 1 if it belongs to the crown (or is the table), else 0.
 pub(super) fn crown_flags(stone: &Stone) -> Vec<f32> {
-    stone.planes.iter().map(|p| if is_crown(p.normal) { 1.0 } else { 0.0 }).collect()
+    flags(stone, is_crown)
+}
+
+/// Whether a facet with unit normal `n` belongs to the pavilion (or is the culet).
+pub(super) fn is_pavilion(n: DVec3) -> bool {
+    matches!(Zone::of(n), Zone::Pavilion | Zone::Culet)
+}
+
+/// For each facet 1 if it belongs to the pavilion (or is the culet), else 0.
+pub(super) fn pavilion_flags(stone: &Stone) -> Vec<f32> {
+    flags(stone, is_pavilion)
+}
+
+/// For each facet 1 if it is the table, else 0.
+pub(super) fn table_flags(stone: &Stone) -> Vec<f32> {
+    flags(stone, |n| Zone::of(n) == Zone::Table)
+}
+
+/// For each facet 1 if its unit normal is of a kind, else 0.
+pub(super) fn flags(stone: &Stone, of: impl Fn(DVec3) -> bool) -> Vec<f32> {
+    stone.planes.iter().map(|p| if of(p.normal) { 1.0 } else { 0.0 }).collect()
 }
 
 /// Picks a piece by weight from a uniform number and hands back the rest of that number, again
@@ -90,38 +111,34 @@ impl Crown {
 /// above. A steep facet of a tilted stone is seen, and mirrors nearly all that falls on it.
 const UPRIGHT: f64 = 1e-9;
 
-/// The outline of a stone seen from straight above, walking frame.
+/// The outline of a stone as a viewer sees it, walking frame.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
+    aspect: Aspect,
     middle: DVec2,
     corners: Vec<DVec2>,
     pick: Pick,
-    /// Facets that face up: number, normal divided by its z, distance divided by it.
+    /// Facets that face the viewer: number, slope in the picture, height at its middle.
     roof: Vec<(usize, DVec2, f64)>,
 }
 
 impl Outline {
-    pub(super) fn new(stone: &Stone) -> Result<Self, ExperimentError> {
-        let corners: Vec<DVec2> = stone
-            .solid
-            .outline()
-            .iter()
-            .map(|p| stone.from_design(p.extend(stone.centre.z)).truncate())
-            .collect();
+    pub(super) fn new(stone: &Stone, aspect: Aspect) -> Result<Self, ExperimentError> {
+        let flat = stone.solid.vertices.iter().map(|v| aspect.flat(stone.from_design(*v)));
+        let corners = convex_hull(flat.collect());
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
         let pick = Pick::new((0..corners.len()).map(|i| {
             let next = corners[(i + 1) % corners.len()];
             0.5 * (corners[i] - middle).perp_dot(next - middle)
         }));
-        let roof: Vec<_> = stone
-            .planes
-            .iter()
-            .enumerate()
-            .filter(|(_, p)| p.normal.z > UPRIGHT)
-            .map(|(i, p)| (i, p.normal.truncate() / p.normal.z, p.distance / p.normal.z))
+        let roof: Vec<_> = (0..)
+            .zip(&stone.planes)
+            .map(|(i, plane)| (i, plane, plane.normal.dot(aspect.axis)))
+            .filter(|(.., cosine)| *cosine > UPRIGHT)
+            .map(|(i, p, cosine)| (i, aspect.flat(p.normal) / cosine, p.distance / cosine))
             .collect();
         if pick.total() > 0.0 && !roof.is_empty() {
-            Ok(Self { middle, corners, pick, roof })
+            Ok(Self { aspect, middle, corners, pick, roof })
         } else {
             Err(ExperimentError::NoCrown)
         }
@@ -132,18 +149,36 @@ impl Outline {
         self.pick.total()
     }
 
-    /// Facet and point that a vertical ray meets, uniform over the outline.
-    pub(super) fn sample(&self, u: [f64; 2]) -> (usize, Vec3) {
+    /// A place of the picture, uniform over the outline.
+    pub(super) fn place(&self, u: [f64; 2]) -> DVec2 {
         let (i, along) = self.pick.at(u[0]);
         let (a, b) = (self.corners[i], self.corners[(i + 1) % self.corners.len()]);
-        let p = self.middle + (a + (b - a) * along - self.middle) * u[1].sqrt();
+        self.middle + (a + (b - a) * along - self.middle) * u[1].sqrt()
+    }
+
+    /// Whether a place of the picture lies within the outline.
+    pub(super) fn holds(&self, at: DVec2) -> bool {
+        (0..self.corners.len()).all(|i| {
+            let (a, b) = (self.corners[i], self.corners[(i + 1) % self.corners.len()]);
+            (b - a).perp_dot(at - a) >= 0.0
+        })
+    }
+
+    /// Facet and point that the line of sight through a place within the outline meets.
+    pub(super) fn meet(&self, at: DVec2) -> (usize, Vec3) {
         let mut top = (0, f64::INFINITY);
         for (facet, slope, height) in &self.roof {
-            let z = height - slope.dot(p);
+            let z = height - slope.dot(at);
             if z < top.1 {
                 top = (*facet, z);
             }
         }
-        (top.0, p.extend(top.1).as_vec3())
+        let Aspect { axis, right, top: up } = self.aspect;
+        (top.0, (right * at.x + up * at.y + axis * top.1).as_vec3())
+    }
+
+    /// Facet and point that a line of sight meets, uniform over the outline.
+    pub(super) fn sample(&self, u: [f64; 2]) -> (usize, Vec3) {
+        self.meet(self.place(u))
     }
 }

@@ -3,8 +3,9 @@
 
 use super::view::{Band, band};
 use super::weigh::{Effort, Leaving, Weighed, weigh};
-use super::{ExperimentError, check_index};
+use super::{ExperimentError, check_index, entrance};
 use crate::math::stats::Estimate;
+use crate::optics::stokes::Stokes;
 use crate::walk::beams::{Beams, Exit, Interface, Light, Lit, Rest, Scalar, Until, Watch};
 use glam::DVec3;
 
@@ -82,36 +83,48 @@ pub fn between<const N: usize>(limits_deg: [f64; N]) -> impl Fn(&Leaving<1>) -> 
 
 /// Light that remembers where its strongest path so far has left.
 #[derive(Debug, Clone, Copy)]
-pub struct Strongest {
-    /// Power still inside.
-    pub power: f64,
+pub struct Strongest<L = Scalar> {
+    /// What is still inside.
+    pub light: L,
     /// The strongest exit so far, as a share of the light on the footprint.
     pub best: f64,
     /// Its direction; zero before the first.
     pub towards: DVec3,
+    /// Whether it left through the first pavilion facet that the light met.
+    pub windowed: bool,
+    /// Whether the light has met the pavilion.
+    been_below: bool,
 }
 
-impl Strongest {
+impl<L: Light> Strongest<L> {
     /// Light before its first facet.
-    pub const FRESH: Strongest = Strongest { power: 1.0, best: 0.0, towards: DVec3::ZERO };
+    pub fn fresh(light: L) -> Self {
+        Strongest { light, best: 0.0, towards: DVec3::ZERO, windowed: false, been_below: false }
+    }
 
     /// Whether no later path can be stronger than the best so far.
     pub fn is_decided(&self) -> bool {
-        self.power <= self.best
+        self.light.power() <= self.best
     }
 }
 
-impl Light for Strongest {
+impl<L: Light> Light for Strongest<L> {
     fn power(&self) -> f64 {
-        self.power
+        self.light.power()
     }
 
     fn split(&self, at: &Interface) -> (Self, Self) {
-        let (Scalar(out), Scalar(kept)) = Scalar(self.power).split(at);
+        let (out, kept) = self.light.split(at);
+        let mut stays = Strongest { light: kept, ..*self };
         // at entry what passes goes on inside: it is no exit
-        let leaves = at.leaves && out > self.best;
-        let (best, towards) = if leaves { (out, at.passed) } else { (self.best, self.towards) };
-        (Strongest { power: out, ..*self }, Strongest { power: kept, best, towards })
+        if at.leaves {
+            let first = !self.been_below && entrance::is_pavilion(at.normal);
+            stays.been_below |= first;
+            if out.power() > self.best {
+                stays = Strongest { best: out.power(), towards: at.passed, windowed: first, ..stays };
+            }
+        }
+        (Strongest { light: out, ..*self }, stays)
     }
 
     fn goes_on(&self) -> bool {
@@ -129,6 +142,8 @@ pub struct StrongestShares {
     pub undecided: f64,
     /// Share of the outline that belongs to no band: no light has left yet.
     pub dark: f64,
+    /// Share of the outline whose strongest path leaves through the first pavilion facet it meets.
+    pub windowed: f64,
 }
 
 struct Areas {
@@ -136,10 +151,11 @@ struct Areas {
     shares: StrongestShares,
 }
 
-impl Watch<Strongest, 1> for Areas {
-    fn exit(&mut self, _: &Exit<Strongest, 1>) {}
+impl<L: Light> Watch<Strongest<L>, 1> for Areas {
+    fn exit(&mut self, _: &Exit<Strongest<L>, 1>) {}
 
-    fn rest(&mut self, rest: &Rest<Strongest, 1>) {
+    fn rest(&mut self, rest: &Rest<Strongest<L>, 1>) {
+        self.shares.windowed += if rest.light.windowed { rest.share } else { 0.0 };
         if rest.light.best > 0.0 {
             let z = rest.light.towards.dot(self.axis);
             self.shares.bands[band(z as f32) as usize] += rest.share;
@@ -153,16 +169,24 @@ impl Watch<Strongest, 1> for Areas {
 /// ASET areas: where the strongest path of each point of the outline goes (reflection at entry
 /// aside), by exact areas.
 ///
-/// - `direction`, `index`: as for [`gaze`]; `stop_power`: beams weaker than this are left undecided
+/// - `direction`, `index`, `polarised`: as for [`gaze`]; `stop_power`: beams weaker than this are left
+///   undecided
 pub fn strongest(
     beams: &Beams,
     direction: DVec3,
     index: f64,
+    polarised: bool,
     stop_power: f64,
 ) -> Result<StrongestShares, ExperimentError> {
     check_index(index)?;
     let mut areas = Areas { axis: -direction, shares: StrongestShares::default() };
     let lit = Lit { direction, indices: [index] };
-    beams.follow(&lit, Strongest::FRESH, Until::power(stop_power), &mut areas);
+    let until = Until::power(stop_power);
+    if polarised {
+        let light = Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
+        beams.follow(&lit, Strongest::fresh(light), until, &mut areas);
+    } else {
+        beams.follow(&lit, Strongest::fresh(Scalar(1.0)), until, &mut areas);
+    }
     Ok(areas.shares)
 }

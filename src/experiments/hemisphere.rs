@@ -2,9 +2,9 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::{ExperimentError, Medium, Optics};
+use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
-use crate::math::{random::Purpose, sample};
+use crate::math::{random::Purpose, sample, stats::Sum};
 use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
@@ -17,18 +17,19 @@ const STOP_POWER: f32 = 1e-4;
 /// The dome over one stone.
 ///
 /// Points of the crown uniform by area, directions cosine-distributed about the facet's normal;
-/// directions from below the horizon are drawn but not lit. D line, unpolarised outside.
+/// directions from below the horizon are drawn but not lit. The dome stays with the viewer when the
+/// stone is tilted. D line, unpolarised outside.
 #[derive(Debug, Clone)]
 pub struct Hemisphere<'a> {
     stone: &'a Stone,
+    aspect: Aspect,
     polarised: bool,
-    absorbing: bool,
     optics: Optics,
     entrance: Crown,
     crown: Vec<f32>,
     /// Area of the crown, walking units squared.
     pub crown_area: f64,
-    /// Area within the outline seen from above, walking units squared.
+    /// Area within the outline that the viewer sees, walking units squared.
     pub outline_area: f64,
 }
 
@@ -53,17 +54,35 @@ pub struct Tally {
     pub lost: f64,
 }
 
+impl Sum for Tally {
+    fn add(&mut self, other: &Tally) {
+        self.drawn += other.drawn;
+        self.arrived += other.arrived;
+        self.glare += other.glare;
+        self.returned += other.returned;
+        self.returned_cos2 += other.returned_cos2;
+        self.leaked += other.leaked;
+        self.absorbed += other.absorbed;
+        self.lost += other.lost;
+    }
+}
+
 impl<'a> Hemisphere<'a> {
-    /// Lights a stone at the material's D line.
+    /// Lights a face-up stone at the material's D line.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
+        Self::seen_from(stone, medium, Aspect::FACE_UP)
+    }
+
+    /// Lights a stone at the material's D line.
+    pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
         let entrance = Crown::new(stone)?;
         Ok(Self {
             stone,
+            aspect,
             polarised: medium.polarised,
-            absorbing: !medium.material.is_clear(),
             optics: medium.optics(stone, lines::D)?,
             crown_area: entrance.area(),
-            outline_area: Outline::new(stone)?.area(),
+            outline_area: Outline::new(stone, aspect)?.area(),
             entrance,
             crown: entrance::crown_flags(stone),
         })
@@ -89,16 +108,16 @@ impl Rays for Dome<'_> {
     }
 
     fn absorbing(&self) -> bool {
-        self.experiment.absorbing
+        self.experiment.optics.absorbs()
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Hemisphere { stone, optics, entrance, .. } = self.experiment;
+        let Hemisphere { stone, aspect, optics, entrance, .. } = self.experiment;
         for [a, b, c, d] in &mut self.points {
             self.tally.drawn += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
-            if sky.z > 0.0 {
+            if aspect.height(sky) > 0.0 {
                 let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
@@ -111,8 +130,9 @@ impl Rays for Dome<'_> {
     }
 
     fn meet(&mut self, m: &Meeting, _: &Packet) {
+        let axis = self.experiment.aspect.axis.as_vec3();
         for l in 0..LANES {
-            let up = m.dz[l].max(0.0);
+            let up = (m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z).max(0.0);
             let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];
             let returned = if up > 0.0 { through_crown } else { 0.0 };
             self.returned[l] += returned;

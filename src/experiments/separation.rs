@@ -35,11 +35,21 @@ pub fn separation(
     medium: &Medium,
     effort: &Effort,
 ) -> Result<Separation, ExperimentError> {
+    let weighed = weighed(beams, direction, medium, effort)?;
+    Ok(Separation { angle_deg: weighed.ratio(0, 1), power: weighed.sum(1) })
+}
+
+/// Σ power × angle in degrees, and Σ power, of one direction.
+pub(super) fn weighed(
+    beams: &Beams,
+    direction: DVec3,
+    medium: &Medium,
+    effort: &Effort,
+) -> Result<Weighed<2>, ExperimentError> {
     let lit = Lit { direction, indices: LINES.map(|um| medium.material.index(um)) };
     let crown = entrance::crown_flags(beams.stone());
-    let weighed: Weighed<2> = weigh(beams, &lit, medium.polarised, effort, |l| {
+    weigh(beams, &lit, medium.polarised, effort, |l| {
         let counts = l.up > 0.0 && crown[l.facet] > 0.0;
         if counts { [angle_deg(l.directions[1], l.directions[2]), 1.0] } else { [0.0; 2] }
-    })?;
-    Ok(Separation { angle_deg: weighed.ratio(0, 1), power: weighed.sum(1) })
+    })
 }

@@ -77,6 +77,12 @@ impl<const N: usize> Weighed<N> {
         self.estimate(exact, |sums| (sums[k], sums[by]))
     }
 
+    /// The sums of each batch, and what its photons have given up; without photons the one of beams
+    /// and what is left over.
+    pub fn batches(&self) -> Vec<([f64; N], f64)> {
+        if self.batches.is_empty() { vec![(self.by_beams, self.left)] } else { self.batches.clone() }
+    }
+
     /// Given up by photons: light that total reflection keeps.
     pub fn lost(&self) -> Estimate {
         match self.batches.len() {

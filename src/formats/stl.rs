@@ -58,7 +58,8 @@ fn read_binary(source: &Source) -> Result<Reading, FormatError> {
     let count = count_of_binary(source.bytes).unwrap_or_default();
     few_enough(source, count)?;
     let (mut corners, mut normals) = (Vec::with_capacity(3 * count), Vec::with_capacity(count));
-    for record in source.bytes[HEADER + 4..].chunks_exact(TRIANGLE).take(count) {
+    let records = source.bytes.get(HEADER + 4..).unwrap_or_default();
+    for record in records.chunks_exact(TRIANGLE).take(count) {
         let float = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| record[4 * i + k])) as f64;
         let point = |i: usize| DVec3::new(float(3 * i), float(3 * i + 1), float(3 * i + 2));
         normals.push(point(0));

@@ -25,6 +25,16 @@ pub enum Purpose {
     Test = 7,
     /// Photons that finish what beams leave over, one stream a batch.
     BeamRemainder = 8,
+    /// Directions of a dome, one stream a batch.
+    Quadrature = 12,
+    /// The faceters' view, one stream a batch.
+    Iso = 9,
+    /// Cells of the picture, one stream a batch and one a run of it.
+    Contrast = 10,
+    /// Cells of the rocked picture, likewise.
+    Scintillation = 11,
+    /// Scattered points of a sweep, one stream.
+    Scatter = 20,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

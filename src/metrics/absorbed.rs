@@ -8,11 +8,14 @@ pub static ABSORBED: Metric = Metric {
     about: "share that the stone's colour takes: 0 in a clear stone, more in a larger one",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
+    by_beams: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power absorbed inside by Beer–Lambert over the path in millimetres, per power \
         arriving. Directions are cosine-distributed about the crown facets' normals, points uniform \
         by crown area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| (t.absorbed, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.absorbed / t.arrived),
 };

@@ -8,10 +8,13 @@ pub static DISPERSION_MEAN: Metric = Metric {
     about: "mean angle between lines B and G of one exit, by power; read it beside light return",
     unit: "°",
     range: (0.0, 180.0),
+    scale: 1.0,
+    observer: None,
+    by_beams: true,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Angle between lines B and G where both leave by the same facets as D, mean weighted \
         by the power at D. High for stones that return little: read it beside light return.",
     source: "defined by cutlab",
-    reading: Reading::Beam(|t| (t.power_angle_deg, t.paired_power)),
+    reading: Reading::Beam(|t| t.power_angle_deg / t.paired_power),
 };

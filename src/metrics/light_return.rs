@@ -8,11 +8,14 @@ pub static LIGHT_RETURN: Metric = Metric {
     about: "share of a dome's light that comes back up through the crown, from inside",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
+    by_beams: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves upward through the crown after entering, per power arriving. \
         Directions are cosine-distributed about the crown facets' normals, points uniform by crown \
         area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| (t.returned, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.returned / t.arrived),
 };

@@ -8,6 +8,9 @@ pub static LOST: Metric = Metric {
     about: "share no longer followed: the error of the figures above",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
+    by_beams: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that the tracer stopped following (a ray with less than 1e-4 of its light), per \
@@ -15,5 +18,5 @@ pub static LOST: Metric = Metric {
         about the crown facets' normals, points uniform by crown area; those from below the horizon \
         are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| (t.lost, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.lost / t.arrived),
 };

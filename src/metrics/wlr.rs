@@ -8,6 +8,9 @@ pub static WLR: Metric = Metric {
     about: "weighted light return: white light from a dome, returned through the crown, most weight face-up",
     unit: "",
     range: (0.0, 1.0),
+    scale: 1.0,
+    observer: None,
+    by_beams: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves upward through the crown, weighted by cos² of its angle from zenith, \
@@ -16,5 +19,5 @@ pub static WLR: Metric = Metric {
         counted.",
     source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
         which tests/scores.rs holds",
-    reading: Reading::Hemisphere(|t| (t.returned_cos2, t.arrived)),
+    reading: Reading::Hemisphere(|t| t.returned_cos2 / t.arrived),
 };

@@ -38,6 +38,12 @@ const fn zone(from_deg: f32, colour: Vec3) -> Zone {
 /// Elevations at which the ASET's green, red and blue begin, degrees.
 pub const ASET_DEG: [f32; 3] = [0.0, 45.0, 75.0];
 
+/// Half-angle of the dark cone of the Ideal-Scope, degrees: it blocks about 24° in all.
+pub const SCOPE_DEG: f64 = 12.0;
+
+/// Half-angle of the observer under the dome, degrees (GIA's brightness metric).
+pub const OBSERVER_DEG: f64 = 23.0;
+
 /// Every viewer.
 pub static VIEWERS: &[Viewer] = &[
     Viewer {
@@ -53,7 +59,7 @@ pub static VIEWERS: &[Viewer] = &[
     Viewer {
         name: "ideal-scope",
         about: "red light with a dark eye of 24°, white from below",
-        zones: &[zone(-90.0, WHITE), zone(0.0, RED), zone(78.0, DARK)],
+        zones: &[zone(-90.0, WHITE), zone(0.0, RED), zone(90.0 - SCOPE_DEG as f32, DARK)],
     },
     Viewer {
         name: "hearts-and-arrows",
@@ -62,8 +68,8 @@ pub static VIEWERS: &[Viewer] = &[
     },
     Viewer {
         name: "face-up",
-        about: "a white sky with a dark observer of 30°",
-        zones: &[zone(-90.0, DARK), zone(0.0, WHITE), zone(75.0, DARK)],
+        about: "a white sky with a dark observer of 46°, that of the score brightness",
+        zones: &[zone(-90.0, DARK), zone(0.0, WHITE), zone(90.0 - OBSERVER_DEG as f32, DARK)],
     },
     Viewer {
         name: "dark-field",

@@ -101,6 +101,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         stone: request.stone.clone(),
         material: request.material.clone(),
         solid: Ok(solid.clone()),
+        tilt: None,
     };
     let row = score(&subject, &plan);
     if let Some(why) = row.error {
@@ -159,7 +160,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
 }
 
 /// The photon-mapped picture of the stone on the grey table, as PNG.
-fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> Result<Vec<u8>, ReportError> {
+pub(super) fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> Result<Vec<u8>, ReportError> {
     let (width, height, rays) = PICTURE;
     let (photons, nearest) = PHOTONS;
     let Some(table) = preset("table") else {

@@ -8,7 +8,7 @@
 use crate::experiments::exact::Strongest;
 use crate::experiments::view::{Band, band};
 use crate::walk::Stone;
-use crate::walk::beams::{Beams, Exit, Lit, Rest, Until, Watch};
+use crate::walk::beams::{Beams, Exit, Lit, Rest, Scalar, Until, Watch};
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
@@ -104,7 +104,7 @@ pub fn draw(stone: &Stone, index: f64, stop_power: f64) -> Pattern {
     };
     beams.follow(
         &Lit { direction: DVec3::NEG_Z, indices: [index] },
-        Strongest::FRESH,
+        Strongest::fresh(Scalar(1.0)),
         Until::power(stop_power),
         &mut drawing,
     );

@@ -16,7 +16,7 @@ struct Head {
 const HEADS: [Head; 2] = [
     Head {
         name: "Brilliance",
-        about: "How much light comes back to someone who looks at the crown. Fractions of the light, D line.",
+        about: "How much light comes back to someone who looks at the crown. D line.",
         large: &["wlr", "leakage"],
         takes: |m| !m.needs_dispersion(),
     },

@@ -82,8 +82,8 @@ pub fn polygon_area(p: &[DVec2]) -> f64 {
     (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()])).sum::<f64>() * 0.5
 }
 
-/// Andrew's monotone chain.
-pub(crate) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+/// Convex hull of points, counter-clockwise, by Andrew's monotone chain.
+pub fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut hull: Vec<DVec2> = Vec::new();

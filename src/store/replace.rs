@@ -37,6 +37,28 @@ pub fn create(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
     }
 }
 
+/// As [`write()`], for what is made bit by bit and too large for memory: `fill` writes it.
+///
+/// It grows in `.NAME.partial` beside `path`: whoever calls this must be the only one who does for
+/// this path ([`super::progress`] has the lock); what a kill leaves there the next start replaces.
+pub fn stream(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    let fail = |cause| WriteError { path: path.to_owned(), cause };
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let partial = path.with_file_name(format!(".{name}.partial"));
+    let written = || {
+        let mut out = std::io::BufWriter::new(std::fs::File::create(&partial).map_err(fail)?);
+        fill(&mut out)?;
+        let file = out.into_inner().map_err(|e| fail(e.into_error()))?;
+        file.sync_all().and_then(|()| std::fs::rename(&partial, path)).map_err(fail)
+    };
+    written().inspect_err(|_| {
+        let _ = std::fs::remove_file(&partial);
+    })
+}
+
 /// A complete temporary file in the folder of `path`, on disk.
 fn beside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
     let folder = match path.parent() {

@@ -1,56 +1,275 @@
-//! The table of scores as CSV.
+//! Tables of scores: one row a line, as CSV or JSON.
 
 use super::score::Row;
 use crate::metrics::Metric;
-use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use std::collections::BTreeMap;
+use std::io::BufRead;
+use std::path::Path;
 
 /// A number of a table: a fraction or degrees to 1e-9, far below any error.
 fn rounded(x: f64) -> f64 {
     (x * 1e9).round() / 1e9
 }
 
+/// How a table is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Comma-separated values with a header.
+    Csv,
+    /// One JSON object a line, keyed by column.
+    JsonLines,
+    /// One JSON array of such objects, one a line.
+    Json,
+}
+
+/// Endings of table files, with their forms.
+const ENDINGS: [(&str, Form); 4] =
+    [("csv", Form::Csv), ("jsonl", Form::JsonLines), ("ndjson", Form::JsonLines), ("json", Form::Json)];
+
+/// A table that could not be put into bytes, or a file name that says not how.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// A row that the form cannot hold.
+    #[error("cannot write the table: {0}")]
+    Row(String),
+    /// A file ending without a form.
+    #[error("cannot write '{0}': a table's ending is .csv, .jsonl, .ndjson or .json")]
+    Ending(String),
+}
+
 /// One cell.
-#[derive(Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(untagged)]
-enum Cell<'a> {
-    Text(&'a str),
+pub enum Cell {
+    /// Words.
+    Text(String),
+    /// A whole number.
     Count(usize),
+    /// A number, nine decimals at most.
     Number(f64),
+    /// Nothing to say here.
     Empty(()),
 }
 
-/// A table that could not be put into bytes.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write the table: {0}")]
-pub struct TableError(String);
+impl Cell {
+    /// A number as tables show it.
+    pub fn number(x: f64) -> Cell {
+        Cell::Number(rounded(x))
+    }
+}
 
-/// Rows as CSV: `stone, material, facets`, then `<metric>` and `<metric>_se` for each metric, then
-/// `error`, a header first.
+impl From<&str> for Cell {
+    fn from(text: &str) -> Cell {
+        Cell::Text(text.into())
+    }
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(cell: Option<T>) -> Cell {
+        cell.map_or(Cell::Empty(()), Into::into)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(count: usize) -> Cell {
+        Cell::Count(count)
+    }
+}
+
+impl Form {
+    /// The form of a file by its ending; CSV without one.
+    pub fn of(path: &Path) -> Result<Form, TableError> {
+        let Some(ending) = path.extension().map(|e| e.to_string_lossy().to_lowercase()) else {
+            return Ok(Form::Csv);
+        };
+        let known = ENDINGS.iter().find(|(e, _)| *e == ending).map(|(_, form)| *form);
+        known.ok_or_else(|| TableError::Ending(path.display().to_string()))
+    }
+
+    /// What stands before the first row.
+    pub fn head(self, columns: &[String]) -> Result<Vec<u8>, TableError> {
+        Ok(match self {
+            Form::Csv => {
+                let mut head = record(columns)?;
+                head.push(b'\n');
+                head
+            }
+            Form::JsonLines => Vec::new(),
+            Form::Json => b"[\n".into(),
+        })
+    }
+
+    /// One row, without the line's end. No line's end is in it either, unless a CSV text has one.
+    pub fn row(self, columns: &[String], cells: &[Cell]) -> Result<Vec<u8>, TableError> {
+        if self == Form::Csv {
+            return record(cells);
+        }
+        let mut out = Vec::new();
+        let fail = |e: serde_json::Error| TableError::Row(e.to_string());
+        let mut json = serde_json::Serializer::new(&mut out);
+        let mut map = json.serialize_map(Some(cells.len())).map_err(fail)?;
+        for (column, cell) in columns.iter().zip(cells) {
+            map.serialize_entry(column, cell).map_err(fail)?;
+        }
+        map.end().map_err(fail)?;
+        Ok(out)
+    }
+
+    /// What stands before row number `i`, from 0.
+    pub fn before(self, i: u64) -> &'static [u8] {
+        match self {
+            Form::Json if i > 0 => b",\n",
+            Form::Csv | Form::JsonLines if i > 0 => b"\n",
+            _ => b"",
+        }
+    }
+
+    /// What stands after the last of `rows` rows.
+    pub fn tail(self, rows: u64) -> &'static [u8] {
+        match self {
+            Form::Json if rows > 0 => b"\n]\n",
+            Form::Json => b"]\n",
+            _ if rows > 0 => b"\n",
+            _ => b"",
+        }
+    }
+}
+
+/// A CSV record without the line's end.
+fn record(cells: impl serde::Serialize) -> Result<Vec<u8>, TableError> {
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+    writer.serialize(cells).map_err(|e| TableError::Row(e.to_string()))?;
+    let mut line = writer.into_inner().map_err(|e| TableError::Row(e.to_string()))?;
+    line.pop();
+    Ok(line)
+}
+
+/// Reads the rows of a table back, one by one, as [`Form::row`] made them.
+pub struct RowReader<R> {
+    inner: Inner<R>,
+}
+
+enum Inner<R> {
+    Csv(csv::Reader<R>),
+    Lines(R),
+}
+
+impl<R: BufRead> RowReader<R> {
+    /// A reader after the head of a table.
+    pub fn new(form: Form, reader: R) -> Result<RowReader<R>, TableError> {
+        let inner = match form {
+            Form::Csv => Inner::Csv(csv::ReaderBuilder::new().flexible(true).from_reader(reader)),
+            Form::JsonLines | Form::Json => Inner::Lines(reader),
+        };
+        Ok(RowReader { inner })
+    }
+
+    /// The next row; none after the last.
+    pub fn row(&mut self) -> Result<Option<Vec<u8>>, TableError> {
+        match &mut self.inner {
+            Inner::Csv(reader) => {
+                let mut row = csv::StringRecord::new();
+                let found = reader.read_record(&mut row).map_err(|e| TableError::Row(e.to_string()))?;
+                if found { record(row.iter().collect::<Vec<_>>()).map(Some) } else { Ok(None) }
+            }
+            Inner::Lines(reader) => loop {
+                let mut line = Vec::new();
+                let read = reader.read_until(b'\n', &mut line).map_err(|e| TableError::Row(e.to_string()))?;
+                if read == 0 {
+                    return Ok(None);
+                }
+                if line.first() == Some(&b'{') {
+                    line.truncate(line.iter().rposition(|b| *b == b'}').map_or(0, |end| end + 1));
+                    return Ok(Some(line));
+                }
+            },
+        }
+    }
+}
+
+/// The numbers of a table, column by column.
+#[derive(Debug, Clone, Default)]
+pub struct Numbers(BTreeMap<String, Vec<Option<f64>>>);
+
+impl Numbers {
+    /// Those of a table's bytes; a cell that is no number is none.
+    pub fn read(bytes: &[u8], form: Form) -> Result<Numbers, TableError> {
+        let mut numbers = Numbers::default();
+        let mut add = |column: &str, x: Option<f64>| match numbers.0.get_mut(column) {
+            Some(cells) => cells.push(x),
+            None => drop(numbers.0.insert(column.to_owned(), vec![x])),
+        };
+        if form == Form::Csv {
+            let mut reader = csv::Reader::from_reader(bytes);
+            let fail = |e: csv::Error| TableError::Row(e.to_string());
+            let head = reader.headers().map_err(fail)?.clone();
+            for row in reader.records() {
+                head.iter()
+                    .zip(&row.map_err(fail)?)
+                    .for_each(|(column, cell)| add(column, cell.parse().ok()));
+            }
+            return Ok(numbers);
+        }
+        let mut rows = RowReader::new(form, bytes)?;
+        while let Some(row) = rows.row()? {
+            let row: serde_json::Map<String, serde_json::Value> =
+                serde_json::from_slice(&row).map_err(|e| TableError::Row(e.to_string()))?;
+            row.iter().for_each(|(column, cell)| add(column, cell.as_f64()));
+        }
+        Ok(numbers)
+    }
+
+    /// A column; empty if there is none of that name.
+    pub fn column(&self, name: &str) -> &[Option<f64>] {
+        self.0.get(name).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The columns of scores: those in `leading`, then `<metric>` and `<metric>_se` for each metric,
+/// then `error`.
+pub fn columns(leading: &[&str], metrics: &[&Metric]) -> Vec<String> {
+    let mut columns: Vec<String> = leading.iter().map(|c| c.to_string()).collect();
+    for m in metrics {
+        columns.extend([m.name.to_owned(), format!("{}_se", m.name)]);
+    }
+    columns.push("error".into());
+    columns
+}
+
+/// The cells of [`columns`]: those in `leading`, the row's scores and its error. A score that does
+/// not apply leaves its two cells empty.
+pub fn cells(mut leading: Vec<Cell>, row: &Row) -> Vec<Cell> {
+    for score in &row.scores {
+        leading.extend(match score {
+            Some(e) => [Cell::number(e.value), Cell::number(e.error)],
+            None => [Cell::Empty(()), Cell::Empty(())],
+        });
+    }
+    leading.push(row.error.as_deref().into());
+    leading
+}
+
+/// What stands first in a table of stones.
+pub const STONE_COLUMNS: [&str; 3] = ["stone", "material", "facets"];
+
+/// The cells of [`STONE_COLUMNS`].
+pub fn stone_cells(row: &Row) -> Vec<Cell> {
+    vec![row.stone.as_str().into(), row.material.as_str().into(), row.facets.into()]
+}
+
+/// Rows as CSV: `stone, material, facets`, then as [`columns`] has it.
 ///
 /// - `metrics`: those that the rows were scored for, in the same order
 ///
-/// A score that does not apply leaves its two cells empty. Numbers have nine decimals at most.
 /// The caller writes the bytes with [`crate::store::replace::write`]. Checked in `tests/score_promises.rs`.
 pub fn csv(metrics: &[&Metric], rows: &[Row]) -> Result<Vec<u8>, TableError> {
-    let fail = |e: csv::Error| TableError(e.to_string());
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut header: Vec<String> = ["stone", "material", "facets"].map(String::from).into();
-    for m in metrics {
-        header.extend([m.name.to_owned(), format!("{}_se", m.name)]);
+    let columns = columns(&STONE_COLUMNS, metrics);
+    let mut out = Form::Csv.head(&columns)?;
+    for (i, row) in rows.iter().enumerate() {
+        out.extend_from_slice(Form::Csv.before(i as u64));
+        out.extend(Form::Csv.row(&columns, &cells(stone_cells(row), row))?);
     }
-    header.push("error".into());
-    writer.write_record(&header).map_err(fail)?;
-    for row in rows {
-        let mut cells = vec![Cell::Text(&row.stone), Cell::Text(&row.material)];
-        cells.push(row.facets.map_or(Cell::Empty(()), Cell::Count));
-        for score in &row.scores {
-            match score {
-                Some(e) => cells.extend([Cell::Number(rounded(e.value)), Cell::Number(rounded(e.error))]),
-                None => cells.extend([Cell::Empty(()), Cell::Empty(())]),
-            }
-        }
-        cells.push(row.error.as_deref().map_or(Cell::Empty(()), Cell::Text));
-        writer.serialize(cells).map_err(fail)?;
-    }
-    writer.into_inner().map_err(|e| TableError(e.to_string()))
+    out.extend_from_slice(Form::Csv.tail(rows.len() as u64));
+    Ok(out)
 }

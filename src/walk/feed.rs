@@ -32,6 +32,11 @@ pub trait Rays {
     /// Puts the next ray into the lanes from `lane` on; false if there is none left.
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool;
 
+    /// Whether the ray in the lanes from `lane` on need not be followed further, whatever its power.
+    fn is_done(&self, _lane: usize) -> bool {
+        false
+    }
+
     /// Sees what all lanes leave at a meeting.
     fn meet(&mut self, meeting: &Meeting, packet: &Packet);
 
@@ -61,7 +66,8 @@ pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
             for lane in lanes() {
                 let powers = &mut packet.power[lane..lane + R::WIDTH];
                 meetings[lane] += 1;
-                let goes_on = meetings[lane] < most && powers.iter().any(|p| *p >= stop_power);
+                let lit = powers.iter().any(|p| *p >= stop_power);
+                let goes_on = lit && meetings[lane] < most && !rays.is_done(lane);
                 if !alive[lane] || goes_on {
                     continue;
                 }

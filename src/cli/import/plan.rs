@@ -1,10 +1,10 @@
 //! Which files an import takes, and where each is written.
 
+use crate::cli::folders;
 use crate::cli::outcome::Failure;
 use crate::cli::stones;
 use crate::formats;
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// One file to be imported.
@@ -35,7 +35,11 @@ pub fn into_folder(arguments: &[String], output: &Path, ending: &str) -> Result<
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
-            search(path, path, skipped.as_deref(), &mut found)?;
+            for file in folders::files(path, skipped.as_deref())? {
+                let below = file.strip_prefix(path).unwrap_or(&file).with_extension("");
+                let by_chance = !formats::has_known_ending(&file);
+                found.push(Found { stone: folders::as_stone(&file), below, by_chance });
+            }
         } else {
             let below = stones::file_stem(argument).into();
             found.push(Found { stone: argument.clone(), below, by_chance: false });
@@ -58,38 +62,10 @@ pub fn into_folder(arguments: &[String], output: &Path, ending: &str) -> Result<
     Ok(found.into_iter().map(job).collect())
 }
 
-/// Adds every file below `folder`, in the order of their names. Links to folders are not followed:
-/// they may lead round in a circle.
-fn search(top: &Path, folder: &Path, skipped: Option<&Path>, found: &mut Vec<Found>) -> Result<(), Failure> {
-    let fail = |cause: std::io::Error| Failure::reading(&folder.display().to_string(), &cause);
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .map_err(fail)?
-        .map(|e| e.map(|e| e.path()))
-        .collect::<Result<_, _>>()
-        .map_err(fail)?;
-    entries.sort();
-    for path in entries {
-        let is_link = fs::symlink_metadata(&path).is_ok_and(|m| m.is_symlink());
-        if path.is_dir() {
-            let is_output = skipped.is_some() && path.canonicalize().ok().as_deref() == skipped;
-            if !is_link && !is_output {
-                search(top, &path, skipped, found)?;
-            }
-        } else if path.is_file() {
-            let below = path.strip_prefix(top).unwrap_or(&path).with_extension("");
-            let by_chance = !formats::has_known_ending(&path);
-            // a file with the name of a cut is meant as the file
-            let stone = Path::new(".").join(&path);
-            let stone = if path.components().count() == 1 { stone } else { path };
-            found.push(Found { stone: stone.display().to_string(), below, by_chance });
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn folders_are_searched_and_no_two_files_share_a_place() {

@@ -1,0 +1,188 @@
+//! What every command that scores is told: metrics, effort, light, material.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::words::quoted;
+use super::{folders, stones};
+use crate::metrics::{METRICS, Metric};
+use crate::optics::Material;
+use crate::optics::dispersion::lines;
+use crate::study::batch::Outcome;
+use crate::study::identity::Identity;
+use crate::study::score::{Effort, Plan, Row, Subject, Tilt, score};
+use std::path::Path;
+
+#[derive(Debug, Clone, clap::Args)]
+pub struct Scoring {
+    /// Scores to compute, all if not given (see `cutlab list metrics`)
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = metric)]
+    pub metrics: Vec<&'static Metric>,
+    /// Trace until every standard error is below this times the metric's scale: 1 for fractions and
+    /// degrees, 100 for percentages
+    #[arg(long, value_name = "E", value_parser = error)]
+    error: Option<f64>,
+    /// Take what beams can give from beams instead of photons
+    #[arg(long)]
+    exact: bool,
+    /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each
+    /// its own]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = half_angle)]
+    observer: Option<f64>,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub substance: stones::Substance,
+    /// Girdle width in millimetres; the scores depend on it if the material absorbs
+    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    pub size: Option<f64>,
+}
+
+impl Scoring {
+    /// The same with another index in place of material and index.
+    pub fn with_index(mut self, ri: f64) -> Scoring {
+        self.substance = stones::Substance { material: None, ri: Some(ri) };
+        self
+    }
+
+    /// The same with another size.
+    pub fn with_size(mut self, mm: f64) -> Scoring {
+        self.size = Some(mm);
+        self
+    }
+
+    /// Whether beams were asked for.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
+    /// Says once what of the material asked for is a guess: its index, or the size of stones that
+    /// have none.
+    pub fn notes(&self, console: &Console) {
+        let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
+        let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
+        self.substance.note_range(from, to, console);
+        if self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
+            let mm = stones::USUAL_SIZE;
+            console
+                .note(&format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it"));
+        }
+    }
+
+    /// The plan that was asked for.
+    pub fn plan(&self) -> Plan {
+        let default = Plan::default();
+        Plan {
+            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.metrics.clone() },
+            effort: self.error.map_or(default.effort, Effort::Error),
+            polarised: self.polarisation,
+            seed: self.seed,
+            exact: self.exact,
+            observer: self.observer,
+            ..default
+        }
+    }
+
+    /// The options with every setting spelled out, as they could be typed again.
+    pub fn words(&self) -> String {
+        let names: Vec<&str> = self.plan().metrics.iter().map(|m| m.name).collect();
+        let mut words = format!(" --metrics {}", names.join(","));
+        let mut option = |name: &str, value: Option<String>| {
+            if let Some(value) = value {
+                words += &format!(" --{name} {}", quoted(&value));
+            }
+        };
+        option("error", self.error.map(|e| e.to_string()));
+        option("observer", self.observer.map(|o| o.to_string()));
+        option("material", self.substance.material.map(|m| m.name.to_string()));
+        option("ri", self.substance.ri.map(|n| n.to_string()));
+        option("size", self.size.map(|mm| mm.to_string()));
+        option("polarisation", Some(if self.polarisation { "on" } else { "off" }.into()));
+        option("seed", Some(self.seed.to_string()));
+        if self.exact {
+            words += " --exact";
+        }
+        words
+    }
+
+    /// Scores the STONE `spec`.
+    pub fn score(&self, spec: &str, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
+        let substance = self.substance;
+        let opened = stones::open(spec).and_then(|imported| {
+            let material = substance.of(&imported.design);
+            let size = self.size.or(stones::usual_size(&imported.design, &material));
+            let design = stones::sized(imported.design, size)?;
+            Ok((material, design.solid()?))
+        });
+        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
+        let (material, solid, code) = match opened {
+            Ok((material, solid)) => (material, Ok(solid), None),
+            Err(failure) => {
+                let of_index = || Material::of_index(substance.ri.unwrap_or(1.0));
+                let material = substance.material.cloned().unwrap_or_else(of_index);
+                (material, Err(failure.message()), Some(failure.code()))
+            }
+        };
+        let mut row = score(&Subject { stone: spec.into(), material, solid, tilt }, plan);
+        if !known {
+            row.material.clear();
+        }
+        let outcome = match &row.error {
+            None => Outcome::Good,
+            Some(_) if row.scores.iter().any(Option::is_some) => Outcome::Short,
+            Some(_) if code == Some(Code::Io) => Outcome::Unreadable,
+            Some(_) => Outcome::Bad,
+        };
+        (row, outcome)
+    }
+}
+
+/// What a table of these stones is a function of.
+///
+/// - `command`: with every setting spelled out
+pub fn identity<'a>(command: &str, stones: impl Iterator<Item = &'a str>) -> String {
+    let mut identity = Identity::of(command);
+    for stone in stones {
+        identity.add(stone);
+        if let Some(file) = folders::file_of(stone) {
+            identity.add_file(file);
+        }
+    }
+    identity.hex()
+}
+
+/// Refuses an output that is one of the inputs.
+pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
+    let same = |stone: &str| Path::new(stone) == output;
+    match stones.find(|s| same(s)) {
+        Some(stone) => Err(Failure::input(format!("{stone} is an input: write to another file"))),
+        None => Ok(()),
+    }
+}
+
+/// Value parser of `--metrics`.
+fn metric(name: &str) -> Result<&'static Metric, String> {
+    Metric::named(name).ok_or_else(|| {
+        let near = stones::nearest(name, METRICS.iter().map(|m| m.name));
+        format!("no metric is called '{name}', the nearest is '{near}' (all: cutlab list metrics)")
+    })
+}
+
+/// Value parser of `--error`.
+fn error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(e) if e > 0.0 && e.is_finite() => Ok(e),
+        _ => Err("a standard error is a number above 0".into()),
+    }
+}
+
+/// Value parser of `--observer`.
+fn half_angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(a) if (0.0..=90.0).contains(&a) => Ok(a),
+        _ => Err("a half-angle is a number of degrees from 0 to 90".into()),
+    }
+}

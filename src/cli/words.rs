@@ -1,0 +1,17 @@
+//! Commands as a shell would take them again.
+
+/// The command as typed.
+pub fn typed() -> String {
+    let words = std::env::args().skip(1).map(|word| quoted(&word));
+    std::iter::once("cutlab".to_string()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// One word for a POSIX shell.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./:=,+%@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_string()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}

@@ -1,0 +1,198 @@
+//! Quadrature: the dome of the hemisphere, direction by direction, each by beams.
+
+use super::batches::Experiment;
+use super::{Aspect, ExperimentError, Medium, check_index, entrance, hemisphere};
+use crate::math::points::Points;
+use crate::math::random::Purpose;
+use crate::optics::stokes::Stokes;
+use crate::walk::beams::remainder::{Photons, Remainder};
+use crate::walk::beams::{Beams, Entrance, Exit, Interface, Light, Lit, Rest, Scalar, Until, Watch};
+use crate::walk::{LANES, Meeting, Stone};
+use glam::DVec3;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Beams weaker than this share of the light on the outline are left to photons.
+const STOP_POWER: f64 = 3e-4;
+
+/// Photons that finish the beams of one direction (half to all of them are drawn).
+const PHOTONS: usize = 64;
+
+/// The sums of [`hemisphere::Tally`] over evenly spread directions of the dome, uniform by solid
+/// angle, each followed over the whole crown at once by beams and finished by a few photons.
+///
+/// Batches shift their directions at random, so their spread is the error of the quadrature, photons
+/// included. Checked in `tests/exact.rs` against [`super::Hemisphere`].
+#[derive(Debug, Clone)]
+pub struct Quadrature<'a> {
+    stone: &'a Stone,
+    beams: Beams<'a>,
+    polarised: bool,
+    index: f64,
+    aspect: Aspect,
+    crown: Vec<f32>,
+}
+
+impl<'a> Quadrature<'a> {
+    /// Lights a stone at the material's D line.
+    pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
+        Ok(Self {
+            stone,
+            beams: Beams::new(stone),
+            polarised: medium.polarised,
+            index: f64::from(check_index(medium.material.index_d())?),
+            aspect,
+            crown: entrance::crown_flags(stone),
+        })
+    }
+
+    /// Adds what one direction of the sky brings.
+    fn add(&self, sky: DVec3, seed: u64, tally: &mut hemisphere::Tally) {
+        let lit = Lit { direction: -sky, indices: [self.index] };
+        let mut one = OneDirection {
+            crown: &self.crown,
+            axis: self.aspect.axis,
+            sums: Sums::default(),
+            glare: 0.0,
+            remainder: Remainder::new(seed, 1, PHOTONS),
+        };
+        let until = Until::power(STOP_POWER);
+        let outline = if self.polarised {
+            let light = Stokes::unpolarised(1.0, sky.any_orthonormal_vector());
+            self.beams.follow(&lit, OfCrown::new(light), until, &mut one).outline
+        } else {
+            self.beams.follow(&lit, OfCrown::new(Scalar(1.0)), until, &mut one).outline
+        };
+        let OneDirection { mut sums, glare, remainder, .. } = one;
+        let mut finished = Finished { crown: &self.crown, axis: self.aspect.axis, sums: Sums::default() };
+        let (photon, lost) = remainder.walk(0, self.stone, lit.indices, &mut finished);
+        sums.add(&finished.sums, photon);
+        let facets = self.beams.facets();
+        let lit_area =
+            |f: usize| facets.area(f) * facets.planes[f].normal.dot(sky).max(0.0) * f64::from(self.crown[f]);
+        tally.drawn += 1.0;
+        tally.arrived += (0..facets.count()).map(lit_area).sum::<f64>();
+        tally.glare += outline * glare;
+        tally.returned += outline * sums.returned;
+        tally.returned_cos2 += outline * sums.returned_cos2;
+        tally.leaked += outline * sums.leaked;
+        tally.lost += outline * photon * lost;
+    }
+}
+
+impl Experiment for Quadrature<'_> {
+    type Tally = hemisphere::Tally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut hemisphere::Tally) {
+        let first = points.start;
+        for (i, [u, v]) in (first..).zip(Points::<2>::new(seed, Purpose::Quadrature, batch, points)) {
+            let (sin, cos) = (TAU * v).sin_cos();
+            let across = (1.0 - u * u).sqrt();
+            let Aspect { axis, right, top } = self.aspect;
+            // every direction has photons of its own
+            let photons = seed.wrapping_add(((batch << 32 | i) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            self.add(axis * u + (right * cos + top * sin) * across, photons, tally);
+        }
+    }
+}
+
+/// Light that goes on only if it entered through the crown.
+#[derive(Debug, Clone, Copy)]
+struct OfCrown<L> {
+    light: L,
+    counts: bool,
+}
+
+impl<L: Light> OfCrown<L> {
+    fn new(light: L) -> Self {
+        OfCrown { light, counts: true }
+    }
+}
+
+impl<L: Light> Light for OfCrown<L> {
+    fn power(&self) -> f64 {
+        if self.counts { self.light.power() } else { 0.0 }
+    }
+
+    fn split(&self, at: &Interface) -> (Self, Self) {
+        let (out, kept) = self.light.split(at);
+        let counts = self.counts && (at.leaves || entrance::is_crown(-at.normal));
+        (OfCrown { light: out, counts }, OfCrown { light: kept, counts })
+    }
+
+    fn goes_on(&self) -> bool {
+        self.counts
+    }
+
+    fn stokes(&self) -> Option<Stokes> {
+        self.light.stokes()
+    }
+}
+
+/// Where light of one direction goes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    returned: f64,
+    returned_cos2: f64,
+    leaked: f64,
+}
+
+impl Sums {
+    fn exit(&mut self, through_crown: bool, up: f64, power: f64) {
+        if through_crown && up > 0.0 {
+            self.returned += power;
+            self.returned_cos2 += power * up * up;
+        } else {
+            self.leaked += power;
+        }
+    }
+
+    fn add(&mut self, other: &Sums, times: f64) {
+        self.returned += times * other.returned;
+        self.returned_cos2 += times * other.returned_cos2;
+        self.leaked += times * other.leaked;
+    }
+}
+
+/// Exits into sums, the rest into photons.
+struct OneDirection<'a> {
+    crown: &'a [f32],
+    axis: DVec3,
+    sums: Sums,
+    glare: f64,
+    remainder: Remainder<1>,
+}
+
+impl<L: Light> Watch<L, 1> for OneDirection<'_> {
+    fn reflected(&mut self, entrance: &Entrance, _: DVec3, power: f64) {
+        self.glare += power * f64::from(self.crown[entrance.facet]);
+    }
+
+    fn exit(&mut self, exit: &Exit<L, 1>) {
+        self.sums.exit(self.crown[exit.facet] > 0.0, exit.direction.dot(self.axis), exit.power);
+    }
+
+    fn rest(&mut self, rest: &Rest<L, 1>) {
+        if rest.power > 0.0 {
+            self.remainder.add(rest);
+        }
+    }
+}
+
+/// Photons into sums.
+struct Finished<'a> {
+    crown: &'a [f32],
+    axis: DVec3,
+    sums: Sums,
+}
+
+impl Photons for Finished<'_> {
+    fn meet(&mut self, m: &Meeting) {
+        for l in 0..LANES {
+            if m.power[l] > 0.0 {
+                let up = m.direction(l).dot(self.axis.as_vec3());
+                self.sums.exit(self.crown[m.facet[l] as usize] > 0.0, up.into(), m.power[l].into());
+            }
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Scintillation: cells of the picture while the stone is rocked.
+
+use super::batches::Experiment;
+use super::cells::{self, Cell, Groups, SIDE, Sight};
+use super::entrance::Outline;
+use super::view::Sky;
+use super::{Aspect, ExperimentError, Medium, Optics};
+use crate::math::points::Points;
+use crate::math::random::{Purpose, Stream};
+use crate::math::stats::Sum;
+use crate::optics::dispersion::lines;
+use crate::walk::Stone;
+use std::ops::Range;
+
+/// Tilts to each side, in steps of a degree, about the picture's right and top.
+const REACH: i32 = 15;
+
+/// Steps from one tilt to the next, both axes together.
+const STEPS: usize = 4 * REACH as usize;
+
+/// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
+/// [`Tally::last`], and is about what is left to take off: `tests/faceters.rs` looks at it.
+const FINEST: u32 = 10;
+
+/// A cell has 2^k points or more with probability 2^(−k · this).
+const RARER: f64 = 1.25;
+
+/// The picture of a stone under a white dome with a dark observer, in cells, before and after steps
+/// of a degree.
+///
+/// The mean change of a cell is wanted, and the change of a mean of n points is larger by their
+/// noise. So each cell has a random number of points 2^k: what doubling the points takes off the
+/// change is added up with the inverse of the probability that a cell has so many, and the sum has
+/// the change at 2^[`FINEST`] points as its expectation (C. Rhee and P. Glynn, *Operations Research*
+/// 63 (2015) 1026).
+#[derive(Debug, Clone)]
+pub struct Scintillation<'a> {
+    stone: &'a Stone,
+    polarised: bool,
+    optics: Optics,
+    sky: Sky,
+    /// Before and after each step.
+    steps: Vec<[(Aspect, Outline); 2]>,
+    side: f64,
+}
+
+/// Sums of a batch.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tally {
+    /// Cells, drawn in proportion to their share of the outline.
+    pub cells: f64,
+    /// Σ luminance, dome = 1.
+    pub luminance: f64,
+    /// Σ |change of a cell's luminance| in one step.
+    pub change: f64,
+    /// What of it the doubling to the most points has added (it is negative).
+    pub last: f64,
+}
+
+impl Sum for Tally {
+    fn add(&mut self, other: &Tally) {
+        self.cells += other.cells;
+        self.luminance += other.luminance;
+        self.change += other.change;
+        self.last += other.last;
+    }
+}
+
+impl<'a> Scintillation<'a> {
+    /// Rocks a stone about an aspect, at the material's D line.
+    pub fn seen_from(
+        stone: &'a Stone,
+        medium: &Medium,
+        aspect: Aspect,
+        sky: Sky,
+    ) -> Result<Self, ExperimentError> {
+        let seen = |axle, degrees: i32| {
+            let aspect = aspect.turned(degrees.into(), axle);
+            Ok((aspect, Outline::new(stone, aspect)?))
+        };
+        let mut steps = Vec::with_capacity(STEPS);
+        for axle in [aspect.right, aspect.top] {
+            for degrees in -REACH..REACH {
+                steps.push([seen(axle, degrees)?, seen(axle, degrees + 1)?]);
+            }
+        }
+        Ok(Self {
+            stone,
+            polarised: medium.polarised,
+            optics: medium.optics(stone, lines::D)?,
+            sky,
+            steps,
+            side: SIDE * stone.solid.width() / stone.unit,
+        })
+    }
+}
+
+/// Cells of a run.
+struct Changes<'a> {
+    experiment: &'a Scintillation<'a>,
+    points: Points<3>,
+    stream: Stream,
+    tally: &'a mut Tally,
+    /// Changes of points, then of ever larger parts of a cell.
+    changes: Vec<f64>,
+}
+
+impl Groups for Changes<'_> {
+    fn next(&mut self, group: &mut Vec<Sight>) -> bool {
+        let Scintillation { steps, side, .. } = self.experiment;
+        for [u, v, w] in &mut self.points {
+            let [before, after] = &steps[((w * STEPS as f64) as usize).min(STEPS - 1)];
+            let at = before.1.place([u, v]);
+            if !after.1.holds(at) {
+                continue;
+            }
+            let cell = Cell::around(at, *side, &mut self.stream);
+            let level = level(&mut self.stream);
+            for point in 0..1 << level {
+                let inside = |at| before.1.holds(at) && after.1.holds(at);
+                let at = if point == 0 { at } else { cell.another(&mut self.stream, inside) };
+                group.extend([before, after].map(|(aspect, outline)| Sight::new(aspect, outline, at)));
+            }
+            return true;
+        }
+        false
+    }
+
+    fn take(&mut self, luminances: &[f32]) {
+        self.changes.clear();
+        self.changes.extend(luminances.chunks_exact(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])));
+        let sum: f64 = luminances.iter().map(|l| f64::from(*l)).sum();
+        self.tally.cells += 1.0;
+        self.tally.luminance += sum / luminances.len() as f64;
+        let (change, last) = unbiased(&mut self.changes);
+        self.tally.change += change;
+        self.tally.last += if luminances.len() == 2 << FINEST { last } else { 0.0 };
+    }
+}
+
+/// A cell has two to this power of points.
+fn level(stream: &mut Stream) -> u32 {
+    ((-stream.unit64().log2() / RARER) as u32).min(FINEST)
+}
+
+/// What the changes of 2^k points of a cell add to the mean |change| of cells, and what of it the last
+/// doubling does.
+fn unbiased(changes: &mut Vec<f64>) -> (f64, f64) {
+    let mean_size = |changes: &[f64]| changes.iter().map(|c| c.abs()).sum::<f64>() / changes.len() as f64;
+    let mut coarse = mean_size(changes);
+    let (mut sum, mut weight, mut last) = (coarse, 1.0, 0.0);
+    while changes.len() > 1 {
+        let half = changes.len() / 2;
+        for i in 0..half {
+            changes[i] = 0.5 * (changes[2 * i] + changes[2 * i + 1]);
+        }
+        changes.truncate(half);
+        weight *= RARER.exp2();
+        let fine = mean_size(changes);
+        last = weight * (fine - coarse);
+        sum += last;
+        coarse = fine;
+    }
+    (sum, last)
+}
+
+impl Experiment for Scintillation<'_> {
+    type Tally = Tally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        let mut changes = Changes {
+            experiment: self,
+            stream: cells::stream(seed, Purpose::Scintillation, batch, points.start),
+            points: Points::new(seed, Purpose::Scintillation, batch, points),
+            tally,
+            changes: Vec::new(),
+        };
+        cells::walk_all(self.stone, self.optics, self.polarised, self.sky, &mut changes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Changes of a cell's points are 1 with probability .6 and −1 otherwise: the mean size of the mean
+    /// of many is .2 (by the binomial law), that of one is 1.
+    #[test]
+    fn what_few_points_add_has_the_change_of_many_as_its_mean() {
+        let n = 1 << FINEST;
+        let mut law = vec![1.0];
+        for _ in 0..n {
+            let mut next = vec![0.0; law.len() + 1];
+            for (i, p) in law.iter().enumerate() {
+                next[i] += 0.4 * p;
+                next[i + 1] += 0.6 * p;
+            }
+            law = next;
+        }
+        let of = |(i, p): (usize, &f64)| p * (2.0 * i as f64 / f64::from(n) - 1.0).abs();
+        let expected: f64 = law.iter().enumerate().map(of).sum();
+        let mut stream = Stream::new(1, Purpose::Test, 3);
+        let (runs, mut sum, mut squares) = (400_000, 0.0, 0.0);
+        for _ in 0..runs {
+            let level = level(&mut stream);
+            let change = |s: &mut Stream| if s.unit64() < 0.6 { 1.0 } else { -1.0 };
+            let mut changes: Vec<f64> = (0..1 << level).map(|_| change(&mut stream)).collect();
+            let (x, _) = unbiased(&mut changes);
+            sum += x;
+            squares += x * x;
+        }
+        let mean = sum / f64::from(runs);
+        let error = ((squares / f64::from(runs) - mean * mean) / f64::from(runs)).sqrt();
+        assert!((mean - expected).abs() < 4.0 * error, "{mean} ± {error}, expected {expected}");
+        assert!(error < 0.005, "{error}");
+    }
+}

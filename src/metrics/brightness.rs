@@ -1,0 +1,21 @@
+//! Brightness.
+
+use super::{Metric, Reading};
+use crate::experiments::view::OBSERVER_DEG;
+
+/// Brightness.
+pub static BRIGHTNESS: Metric = Metric {
+    name: "brightness",
+    about: "mean luminance of the face-up stone under a white dome, dark where the viewer is",
+    unit: "",
+    range: (0.0, 1.0),
+    scale: 1.0,
+    observer: Some(OBSERVER_DEG),
+    by_beams: true,
+    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
+        with its polarisation followed inside (scalar with --polarisation off), D line. White dome \
+        above the horizon with a dark observer cone of 23° half-angle, or --observer. Mean luminance \
+        over the outline per luminance of the dome, by whatever facet, reflection at entry included.",
+    source: "dome with a dark cone of 23°: T. Moses et al., Gems & Gemology 40 (2004) 202; the mean is cutlab's",
+    reading: Reading::View(|t| t.luminance / t.rays),
+};

@@ -1,0 +1,316 @@
+//! A score over two parameters: coloured bands, labelled contours, marks.
+
+use super::frame::{Frame, WIDTH, step, ticks};
+use super::surface::Surface;
+use super::{Axis, Drawing, escaped};
+use crate::report::raster::text_width;
+use crate::study::table::Numbers;
+use colorous::VIRIDIS;
+use contour::ContourBuilder;
+use std::fmt::Write;
+
+/// Where the plot ends and the colour scale begins.
+const RIGHT: f64 = 660.0;
+const BAR: (f64, f64) = (684.0, 18.0);
+
+/// Bands between the least and the greatest value, about.
+const BANDS: usize = 12;
+
+/// A closed contour shorter than this has no label.
+const SHORT: f64 = 160.0;
+
+/// A box that text takes up: middle, half width, half height.
+type Taken = (f64, f64, f64, f64);
+
+/// The map of the drawing's metric over `x` and `y`.
+pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: bool) -> String {
+    let (name, se) = (drawing.metric.name, format!("{}_se", drawing.metric.name));
+    let points: Vec<(f64, f64, Option<f64>)> = numbers
+        .column(&x.key)
+        .iter()
+        .zip(numbers.column(&y.key))
+        .zip(numbers.column(name))
+        .filter_map(|((x, y), value)| Some(((*x)?, (*y)?, *value)))
+        .collect();
+    let surface = if scattered { Surface::of_scattered(&points) } else { Surface::of_grid(&points) };
+    let ends = surface.as_ref().map_or(((0.0, 1.0), (0.0, 1.0)), |s| (s.x, s.y));
+    let frame = Frame::new(ends.0, ends.1, RIGHT);
+    let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
+    let how =
+        if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
+    let note = format!("standard error up to {worst:.1e}{how}; {}", drawing.metric.about);
+    let mut out = frame.open(&format!("{name} of {}", drawing.stone), &note);
+    let levels = surface.as_ref().and_then(|s| Some((s, s.reach()?)));
+    match levels {
+        Some((surface, reach)) => {
+            let scale = Levels::of(reach);
+            let contours = scale.draw(&frame, surface, &mut out);
+            let covered = cover(&frame, surface, &mut out);
+            if scattered {
+                for (x, y, _) in points.iter().filter(|p| p.2.is_some()) {
+                    let (x, y) = (frame.x.at(*x), frame.y.at(*y));
+                    let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.1\" fill=\"#0008\"/>");
+                }
+            }
+            envelopes(drawing, &frame, &[x.clone(), y.clone()], &mut out);
+            let mut taken = marks(drawing, &frame, &mut out);
+            taken.extend(covered);
+            scale.label(&frame, &contours, &mut taken, &mut out);
+            scale.bar(&frame, &drawing.score_title(), &mut out);
+        }
+        None => out += "<text x=\"370\" y=\"300\" text-anchor=\"middle\">no values to draw</text>\n",
+    }
+    frame.axes(&mut out, &x.title, &y.title, false);
+    out + "</svg>\n"
+}
+
+/// The values at which contours run.
+struct Levels {
+    from: f64,
+    to: f64,
+    at: Vec<(f64, String)>,
+}
+
+impl Levels {
+    fn of((from, to): (f64, f64)) -> Levels {
+        let (from, to) = super::frame::widened((from, to));
+        let step = step(from, to, BANDS);
+        Levels {
+            from,
+            to,
+            at: ticks(from, to, BANDS).into_iter().filter(|(v, _)| *v > from + 0.01 * step).collect(),
+        }
+    }
+
+    fn colour(&self, value: f64) -> String {
+        let along = ((value - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        format!("#{:x}", VIRIDIS.eval_continuous(along))
+    }
+
+    /// The middle of the band above level number `i`, counted from −1: below the first.
+    fn middle(&self, i: usize) -> f64 {
+        let end = |i: usize| self.at.get(i).map_or(self.to, |l| l.0);
+        let start = if i == 0 { self.from } else { self.at[i - 1].0 };
+        (start + end(i)) / 2.0
+    }
+
+    /// Fills the bands and draws the contours; every contour's level and points, in the drawing.
+    fn draw(&self, frame: &Frame, surface: &Surface, out: &mut String) -> Vec<(usize, Vec<(f64, f64)>)> {
+        let (left, top, w, h) = frame.rectangle();
+        let _ = writeln!(
+            out,
+            "<g clip-path=\"url(#plot)\">\n<rect x=\"{left}\" y=\"{top}\" width=\"{w:.1}\" height=\"{h:.1}\" \
+             fill=\"{}\"/>",
+            self.colour(self.middle(0))
+        );
+        let (dx, dy) = surface.steps();
+        let builder = ContourBuilder::new(surface.size.0, surface.size.1, true)
+            .x_origin(surface.x.0 - dx / 2.0) // a value stands in the middle of its cell
+            .y_origin(surface.y.0 - dy / 2.0)
+            .x_step(dx)
+            .y_step(dy);
+        let thresholds: Vec<f64> = self.at.iter().map(|l| l.0).collect();
+        let areas = builder.contours(&surface.filled(self.from), &thresholds).unwrap_or_default();
+        let mut lines = Vec::new();
+        for (i, area) in areas.iter().enumerate() {
+            let mut path = String::new();
+            for polygon in &area.geometry().0 {
+                for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
+                    let points: Vec<(f64, f64)> =
+                        ring.coords().map(|c| (frame.x.at(c.x), frame.y.at(c.y))).collect();
+                    let text: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
+                    path += &format!("M{}Z", text.join("L"));
+                    lines.push((i, points));
+                }
+            }
+            let _ = writeln!(
+                out,
+                "<path d=\"{path}\" fill=\"{}\" fill-rule=\"evenodd\" stroke=\"#000\" stroke-opacity=\"0.55\" \
+                 stroke-width=\"0.8\"/>",
+                self.colour(self.middle(i + 1))
+            );
+        }
+        *out += "</g>\n";
+        lines
+    }
+
+    /// Writes the level along each contour once, where it runs straight and nothing else stands.
+    fn label(
+        &self,
+        frame: &Frame,
+        lines: &[(usize, Vec<(f64, f64)>)],
+        taken: &mut Vec<Taken>,
+        out: &mut String,
+    ) {
+        let (left, top, w, h) = frame.rectangle();
+        for (level, points) in lines {
+            let text = &self.at[*level].1;
+            let length: f64 = points.windows(2).map(|p| (p[1].0 - p[0].0).hypot(p[1].1 - p[0].1)).sum();
+            let half = 5.5 * text_width(text, false) + 2.0;
+            let inside = |(x, y): (f64, f64), room: f64| {
+                (left + room..left + w - room).contains(&x) && (top + room..top + h - room).contains(&y)
+            };
+            let mut best: Option<(f64, (f64, f64), f64)> = None;
+            if length < SHORT {
+                continue;
+            }
+            for i in 0..points.len() {
+                let middle = points[i];
+                if !inside(middle, half + 6.0)
+                    || taken.iter().any(|t| overlap(*t, (middle.0, middle.1, half, half)))
+                {
+                    continue;
+                }
+                let (Some(a), Some(b)) = (reach(points, i, half, false), reach(points, i, half, true)) else {
+                    continue;
+                };
+                let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+                let straight = dx.hypot(dy) / (2.0 * half);
+                if best.is_none_or(|(s, ..)| straight > s + 0.02) {
+                    best = Some((straight, middle, dy.atan2(dx).to_degrees()));
+                }
+            }
+            if let Some((_, (x, y), angle)) = best.filter(|b| b.0 > 0.9) {
+                let upright = if angle > 90.0 {
+                    angle - 180.0
+                } else if angle < -90.0 {
+                    angle + 180.0
+                } else {
+                    angle
+                };
+                taken.push((x, y, half + 8.0, half.max(8.0)));
+                let _ = writeln!(
+                    out,
+                    "<text transform=\"translate({x:.1} {y:.1})rotate({upright:.1})\" y=\"4\" font-size=\"11\" \
+                     text-anchor=\"middle\" stroke=\"#fff\" stroke-opacity=\"0.8\" stroke-width=\"3\" \
+                     stroke-linejoin=\"round\" paint-order=\"stroke\">{text}</text>"
+                );
+            }
+        }
+    }
+
+    /// The colour scale beside the plot.
+    fn bar(&self, frame: &Frame, title: &str, out: &mut String) {
+        let (_, top, _, h) = frame.rectangle();
+        let at = |value: f64| top + h * (1.0 - (value - self.from) / (self.to - self.from));
+        let (x, w) = BAR;
+        for i in 0..=self.at.len() {
+            let low = if i == 0 { self.from } else { self.at[i - 1].0 };
+            let high = self.at.get(i).map_or(self.to, |l| l.0);
+            let _ = writeln!(
+                out,
+                "<rect x=\"{x}\" y=\"{:.1}\" width=\"{w}\" height=\"{:.1}\" fill=\"{}\"/>",
+                at(high),
+                at(low) - at(high),
+                self.colour(self.middle(i))
+            );
+        }
+        for (value, text) in &self.at {
+            let y = at(*value);
+            let _ = writeln!(
+                out,
+                "<path d=\"M{:.1} {y:.1}h5\" stroke=\"#222\"/><text x=\"{:.1}\" y=\"{:.1}\">{text}</text>",
+                x + w,
+                x + w + 9.0,
+                y + 4.5
+            );
+        }
+        let _ = writeln!(
+            out,
+            "<rect x=\"{x}\" y=\"{top}\" width=\"{w}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#222\"/>\
+             <text transform=\"translate({:.1} {:.1})rotate(-90)\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
+            WIDTH - 24.0,
+            top + h / 2.0,
+            escaped(title)
+        );
+    }
+}
+
+/// The point of a closed line at `distance` from point `i`, forward or backward along it.
+fn reach(points: &[(f64, f64)], i: usize, distance: f64, forward: bool) -> Option<(f64, f64)> {
+    let from = points[i];
+    (1..points.len())
+        .map(|k| points[if forward { i + k } else { i + points.len() - k } % points.len()])
+        .find(|p| (p.0 - from.0).hypot(p.1 - from.1) >= distance)
+}
+
+fn overlap(a: Taken, b: Taken) -> bool {
+    (a.0 - b.0).abs() < a.2 + b.2 && (a.1 - b.1).abs() < a.3 + b.3
+}
+
+/// Greys out the cells without a value; what they take up.
+fn cover(frame: &Frame, surface: &Surface, out: &mut String) -> Vec<Taken> {
+    let mut taken = Vec::new();
+    let (dx, dy) = surface.steps();
+    let (w, h) = ((frame.x.at(dx) - frame.x.at(0.0)), (frame.y.at(0.0) - frame.y.at(dy)));
+    for (column, row) in surface.holes() {
+        let x = frame.x.at(surface.x.0 + dx * column as f64);
+        let y = frame.y.at(surface.y.0 + dy * (row + 1) as f64);
+        let _ = writeln!(
+            out,
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#eee\"/>",
+            w + 0.3,
+            h + 0.3
+        );
+        taken.push((x + w / 2.0, y + h / 2.0, w / 2.0, h / 2.0));
+    }
+    taken
+}
+
+/// The cut-grade envelopes as rectangles, named in a corner.
+fn envelopes(drawing: &Drawing, frame: &Frame, axes: &[Axis], out: &mut String) {
+    let (left, top, w, h) = frame.rectangle();
+    for (name, bounds) in drawing.envelopes(axes) {
+        let [(x0, x1), (y0, y1)] = bounds[..] else { continue };
+        let (x0, x1, y0, y1) = (frame.x.at(x0), frame.x.at(x1), frame.y.at(y1), frame.y.at(y0));
+        if x1 <= left || x0 >= left + w || y1 <= top || y0 >= top + h {
+            continue;
+        }
+        let covers = x0 <= left && x1 >= left + w && y0 <= top && y1 >= top + h;
+        if covers {
+            continue;
+        }
+        let (tx, ty) = (x0.max(left) + 5.0, y0.max(top) + 14.0);
+        let _ = writeln!(
+            out,
+            "<rect clip-path=\"url(#plot)\" x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\" \
+             fill=\"none\" stroke=\"#fff\" stroke-width=\"2\" stroke-dasharray=\"7 4\"/>\
+             <text x=\"{tx:.1}\" y=\"{ty:.1}\" font-size=\"11\" fill=\"#fff\" stroke=\"#000\" stroke-opacity=\"0.6\" \
+             stroke-width=\"2.5\" paint-order=\"stroke\">envelope of {}</text>",
+            x1 - x0,
+            y1 - y0,
+            escaped(&name)
+        );
+    }
+}
+
+/// Stones of the library; what their names take up.
+fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
+    let (left, _, w, _) = frame.rectangle();
+    let mut taken = Vec::new();
+    for mark in drawing.marks() {
+        if !frame.x.holds(mark.at[0]) || !frame.y.holds(mark.at[1]) {
+            continue;
+        }
+        let (x, y) = (frame.x.at(mark.at[0]), frame.y.at(mark.at[1]));
+        let width = 11.0 * text_width(&mark.name, true);
+        let to_left = x + 10.0 + width > left + w;
+        let middle = if to_left { x - 9.0 - width / 2.0 } else { x + 9.0 + width / 2.0 };
+        let free = |dy: &&f64| !taken.iter().any(|t| overlap(*t, (middle, y + **dy, width / 2.0, 7.0)));
+        let dy = [0.0, -13.0, 13.0, -26.0, 26.0].iter().find(free).copied().unwrap_or(0.0);
+        taken.push((middle, y + dy, width / 2.0 + 3.0, 8.0));
+        taken.push((x, y, 6.0, 6.0));
+        let anchor = if to_left { "end" } else { "start" };
+        let _ = writeln!(
+            out,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"1.2\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" font-weight=\"bold\" text-anchor=\"{anchor}\" fill=\"#fff\" \
+             stroke=\"#000\" stroke-opacity=\"0.7\" stroke-width=\"3\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\">{}</text>",
+            if to_left { x - 9.0 } else { x + 9.0 },
+            y + dy + 4.0,
+            escaped(&mark.name)
+        );
+    }
+    taken
+}

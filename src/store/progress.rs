@@ -1,0 +1,257 @@
+//! Progress of long work, kept beside its output: what is done survives a kill at any moment.
+//!
+//! The file is an append-only list of records, each with its checksum, headed by the identity of
+//! the work. One process at a time has it, by a lock that ends with the process.
+
+use super::replace::WriteError;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// First word of the file, with the version of its form.
+const MAGIC: &str = "cutlab-progress-1";
+
+/// No record is longer: a length beyond it is no length.
+const LONGEST: u64 = 1 << 24;
+
+/// A progress file that this process has to itself.
+#[derive(Debug)]
+pub struct Progress {
+    path: PathBuf,
+    file: File,
+    start: u64,
+    done: Done,
+}
+
+/// Which positions are done: all below `all`, and some above it.
+#[derive(Debug, Default)]
+struct Done {
+    all: u64,
+    beyond: BTreeSet<u64>,
+}
+
+impl Done {
+    fn add(&mut self, position: u64) {
+        self.beyond.insert(position);
+        while self.beyond.remove(&self.all) {
+            self.all += 1;
+        }
+    }
+}
+
+/// What may be worth telling while a progress file is opened.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// Another process has it; this one waits until that has ended.
+    Waiting,
+    /// What was there is of no use here and was moved to the path given, with the reason.
+    SetAside(PathBuf, &'static str),
+}
+
+/// What a file turned out to hold.
+enum Content {
+    /// Records of this work, up to `end`; whatever follows was torn off by a kill.
+    Good { start: u64, end: u64, done: Done },
+    /// Not a progress file of this work, and why.
+    Useless(&'static str),
+}
+
+impl Progress {
+    /// Where the progress of an output is kept: `.NAME.progress` beside it.
+    pub fn beside(output: &Path) -> PathBuf {
+        let name = output.file_name().unwrap_or_default().to_string_lossy();
+        output.with_file_name(format!(".{name}.progress"))
+    }
+
+    /// Opens the progress of the work called `identity`, or begins it; waits while another process
+    /// has it.
+    ///
+    /// A file that is broken or of other work is moved aside, never used and never overwritten by
+    /// this work. Checked in `tests/progress.rs`.
+    pub fn open(path: &Path, identity: &str, tell: &dyn Fn(Remark)) -> Result<Progress, WriteError> {
+        let fail = |cause| WriteError { path: path.to_owned(), cause };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(fail)?;
+        }
+        let head = format!("{MAGIC} {identity}");
+        loop {
+            let mut file = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(path)
+                .map_err(fail)?;
+            if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+                tell(Remark::Waiting);
+                file.lock().map_err(fail)?;
+            } // a file system without locks has none to wait for
+            if !still_at(&file, path) {
+                continue; // its owner finished and took it away
+            }
+            match content(&mut file, &head).map_err(fail)? {
+                Content::Good { start, end, done } => {
+                    file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(fail)?;
+                    let mut progress = Progress { path: path.to_owned(), file, start, done };
+                    if end == 0 {
+                        progress.start = progress.put(&head, b"")?;
+                    }
+                    return Ok(progress);
+                }
+                Content::Useless(why) => {
+                    let aside = path.with_extension("progress-set-aside");
+                    std::fs::rename(path, &aside).map_err(fail)?;
+                    tell(Remark::SetAside(aside, why));
+                }
+            }
+        }
+    }
+
+    /// How many records there are.
+    pub fn count(&self) -> u64 {
+        self.done.all + self.done.beyond.len() as u64
+    }
+
+    /// The positions that are there beyond the first that is missing.
+    pub fn beyond(&self) -> BTreeSet<u64> {
+        self.done.beyond.clone()
+    }
+
+    /// The first position that is missing.
+    pub fn missing_from(&self) -> u64 {
+        self.done.all
+    }
+
+    /// Adds the record at `position`, in one write.
+    pub fn append(&mut self, position: u64, payload: &[u8]) -> Result<(), WriteError> {
+        self.put(&position.to_string(), payload)?;
+        self.done.add(position);
+        Ok(())
+    }
+
+    /// Writes a record; its length in bytes.
+    fn put(&mut self, key: &str, payload: &[u8]) -> Result<u64, WriteError> {
+        let mut record = format!("{:08x} {} {key}\n", checksum(key, payload), payload.len()).into_bytes();
+        record.extend_from_slice(payload);
+        record.push(b'\n');
+        let written = self.file.write_all(&record);
+        written.map_err(|cause| WriteError { path: self.path.clone(), cause })?;
+        Ok(record.len() as u64)
+    }
+
+    /// Gives the payloads in the order of their positions. Memory holds only those that were added
+    /// before their turn.
+    pub fn each(&mut self, mut take: impl FnMut(&[u8]) -> std::io::Result<()>) -> Result<(), WriteError> {
+        let fail = |cause| WriteError { path: self.path.clone(), cause };
+        let end = self.file.seek(SeekFrom::End(0)).map_err(fail)?;
+        let mut read = || {
+            let mut reader = BufReader::new(&self.file);
+            reader.seek(SeekFrom::Start(self.start))?;
+            let (mut next, mut early) = (0, BTreeMap::new());
+            while let Record::Whole { key, payload, .. } = record(&mut reader)? {
+                early.insert(key.parse::<u64>().unwrap_or(u64::MAX), payload);
+                while let Some(payload) = early.remove(&next) {
+                    take(&payload)?;
+                    next += 1;
+                }
+            }
+            Ok(())
+        };
+        read().map_err(fail)?;
+        self.file.seek(SeekFrom::Start(end)).map_err(fail)?;
+        Ok(())
+    }
+
+    /// The work is done and its output is in place: takes the file away.
+    pub fn finish(self) -> Result<(), WriteError> {
+        std::fs::remove_file(&self.path).map_err(|cause| WriteError { path: self.path, cause })
+    }
+}
+
+fn checksum(key: &str, payload: &[u8]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(key.as_bytes());
+    sum.update(b"\n");
+    sum.update(payload);
+    sum.finalize()
+}
+
+/// Whether `path` still leads to this very file.
+fn still_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let place = |m: std::io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
+        let here = place(file.metadata());
+        here.is_some() && here == place(std::fs::metadata(path))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        path.exists()
+    }
+}
+
+/// One record as it stands in the file.
+enum Record {
+    Whole {
+        key: String,
+        payload: Vec<u8>,
+        length: u64,
+    },
+    /// The file ends before the record does, or with it.
+    Ends,
+    Broken,
+}
+
+fn record(reader: &mut impl BufRead) -> std::io::Result<Record> {
+    let mut line = Vec::new();
+    reader.by_ref().take(4096).read_until(b'\n', &mut line)?;
+    if line.last() != Some(&b'\n') {
+        return Ok(if line.len() < 4096 { Record::Ends } else { Record::Broken });
+    }
+    let Some((sum, length, key)) = std::str::from_utf8(&line).ok().and_then(parts) else {
+        return Ok(Record::Broken);
+    };
+    let mut payload = Vec::new();
+    reader.by_ref().take(length + 1).read_to_end(&mut payload)?;
+    match payload.pop() {
+        Some(b'\n') if payload.len() as u64 == length && checksum(&key, &payload) == sum => {
+            Ok(Record::Whole { key, payload, length: line.len() as u64 + length + 1 })
+        }
+        Some(_) if payload.len() as u64 == length => Ok(Record::Broken),
+        _ => Ok(Record::Ends),
+    }
+}
+
+/// Checksum, payload's length and key of a record's first line.
+fn parts(line: &str) -> Option<(u32, u64, String)> {
+    let (sum, rest) = line.trim_end_matches('\n').split_once(' ')?;
+    let (length, key) = rest.split_once(' ')?;
+    let length = length.parse().ok().filter(|n| *n <= LONGEST)?;
+    Some((u32::from_str_radix(sum, 16).ok()?, length, key.to_owned()))
+}
+
+fn content(file: &mut File, head: &str) -> std::io::Result<Content> {
+    file.seek(SeekFrom::Start(0))?;
+    let mut reader = BufReader::new(&*file);
+    let start = match record(&mut reader)? {
+        Record::Ends => return Ok(Content::Good { start: 0, end: 0, done: Done::default() }),
+        Record::Whole { key, length, .. } if key == head => length,
+        Record::Whole { .. } => return Ok(Content::Useless("it is of another command or other inputs")),
+        Record::Broken => return Ok(Content::Useless("it is broken")),
+    };
+    let (mut end, mut done) = (start, Done::default());
+    loop {
+        match record(&mut reader)? {
+            Record::Ends => return Ok(Content::Good { start, end, done }),
+            Record::Broken => return Ok(Content::Useless("it is broken")),
+            Record::Whole { key, length, .. } => {
+                let position: u64 = key.parse().map_err(|_| Error::from(ErrorKind::InvalidData))?;
+                done.add(position);
+                end += length;
+            }
+        }
+    }
+}

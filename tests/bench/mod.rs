@@ -1,0 +1,82 @@
+//! A folder of its own for a test, and the program run in it.
+
+#![allow(dead_code)] // each test file uses its part
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+pub struct Bench(tempfile::TempDir);
+
+pub fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+impl Bench {
+    pub fn new() -> Bench {
+        Bench(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cutlab"));
+        command.args(arguments).current_dir(self.0.path());
+        command
+    }
+
+    pub fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the program starts")
+    }
+
+    /// Runs a command that must end with `code`; standard output and standard error.
+    pub fn ends(&self, code: i32, arguments: &[&str]) -> (String, String) {
+        let out = self.run(arguments);
+        let said = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(!said.contains("panicked"), "{said}");
+        (text(&out.stdout), said)
+    }
+
+    /// Runs a command that must end well; standard error.
+    pub fn good(&self, arguments: &[&str]) -> String {
+        self.ends(0, arguments).1
+    }
+
+    pub fn start(&self, arguments: &[&str]) -> Child {
+        self.command(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts")
+    }
+
+    /// Starts a command and kills it after `wait`; whether it was still at work.
+    pub fn kill_after(&self, wait: Duration, arguments: &[&str]) -> bool {
+        let mut child = self.start(arguments);
+        std::thread::sleep(wait);
+        let at_work = child.try_wait().expect("can be asked").is_none();
+        let _ = child.kill();
+        child.wait().expect("ends");
+        at_work
+    }
+
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    /// All names in the folder, hidden ones too.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("can be listed");
+        let mut names: Vec<String> =
+            entries.map(|e| e.expect("can be listed").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    pub fn exists(&self, name: &str) -> bool {
+        Path::new(&self.path(name)).exists()
+    }
+}

@@ -1,0 +1,92 @@
+//! `cutlab compare`: paired differences and what they are worth.
+
+mod bench;
+mod brilliants;
+
+use bench::Bench;
+use brilliants::{SEED, diamond, named, plan, subject};
+use cutlab::study::compare::{SIGNIFICANT, compare, is_significant};
+use cutlab::study::score::{Plan, score};
+
+/// The difference of two stones is that of long runs of each, and sharper than their errors.
+#[test]
+fn differences_are_right_and_sharper_than_the_scores() {
+    let subjects = ["reference", "57"].map(|n| subject(n, &named(n), diamond()));
+    let plan = plan(&["wlr", "leakage"], 1 << 16);
+    let compared = compare(&subjects, &plan, &|| ());
+    let long = Plan { effort: cutlab::study::score::Effort::Samples(1 << 20), seed: SEED + 9, ..plan };
+    let [a, b] = [0, 1].map(|i| score(&subjects[i], &long).scores);
+    for m in 0..2 {
+        let (a, b) = (a[m].expect("applies"), b[m].expect("applies"));
+        let d = compared.differences[0][m].expect("applies");
+        let off = (d.value - (b.value - a.value)).abs();
+        // two comparisons at 3.9 errors
+        assert!(off < 3.9 * d.error.hypot(a.error).hypot(b.error), "{d:?}, {a:?}, {b:?}");
+        let apart = compared.rows[0].scores[m].expect("applies").error;
+        assert!(d.error < 1.5 * apart, "paired: {} and {apart}", d.error);
+    }
+}
+
+/// Of a stone and itself turned about its axis no more differences are significant than Student's
+/// law has it: P(|t| > 3) = .0053 with 31 degrees of freedom; of 60, two have P = .04, three .004.
+#[test]
+fn equal_stones_rarely_differ() {
+    let still = named("reference");
+    let mut found = 0;
+    for run in 0..20 {
+        let angle = 0.01 + 0.03 * f64::from(run);
+        let turned = still.clone().turned(glam::DMat3::from_rotation_z(angle));
+        let subjects = [subject("a", &still, diamond()), subject("b", &turned, diamond())];
+        let plan = Plan { seed: SEED + run as u64, ..plan(&["wlr", "leakage", "glare"], 1 << 13) };
+        let compared = compare(&subjects, &plan, &|| ());
+        found += compared.differences[0].iter().flatten().filter(|d| is_significant(**d)).count();
+    }
+    println!("{found} of 60 beyond {SIGNIFICANT} errors");
+    assert!(found <= 2, "{found}");
+}
+
+#[test]
+fn the_command_shows_scores_beside_each_other() {
+    let bench = Bench::new();
+    let (table, _) = bench.ends(
+        0,
+        &[
+            "compare",
+            "round-brilliant",
+            "tolkowsky",
+            "scan-dn",
+            "--metrics",
+            "wlr,spread",
+            "--error",
+            "0.002",
+        ],
+    );
+    assert!(table.contains("tolkowsky less round-brilliant") && table.contains("wlr"), "{table}");
+    let (json, _) = bench
+        .ends(0, &["compare", "tolkowsky", "octahedron", "--metrics", "wlr", "--error", "0.002", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json[0]["differences"][0]["significant"], true, "{json}");
+    assert_eq!(bench.ends(2, &["compare", "tolkowsky"]).0, "");
+    assert!(bench.ends(2, &["compare", "tolkowsky", "missing"]).1.contains("missing"));
+}
+
+#[test]
+#[ignore = "pictures of two stones take half a minute: .ci/run runs it"]
+fn the_page_has_both_stones_and_needs_nothing_beside_it() {
+    let bench = Bench::new();
+    bench.good(&[
+        "compare",
+        "tolkowsky",
+        "octahedron",
+        "--metrics",
+        "wlr,leakage",
+        "--error",
+        "0.002",
+        "-o",
+        "out",
+    ]);
+    let page = String::from_utf8(bench.read("out/index.html")).expect("UTF-8");
+    assert_eq!(page.matches("data:image/png;base64,").count(), 4);
+    assert!(page.contains("tilt (°)") && page.contains("octahedron less tolkowsky"));
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
+}
