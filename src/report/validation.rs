@@ -20,11 +20,14 @@ pub fn rule() -> String {
 
 /// How a number is written whose error or tolerance is known.
 pub fn written(ours: Estimate, tolerance: Option<f64>) -> String {
+    let digits = |unit: f64| (1.0 - unit.log10().floor()).clamp(0.0, 9.0) as usize;
+    if ours.error > 0.0 && ours.error < 1e-6 && ours.value.abs() > 1e-4 {
+        return format!("{:.1$} ± {2:.0e}", ours.value, digits(ours.error), ours.error);
+    }
     match (number(ours), tolerance) {
         ((value, Some(error)), _) => format!("{value} ± {error}"),
         (_, Some(tolerance)) if tolerance > 0.0 => {
-            let digits = (1.0 - tolerance.log10().floor()).clamp(0.0, 9.0) as usize;
-            let text = format!("{:.digits$}", ours.value);
+            let text = format!("{:.1$}", ours.value, digits(tolerance));
             if ours.value != 0.0 && text.trim_start_matches('-').chars().all(|c| "0.".contains(c)) {
                 format!("{:.1e}", ours.value)
             } else {
@@ -91,6 +94,11 @@ pub fn html(reports: &[Report], seed: u64, command: &str) -> String {
          tests check.</p>",
         rule()
     );
+    let failed = reports.iter().flat_map(|r| &r.outcomes).filter(|o| o.verdict == Verdict::Failed);
+    let failed: Vec<&Outcome> = failed.collect();
+    if !failed.is_empty() {
+        table("What did not come out", &failed, &mut out);
+    }
     plots(reports, &mut out);
     let mut subjects: Vec<&str> = Vec::new();
     for outcome in reports.iter().flat_map(|r| &r.outcomes) {

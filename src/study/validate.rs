@@ -114,7 +114,7 @@ pub struct Figure {
     pub unit: &'static str,
     /// Where it stands along the axis of its trial's plot.
     pub at: Option<f64>,
-    /// What explains it if it does not come out, or what is to be known of it.
+    /// What explains it if it does not come out; empty if nothing is known that would.
     pub why: &'static str,
 }
 
@@ -211,7 +211,8 @@ impl Trial {
             };
             let why = match &trouble {
                 Some(error) => error.to_string(),
-                None => figure.why.to_string(),
+                None if verdict == Verdict::Failed => figure.why.to_string(),
+                None => String::new(),
             };
             Outcome { subject: self.subject, figure, ours, verdict, why }
         };

@@ -53,7 +53,9 @@ const MATERIALS: [Row; 20] = [
 
 /// The trials of this subject.
 pub fn trials() -> Vec<Trial> {
-    let line = |(name, _, n): &(&str, f64, f64)| Figure::near(format!("diamond at {name}"), PETER, *n, 2e-5);
+    let line = |(name, _, n): &(&str, f64, f64)| {
+        Figure::near(format!("diamond at the line {name}"), PETER, *n, 2e-5)
+    };
     let mut trials = vec![Trial::new(SUBJECT, DIAMOND.iter().map(line).collect(), |_| {
         let diamond = material("diamond")?;
         Ok(Found::exact(DIAMOND.map(|(_, um, _)| diamond.index(um))))
