@@ -21,7 +21,7 @@ pub fn rule() -> String {
 /// How a number is written whose error or tolerance is known.
 pub fn written(ours: Estimate, tolerance: Option<f64>) -> String {
     let digits = |unit: f64| (1.0 - unit.log10().floor()).clamp(0.0, 9.0) as usize;
-    if ours.error > 0.0 && ours.error < 1e-6 && ours.value.abs() > 1e-4 {
+    if ours.error > 0.0 && ours.error < 1e-5 && ours.value.abs() > 1e-4 {
         return format!("{:.1$} ± {2:.0e}", ours.value, digits(ours.error), ours.error);
     }
     match (number(ours), tolerance) {
