@@ -8,6 +8,7 @@ pub mod pattern;
 pub mod plot;
 pub mod raster;
 pub mod sections;
+pub mod validation;
 pub mod versus;
 
 pub use bundle::{Bundle, ReportError, Request, make};

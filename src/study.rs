@@ -9,3 +9,4 @@ pub mod score;
 pub mod shard;
 pub mod sweep;
 pub mod table;
+pub mod validate;

@@ -5,7 +5,7 @@ mod frame;
 mod map;
 mod surface;
 
-pub use curve::{Curve, Curves};
+pub use curve::{Curve, Curves, Dot};
 
 use super::page::escaped;
 use crate::cut::brilliant;
@@ -96,6 +96,7 @@ impl Drawing<'_> {
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
             marks: self.marks().into_iter().map(|m| (m.name, m.at[0])).collect(),
+            dots: Vec::new(),
         }
         .svg()
     }
