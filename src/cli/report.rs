@@ -73,7 +73,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         return Ok(Code::Done);
     }
     let mut text = String::new();
-    for section in &bundle.sections {
+    for section in bundle.sections.iter().filter(|s| s.large > 0) {
         text += &format!("{}\n", section.head);
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };

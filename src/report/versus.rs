@@ -1,31 +1,19 @@
 //! The page of a comparison: scores, differences, pictures and tilt curves beside each other.
 
-use super::aset;
 use super::bundle::{ReportError, Request, table_picture};
 use super::diagram::projection::{self, View};
-use super::page::{data_uri, escaped, number};
-use super::plot::{Curve, Curves};
-use crate::metrics::Metric;
+use super::page::{data_uri, escaped, head, number, scope_figure, tilt_section};
+use super::{scopes, tilts};
 use crate::study::compare::{Comparison, is_significant};
-use crate::study::score::{Effort, Plan, Subject, Tilt, score};
+use crate::solid::{Polyhedron, SolidError};
+use crate::study::score::Plan;
 use crate::walk::Stone;
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("page.css");
 const OWN_STYLE: &str = include_str!("versus.css");
 
-/// Pixels across an ASET picture.
-const ASET_SIDE: u32 = 480;
-
-/// Tilts of the curves, to both sides, in degrees.
-const MOST_TILT: i32 = 30;
-const TILT_STEP: usize = 3;
-
-/// Points of each experiment at each tilt: ±.0012 of `wlr`.
-const TILT_SAMPLES: u64 = 1 << 14;
-
-/// Scores that are drawn against the tilt.
-const TILTED: [&str; 2] = ["wlr", "aset_leak"];
+/// Pixels across a picture through a scope.
+const SCOPE_SIDE: u32 = 400;
 
 /// Steps that [`html`] reports, for each stone.
 pub const STEPS: usize = 3;
@@ -41,93 +29,54 @@ pub fn html(
     step: &dyn Fn(&'static str),
 ) -> Result<String, ReportError> {
     let names: Vec<&str> = requests.iter().map(|r| r.stone.as_str()).collect();
-    let title = names.join(" and ");
-    let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title} · cutlab</title>\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <header>\n<h1>{title}</h1>\n<p class=\"sub\">compared</p>\n</header>\n",
-        title = escaped(&title)
-    );
-    let mut tilted: Vec<Vec<Curve>> = vec![Vec::new(); TILTED.len()];
-    out += "<section class=\"beside\">\n";
-    for request in requests {
-        let solid = request.design.solid()?;
+    let materials: Vec<&str> = requests.iter().map(|r| r.material.name.as_ref()).collect();
+    let mut out = head(&names.join(" and "), OWN_STYLE, &format!("compared, in {}", together(&materials)));
+    let solids: Vec<Polyhedron> =
+        requests.iter().map(|r| r.design.solid()).collect::<Result<_, SolidError>>()?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (request, solid) in requests.iter().zip(&solids) {
         let stone = Stone::new(solid.clone());
-        step("ASET map");
-        let aset = aset::picture(&stone, request.material.index_d() as f32, ASET_SIDE)?;
-        let picture = table_picture(stone, request, &|_| ())?;
+        step("scopes");
+        let index = request.material.index_d() as f32;
+        let seen = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
         step("picture");
-        let shares: Vec<String> = ["green", "red", "blue", "leak"]
-            .iter()
-            .zip(aset.shares)
-            .map(|(n, s)| format!("{n} {:.1} %", 100.0 * s))
-            .collect();
-        let _ = writeln!(
-            out,
-            "<div><h2>{}</h2><p class=\"note\">{}</p>\n<figure><img src=\"{}\" alt=\"on a grey table\"></figure>\n\
-             <figure><img src=\"{}\" alt=\"ASET map\"><figcaption>ASET: {}</figcaption></figure>\n\
-             <figure>{}</figure>\n<figure>{}</figure></div>",
-            escaped(&request.stone),
-            escaped(&request.material.name),
-            data_uri(&picture),
-            data_uri(&aset.png),
-            shares.join(", "),
-            projection::svg(&solid, View::Crown),
-            projection::svg(&solid, View::Side),
+        let picture = table_picture(stone, request, &|_| ())?;
+        let mut cells = vec![format!(
+            "<figure><img src=\"{}\" alt=\"on a grey table\"></figure>\n",
+            data_uri(&picture)
+        )];
+        cells.extend(seen.iter().map(scope_figure));
+        cells.extend(
+            [View::Crown, View::Side].map(|v| format!("<figure>{}</figure>\n", projection::svg(solid, v))),
         );
-        step("tilts");
-        for (curves, points) in tilted.iter_mut().zip(tilts(request, &solid, plan)) {
-            curves.push(Curve { name: request.stone.clone(), points });
-        }
+        rows.push(cells);
     }
-    out += "</section>\n";
+    // one row of the page for each kind of picture, so that equals stand beside each other
+    for kind in 0..rows.first().map_or(0, Vec::len) {
+        out += "<section class=\"beside\">\n";
+        for (name, cells) in names.iter().zip(&rows) {
+            let _ = write!(out, "<div><h2>{}</h2>\n{}</div>\n", escaped(name), cells[kind]);
+        }
+        out += "</section>\n";
+    }
     table(&names, comparison, plan, &mut out);
-    out += "<section>\n<h2>Tilts</h2>\n<div class=\"beside\">\n";
-    for (name, curves) in TILTED.iter().zip(tilted) {
-        let svg = Curves {
-            title: name.to_string(),
-            note: "tilted about the x axis; band: 95 in 100".into(),
-            x: "tilt (°)".into(),
-            y: name.to_string(),
-            curves,
-            ..Curves::default()
-        }
-        .svg();
-        // each drawing names its clip `plot`: in one page they need names of their own
-        let _ = writeln!(out, "<figure>{}</figure>", svg.replace("plot", &format!("plot-{name}")));
-    }
+    let stones: Vec<(&Request, &Polyhedron)> = requests.iter().zip(&solids).collect();
+    out += &tilt_section(&tilts::plots(&stones, plan, &|| step("tilts")));
     let command = requests.first().map_or("", |r| r.command.as_str());
     let _ = write!(
         out,
-        "</div>\n</section>\n<footer>\n<p>Made by cutlab {} with <code>{}</code></p>\n</footer>\n</main>\n</body>\n</html>\n",
+        "<footer>\n<p>Made by cutlab {} with <code>{}</code></p>\n</footer>\n</main>\n</body>\n</html>\n",
         env!("CARGO_PKG_VERSION"),
         escaped(command)
     );
     Ok(out)
 }
 
-/// Points of a curve: the tilt, and value with standard error where the score has one.
-type Points = Vec<(f64, Option<(f64, f64)>)>;
-
-/// One curve a score of [`TILTED`].
-fn tilts(request: &Request, solid: &crate::solid::Polyhedron, plan: &Plan) -> Vec<Points> {
-    let metrics: Vec<&'static Metric> = TILTED.iter().filter_map(|name| Metric::named(name)).collect();
-    let plan = Plan { metrics, effort: Effort::Samples(TILT_SAMPLES), exact: false, ..plan.clone() };
-    let mut curves = vec![Vec::new(); TILTED.len()];
-    for degrees in (-MOST_TILT..=MOST_TILT).step_by(TILT_STEP).map(f64::from) {
-        let subject = Subject {
-            stone: request.stone.clone(),
-            material: request.material.clone(),
-            solid: Ok(solid.clone()),
-            tilt: Some(Tilt { degrees, azimuth: 0.0 }),
-        };
-        let row = score(&subject, &plan);
-        for (curve, value) in curves.iter_mut().zip(row.scores) {
-            curve.push((degrees, value.map(|e| (e.value, e.error))));
-        }
-    }
-    curves
+/// Names in a row, each once.
+fn together(names: &[&str]) -> String {
+    let first = |i: usize| !names[..i].contains(&names[i]);
+    let once: Vec<&str> = (0..names.len()).filter(|i| first(*i)).map(|i| names[i]).collect();
+    once.join(" and ")
 }
 
 /// Scores and differences.

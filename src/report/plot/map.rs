@@ -303,10 +303,12 @@ fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
         let anchor = if to_left { "end" } else { "start" };
         let _ = writeln!(
             out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"1.2\"/>\
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\" fill=\"{}\" stroke=\"#000\" stroke-width=\"1.2\"/>\
              <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" font-weight=\"bold\" text-anchor=\"{anchor}\" fill=\"#fff\" \
              stroke=\"#000\" stroke-opacity=\"0.7\" stroke-width=\"3\" stroke-linejoin=\"round\" \
              paint-order=\"stroke\">{}</text>",
+            if mark.own { 6.5 } else { 4.0 },
+            if mark.own { "#e8352e" } else { "#fff" },
             if to_left { x - 9.0 } else { x + 9.0 },
             y + dy + 4.0,
             escaped(&mark.name)
