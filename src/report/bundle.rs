@@ -113,7 +113,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     let index = request.material.index_d() as f32;
     let pictures = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
 
-    let tilts = tilts::plots(&[(request, &solid)], &plan, &|| step("tilts"));
+    let tilts = tilts::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
 
     let picture = table_picture(stone, request, step)?;
     let diagram = diagram::draw(design, design.refractive_index)?;

@@ -100,6 +100,7 @@ impl Drawing<'_> {
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
             marks: self.marks().into_iter().map(|m| (m.name, m.at[0])).collect(),
+            small: false,
         }
         .svg()
     }

@@ -7,7 +7,7 @@
 //! with a dark observer, reflection at entry included.
 
 use crate::cut::Zone;
-use crate::experiments::view::{Band, DARK, OBSERVER_DEG, SCOPE_DEG, Sky, band};
+use crate::experiments::view::{DARK, OBSERVER_DEG, SCOPE_DEG, Sky, band};
 use crate::optics::colour::srgb_encode;
 use crate::render::tone::{EncodeError, encode_rgb};
 use crate::walk::{LANES, Packet, Stone};
@@ -64,7 +64,7 @@ struct Point {
     luminance: f32,
 }
 
-/// The colours of the ASET, in the order of [`Band`].
+/// The colours of the ASET, in the order of [`crate::experiments::view::Band`].
 pub static ASET: Scope = Scope {
     name: "ASET",
     file: "aset.png",
@@ -271,6 +271,7 @@ fn linear(byte: u8) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiments::view::Band;
 
     #[test]
     fn the_legend_of_the_aset_is_in_the_order_of_the_bands_and_colours_come_back() {

@@ -10,8 +10,8 @@ use crate::study::score::{Effort, Plan, Subject, Tilt, score};
 const MOST_TILT: i32 = 20;
 const STEP: usize = 2;
 
-/// Points of each experiment at each tilt: ±.0012 of `wlr`.
-const SAMPLES: u64 = 1 << 14;
+/// Points of each experiment at each tilt: ±.0009 of `wlr`.
+const SAMPLES: u64 = 1 << 15;
 
 /// Scores that are drawn against the tilt.
 pub const TILTED: [&str; 3] = ["wlr", "aset_leak", "iso"];
@@ -27,11 +27,12 @@ pub struct Plot {
 
 /// One plot for each score of [`TILTED`], with a line for each stone, tilted about the x axis.
 ///
+/// - `stones`: each with the name of its line, empty for none
 /// - `plan`: polarisation, seed and observer are taken from it
 /// - `step`: called before each stone
 ///
 /// Stones that cannot be scored at a tilt have a gap there.
-pub fn plots(stones: &[(&Request, &Polyhedron)], plan: &Plan, step: &dyn Fn()) -> Vec<Plot> {
+pub fn plots(stones: &[(&Request, &str, &Polyhedron)], plan: &Plan, step: &dyn Fn()) -> Vec<Plot> {
     let metrics: Vec<&'static Metric> = TILTED.iter().filter_map(|name| Metric::named(name)).collect();
     let plan = Plan {
         metrics: metrics.clone(),
@@ -40,10 +41,9 @@ pub fn plots(stones: &[(&Request, &Polyhedron)], plan: &Plan, step: &dyn Fn()) -
         ..plan.clone()
     };
     let mut curves: Vec<Vec<Curve>> = vec![Vec::new(); metrics.len()];
-    for (request, solid) in stones {
+    for (request, name, solid) in stones {
         step();
-        let name = if stones.len() > 1 { request.stone.clone() } else { String::new() };
-        let mut lines = vec![Curve { name, points: Vec::new() }; metrics.len()];
+        let mut lines = vec![Curve { name: name.to_string(), points: Vec::new() }; metrics.len()];
         for degrees in (-MOST_TILT..=MOST_TILT).step_by(STEP).map(f64::from) {
             let subject = Subject {
                 stone: request.stone.clone(),
@@ -61,10 +61,11 @@ pub fn plots(stones: &[(&Request, &Polyhedron)], plan: &Plan, step: &dyn Fn()) -
         let unit = if metric.unit.is_empty() { String::new() } else { format!(" ({})", metric.unit) };
         let drawing = Curves {
             title: metric.name.into(),
-            note: "tilted about the x axis; band: 95 in 100".into(),
+            note: metric.about.into(),
             x: "tilt (°)".into(),
             y: format!("{}{unit}", metric.name),
             curves,
+            small: true,
             ..Curves::default()
         };
         Plot { metric, svg: drawing.svg() }

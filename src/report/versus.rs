@@ -2,7 +2,7 @@
 
 use super::bundle::{ReportError, Request, table_picture};
 use super::diagram::projection::{self, View};
-use super::page::{data_uri, escaped, head, number, scope_figure, tilt_section};
+use super::page::{cell, data_uri, escaped, head, scope_figure, tilt_section};
 use super::{scopes, tilts};
 use crate::study::compare::{Comparison, is_significant};
 use crate::solid::{Polyhedron, SolidError};
@@ -18,6 +18,24 @@ const SCOPE_SIDE: u32 = 400;
 /// Steps that [`html`] reports, for each stone.
 pub const STEPS: usize = 3;
 
+/// Names longer than this make a table too wide: a number stands for them.
+const LONGEST: usize = 24;
+
+/// What stands for each stone in tables: its name, or a number if that is long.
+pub fn labels(names: &[&str]) -> Vec<String> {
+    let label = |(i, name): (usize, &&str)| {
+        if name.chars().count() > LONGEST { format!("stone {}", i + 1) } else { name.to_string() }
+    };
+    names.iter().enumerate().map(label).collect()
+}
+
+/// Which names the labels stand for, where they are not the names themselves.
+pub fn explained(names: &[&str]) -> Vec<String> {
+    let labels = labels(names);
+    let other = labels.iter().zip(names).filter(|(label, name)| label != *name);
+    other.map(|(label, name)| format!("{label}: {name}")).collect()
+}
+
 /// The page.
 ///
 /// - `requests`: one a stone, in the order of the comparison
@@ -30,7 +48,10 @@ pub fn html(
 ) -> Result<String, ReportError> {
     let names: Vec<&str> = requests.iter().map(|r| r.stone.as_str()).collect();
     let materials: Vec<&str> = requests.iter().map(|r| r.material.name.as_ref()).collect();
-    let mut out = head(&names.join(" and "), OWN_STYLE, &format!("compared, in {}", together(&materials)));
+    let labels = labels(&names);
+    let mut sub = vec![format!("compared, in {}", together(&materials))];
+    sub.extend(explained(&names));
+    let mut out = head(&listed(&labels), OWN_STYLE, &sub.join(" · "));
     let solids: Vec<Polyhedron> =
         requests.iter().map(|r| r.design.solid()).collect::<Result<_, SolidError>>()?;
     let mut rows: Vec<Vec<String>> = Vec::new();
@@ -54,14 +75,19 @@ pub fn html(
     // one row of the page for each kind of picture, so that equals stand beside each other
     for kind in 0..rows.first().map_or(0, Vec::len) {
         out += "<section class=\"beside\">\n";
-        for (name, cells) in names.iter().zip(&rows) {
+        for (name, cells) in labels.iter().zip(&rows) {
             let _ = write!(out, "<div><h2>{}</h2>\n{}</div>\n", escaped(name), cells[kind]);
         }
         out += "</section>\n";
     }
-    table(&names, comparison, plan, &mut out);
-    let stones: Vec<(&Request, &Polyhedron)> = requests.iter().zip(&solids).collect();
-    out += &tilt_section(&tilts::plots(&stones, plan, &|| step("tilts")));
+    table(&labels, comparison, plan, &mut out);
+    let lines: Vec<(&Request, &str, &Polyhedron)> = requests
+        .iter()
+        .zip(&labels)
+        .zip(&solids)
+        .map(|((request, label), solid)| (request, label.as_str(), solid))
+        .collect();
+    out += &tilt_section(&tilts::plots(&lines, plan, &|| step("tilts")));
     let command = requests.first().map_or("", |r| r.command.as_str());
     let _ = write!(
         out,
@@ -75,27 +101,29 @@ pub fn html(
 /// Names in a row, each once.
 fn together(names: &[&str]) -> String {
     let first = |i: usize| !names[..i].contains(&names[i]);
-    let once: Vec<&str> = (0..names.len()).filter(|i| first(*i)).map(|i| names[i]).collect();
-    once.join(" and ")
+    let once: Vec<String> = (0..names.len()).filter(|i| first(*i)).map(|i| names[i].to_string()).collect();
+    listed(&once)
+}
+
+/// Names in a sentence.
+fn listed(names: &[String]) -> String {
+    match names {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 /// Scores and differences.
-fn table(names: &[&str], comparison: &Comparison, plan: &Plan, out: &mut String) {
+fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut String) {
     *out += "<section>\n<h2>Scores</h2>\n<div class=\"wide\"><table class=\"versus\">\n<thead><tr><th></th>";
     names.iter().for_each(|name| *out += &format!("<th>{}</th>", escaped(name)));
     names[1..]
         .iter()
-        .for_each(|name| *out += &format!("<th>{} less {}</th>", escaped(name), escaped(names[0])));
+        .for_each(|name| *out += &format!("<th>{} less {}</th>", escaped(name), escaped(&names[0])));
     *out += "</tr></thead>\n<tbody>\n";
     for (m, metric) in plan.metrics.iter().enumerate() {
         let _ = write!(out, "<tr title=\"{}\"><th scope=\"row\">{}</th>", escaped(metric.about), metric.name);
-        let cell = |value: Option<crate::math::stats::Estimate>, class: &str| {
-            let text = value.map(number).map_or("–".into(), |(value, error)| match error {
-                Some(error) => format!("{value} <span class=\"se\">± {error}</span>"),
-                None => value,
-            });
-            format!("<td class=\"{class}\">{text}</td>")
-        };
+        let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", cell(value, ""));
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
         for differences in &comparison.differences {
             let d = differences[m];

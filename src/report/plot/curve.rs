@@ -1,6 +1,6 @@
 //! Scores along one parameter: lines with their error bands.
 
-use super::frame::{Frame, WIDTH};
+use super::frame::{Frame, HEIGHT, SMALL, WIDTH};
 use super::{BAND, escaped};
 use crate::report::raster::text_width;
 use std::fmt::Write;
@@ -31,6 +31,8 @@ pub struct Curves {
     pub spans: Vec<(String, (f64, f64))>,
     /// Named places on x.
     pub marks: Vec<(String, f64)>,
+    /// Whether it is to be shown small: the drawing has less room, its text stays.
+    pub small: bool,
 }
 
 /// Colours that stay apart for the colour-blind. Source: M. Okabe, K. Ito, *Color Universal Design*
@@ -49,7 +51,8 @@ impl Curves {
         let shown = || points().filter_map(|p| p.1).filter(|(v, e)| v.is_finite() && e.is_finite());
         let (lo, hi) = reach(&mut shown().flat_map(|(v, e)| [v - BAND * e, v + BAND * e]));
         let room = 0.05 * (hi - lo);
-        let frame = Frame::new(xs, (lo - room, hi + room), WIDTH - 28.0);
+        let size = if self.small { SMALL } else { (WIDTH, HEIGHT) };
+        let frame = Frame::new(size, xs, (lo - room, hi + room), 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
         let mut named_span = String::new();
