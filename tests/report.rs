@@ -17,7 +17,8 @@ use cutlab::study::score::{Effort, Plan, score};
 #[test]
 fn the_aset_picture_has_the_reference_shares() {
     let index = diamond().index_d() as f32;
-    let pictures = scopes::pictures(&stone(&named("reference")), index, &[&ASET], 160).expect("can be encoded");
+    let pictures =
+        scopes::pictures(&stone(&named("reference")), index, &[&ASET], 160).expect("can be encoded");
     let shares = &pictures[0].shares;
     for (share, expected) in shares.iter().zip([0.060, 0.667, 0.228, 0.045]) {
         assert!((share - expected).abs() < 0.005, "{shares:?}");
@@ -33,7 +34,8 @@ fn the_other_pictures_have_the_shares_that_are_scored() {
     for (material, pavilion) in [(diamond(), 40.5), (glass, 38.0)] {
         let design = design(&[("pavilion-angle", pavilion)]);
         let index = material.index_d() as f32;
-        let pictures = scopes::pictures(&stone(&design), index, &[&IDEAL_SCOPE, &WINDOWS], 160).expect("can be encoded");
+        let pictures =
+            scopes::pictures(&stone(&design), index, &[&IDEAL_SCOPE, &WINDOWS], 160).expect("can be encoded");
         let metrics = ["leakage_strongest", "windowing", "extinction"];
         let scored = score(&subject("", &design, material), &plan(&metrics, 1 << 16)).scores;
         let seen = [pictures[0].shares[2], pictures[1].shares[0], pictures[1].shares[1]];

@@ -18,16 +18,14 @@ const ENDS: [(f64, f64); 2] = [(30.0, 38.0), (40.0, 42.0)];
 /// The map with a stone on it as SVG, and a line about it; none for what is no round brilliant.
 ///
 /// - `proportions`, `material`: of the stone
-pub fn of(
-    proportions: &Proportions,
-    material: &Material,
-) -> Result<Option<(String, String)>, TableError> {
+pub fn of(proportions: &Proportions, material: &Material) -> Result<Option<(String, String)>, TableError> {
     let p = proportions;
     let (Some(_), Some(crown), Some(pavilion)) = (p.brilliant, p.crown_angle_deg, p.pavilion_angle_deg)
     else {
         return Ok(None);
     };
-    let (Some(family), Some(metric)) = (families::family("round-brilliant").ok(), Metric::named("wlr")) else {
+    let (Some(family), Some(metric)) = (families::family("round-brilliant").ok(), Metric::named("wlr"))
+    else {
         return Ok(None);
     };
     let at = [crown, pavilion];

@@ -125,14 +125,17 @@ pub(super) fn scope_figure(picture: &Picture) -> String {
 
 /// The plots of scores against the tilt.
 pub(super) fn tilt_section(plots: &[Plot]) -> String {
-    let mut out = String::from("<section>\n<h2>Tilted</h2>\n<p class=\"note\">Scores of the stone as it is tilted about the x axis before a viewer \
-         who stays with the light; the band holds the value 95 times in 100.</p>\n<div class=\"plots\">\n");
+    let mut out = String::from(
+        "<section>\n<h2>Tilted</h2>\n<p class=\"note\">Scores of the stone as it is tilted about the x axis before a viewer \
+         who stays with the light; the band holds the value 95 times in 100.</p>\n<div class=\"plots\">\n",
+    );
     for plot in plots {
         let _ = writeln!(
             out,
-            "<figure><img src=\"{}\" alt=\"{} against tilt (°)\"></figure>",
+            "<figure><img src=\"{}\" alt=\"{} against tilt (°)\"><figcaption>{}</figcaption></figure>",
             svg_uri(&plot.svg),
-            plot.metric.name
+            plot.metric.name,
+            escaped(plot.metric.about)
         );
     }
     out + "</div>\n</section>\n"
@@ -284,8 +287,8 @@ impl Page<'_> {
         }
         let _ = writeln!(
             out,
-            "<p class=\"note\">{} After ± stands one standard error. The five reference stones are round brilliants \
-             (table/crown/pavilion) in diamond.</p>",
+            "<section><p class=\"note\">{} After ± stands one standard error. The five reference stones are round brilliants \
+             (table/crown/pavilion) in diamond.</p></section>",
             escaped(&self.traced)
         );
     }

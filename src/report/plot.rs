@@ -125,7 +125,11 @@ impl Drawing<'_> {
                 document.parameters.get(&axis.key).copied().or_else(default)
             };
             let at = self.axes.iter().map(value).collect::<Option<_>>()?;
-            Some(Mark { name: if name == family.name { "reference".into() } else { name.into() }, at, own: false })
+            Some(Mark {
+                name: if name == family.name { "reference".into() } else { name.into() },
+                at,
+                own: false,
+            })
         };
         let own = self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true });
         let near = |a: &Mark, b: &Mark| a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);

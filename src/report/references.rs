@@ -13,11 +13,7 @@ const TABLE: &str = include_str!("../../reports/references.csv");
 pub const STONES: [(&str, &str, &str); 5] = [
     ("reference", "56/34/40.5", "round-brilliant"),
     ("Tolkowsky", "53/34.5/40.75", "tolkowsky"),
-    (
-        "steep-deep",
-        "58/36/41.8",
-        "round-brilliant:table=58,crown-angle=36,pavilion-angle=41.8,lower-half=80",
-    ),
+    ("steep-deep", "58/36/41.8", "round-brilliant:table=58,crown-angle=36,pavilion-angle=41.8,lower-half=80"),
     ("fisheye", "65/30/38.5", "round-brilliant:table=65,crown-angle=30,pavilion-angle=38.5"),
     ("nailhead", "58/36/43", "round-brilliant:table=58,crown-angle=36,pavilion-angle=43"),
 ];

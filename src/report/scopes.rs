@@ -9,7 +9,7 @@
 use crate::cut::Zone;
 use crate::experiments::view::{DARK, OBSERVER_DEG, SCOPE_DEG, Sky, band};
 use crate::optics::colour::srgb_encode;
-use crate::render::tone::{EncodeError, encode_rgb};
+use crate::render::write::{EncodeError, encode_rgb};
 use crate::walk::{LANES, Packet, Stone};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -88,15 +88,13 @@ pub static IDEAL_SCOPE: Scope = Scope {
     about: "each point has the colour of its strongest path",
     legend: &[
         Key { name: "red", colour: [214, 36, 60], about: "light from above the horizon" },
-        Key { name: "black", colour: [20, 20, 24], about: "light from within 12° of the zenith: the viewer" },
+        Key {
+            name: "black", colour: [20, 20, 24], about: "light from within 12° of the zenith: the viewer"
+        },
         Key { name: "white", colour: [255, 255, 255], about: "leakage: light from below" },
     ],
     key: |p| {
-        if p.height <= 0.0 {
-            2
-        } else {
-            usize::from(!Sky::behind(SCOPE_DEG).is_bright(p.height))
-        }
+        if p.height <= 0.0 { 2 } else { usize::from(!Sky::behind(SCOPE_DEG).is_bright(p.height)) }
     },
     grey: false,
 };
@@ -275,7 +273,8 @@ mod tests {
 
     #[test]
     fn the_legend_of_the_aset_is_in_the_order_of_the_bands_and_colours_come_back() {
-        for (height, band) in [(0.3, Band::Green), (0.8, Band::Red), (0.99, Band::Blue), (-0.5, Band::Below)] {
+        for (height, band) in [(0.3, Band::Green), (0.8, Band::Red), (0.99, Band::Blue), (-0.5, Band::Below)]
+        {
             let point = Point { on_stone: true, height, ..Point::default() };
             assert_eq!(ASET.mixed(&[point; LANES]), ASET.legend[band as usize].colour);
         }

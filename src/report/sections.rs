@@ -61,10 +61,7 @@ const HEADS: [Head; 6] = [
 /// The sections of a report.
 ///
 /// - `scores`: every metric of the catalogue with its value, none where it does not apply
-pub fn sections(
-    scores: &[(&'static Metric, Option<Estimate>)],
-    references: &References,
-) -> Vec<Section> {
+pub fn sections(scores: &[(&'static Metric, Option<Estimate>)], references: &References) -> Vec<Section> {
     let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| Score {
         name: metric.name.into(),
         about: metric.about.into(),

@@ -34,12 +34,8 @@ pub struct Plot {
 /// Stones that cannot be scored at a tilt have a gap there.
 pub fn plots(stones: &[(&Request, &str, &Polyhedron)], plan: &Plan, step: &dyn Fn()) -> Vec<Plot> {
     let metrics: Vec<&'static Metric> = TILTED.iter().filter_map(|name| Metric::named(name)).collect();
-    let plan = Plan {
-        metrics: metrics.clone(),
-        effort: Effort::Samples(SAMPLES),
-        exact: false,
-        ..plan.clone()
-    };
+    let plan =
+        Plan { metrics: metrics.clone(), effort: Effort::Samples(SAMPLES), exact: false, ..plan.clone() };
     let mut curves: Vec<Vec<Curve>> = vec![Vec::new(); metrics.len()];
     for (request, name, solid) in stones {
         step();
@@ -61,7 +57,6 @@ pub fn plots(stones: &[(&Request, &str, &Polyhedron)], plan: &Plan, step: &dyn F
         let unit = if metric.unit.is_empty() { String::new() } else { format!(" ({})", metric.unit) };
         let drawing = Curves {
             title: metric.name.into(),
-            note: metric.about.into(),
             x: "tilt (°)".into(),
             y: format!("{}{unit}", metric.name),
             curves,

@@ -4,8 +4,8 @@ use super::bundle::{ReportError, Request, table_picture};
 use super::diagram::projection::{self, View};
 use super::page::{cell, data_uri, escaped, head, scope_figure, tilt_section};
 use super::{scopes, tilts};
-use crate::study::compare::{Comparison, is_significant};
 use crate::solid::{Polyhedron, SolidError};
+use crate::study::compare::{Comparison, is_significant};
 use crate::study::score::Plan;
 use crate::walk::Stone;
 use std::fmt::Write;
@@ -61,11 +61,9 @@ pub fn html(
         let index = request.material.index_d() as f32;
         let seen = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
         step("picture");
-        let picture = table_picture(stone, request, &|_| ())?;
-        let mut cells = vec![format!(
-            "<figure><img src=\"{}\" alt=\"on a grey table\"></figure>\n",
-            data_uri(&picture)
-        )];
+        let picture = table_picture(request, &|_| ())?;
+        let mut cells =
+            vec![format!("<figure><img src=\"{}\" alt=\"on a grey table\"></figure>\n", data_uri(&picture))];
         cells.extend(seen.iter().map(scope_figure));
         cells.extend(
             [View::Crown, View::Side].map(|v| format!("<figure>{}</figure>\n", projection::svg(solid, v))),
