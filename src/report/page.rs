@@ -115,7 +115,8 @@ pub(super) fn scope_figure(picture: &Picture) -> String {
         let [r, g, b] = key.colour;
         let _ = write!(
             out,
-            "<li><i style=\"background:rgb({r},{g},{b})\"></i><span>{}</span><b>{:.1} %</b></li>",
+            "<li><i style=\"background:rgb({r},{g},{b})\"></i><span data-name=\"{}\">{}</span><b>{:.1} %</b></li>",
+            key.name,
             escaped(key.about),
             100.0 * share
         );

@@ -125,7 +125,9 @@ fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut Strin
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
         for differences in &comparison.differences {
             let d = differences[m];
-            *out += &cell(d, if d.is_some_and(is_significant) { "value differs" } else { "value same" });
+            let text = cell(d, if d.is_some_and(is_significant) { "value differs" } else { "value same" });
+            let sign = if d.is_some_and(|e| e.value > 0.0) { "<b>+" } else { "<b>" };
+            *out += &text.replacen("<b>", sign, 1);
         }
         *out += "</tr>\n";
     }
