@@ -1,6 +1,6 @@
 //! Scores along one parameter: lines with their error bands.
 
-use super::frame::{Frame, WIDTH};
+use super::frame::{Frame, HEIGHT, SMALL, WIDTH};
 use super::{BAND, escaped};
 use crate::report::raster::text_width;
 use std::fmt::Write;
@@ -46,6 +46,8 @@ pub struct Curves {
     pub marks: Vec<(String, f64)>,
     /// Values that were expected, over the lines.
     pub dots: Vec<Dot>,
+    /// Whether it is to be shown small: the drawing has less room, its text stays.
+    pub small: bool,
 }
 
 /// Colours that stay apart for the colour-blind. Source: M. Okabe, K. Ito, *Color Universal Design*
@@ -68,7 +70,11 @@ impl Curves {
                 .chain(self.dots.iter().flat_map(|d| [d.value - d.tolerance, d.value + d.tolerance])),
         );
         let room = 0.05 * (hi - lo);
-        let frame = Frame::new(xs, (lo - room, hi + room), WIDTH - 28.0);
+        let size = if self.small { SMALL } else { (WIDTH, HEIGHT) };
+        // a small drawing has no corner that is surely free of lines: names stand above them
+        let names = self.curves.iter().filter(|c| self.small && !c.name.is_empty()).count() as f64;
+        let above = 0.09 * names / (1.0 - 0.09 * names).max(0.5) * (hi - lo);
+        let frame = Frame::new(size, xs, (lo - room, hi + room + above), 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
         let mut named_span = String::new();
