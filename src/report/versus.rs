@@ -119,7 +119,7 @@ fn tilts(request: &Request, solid: &crate::solid::Polyhedron, plan: &Plan) -> Ve
         let subject = Subject {
             stone: request.stone.clone(),
             material: request.material.clone(),
-            solid: Ok(solid.clone()),
+            shape: Ok(solid.clone().into()),
             tilt: Some(Tilt { degrees, azimuth: 0.0 }),
         };
         let row = score(&subject, &plan);
