@@ -115,7 +115,7 @@ fn a_dented_stone_of_index_one_leaks_everything() {
     let mut dome = Traced::new(Dome::new(&stone, &medium, aspect).expect("lit"), 5);
     dome.extend_to(1 << 12);
     let share = |of: fn(&hemisphere::Tally) -> f64| dome.estimate(of).value;
-    assert_eq!(share(|t| t.glare + t.returned + t.lost), 0.0);
+    assert!(share(|t| (t.glare + t.returned + t.lost) / t.arrived) < 1e-12);
     assert!((share(|t| t.leaked / t.arrived) - 1.0).abs() < 1e-12);
 }
 
