@@ -84,6 +84,9 @@ fn a_mesh_with_a_dent_is_scored_as_far_as_it_can_be() {
     for name in ["leakage_strongest", "windowing", "extinction", "iso", "weight_ratio", "error"] {
         assert_eq!(cell(name), "", "{name}: {table}");
     }
+    let out = bench.run(&["score", &dented, "--metrics", "iso,windowing"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("none of the scores asked for"), "{}", text(&out.stderr));
     let two = bad.join("two-stones.obj").display().to_string();
     let out = bench.run(&["score", &two, "--metrics", "wlr"]);
     assert_eq!(out.status.code(), Some(2));

@@ -70,7 +70,7 @@ pub struct Plan {
     /// fewer); where this ends one, the row says so.
     pub cap: u64,
     /// Whether metrics that beams can give are taken from beams: the effort is then theirs. Not in a
-    /// stone that absorbs: the path differs across a beam.
+    /// stone that absorbs: the path differs across a beam; nor in one with dents.
     pub exact: bool,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have one
     /// ([`Metric::observer`]); none leaves each its own.
@@ -140,8 +140,8 @@ pub struct Row {
     pub material: String,
     /// Number of its facets; none if it has no shape.
     pub facets: Option<usize>,
-    /// One a metric of the plan; none where the metric does not apply (no dispersion) or the stone
-    /// failed.
+    /// One a metric of the plan; none where the metric does not apply (no dispersion, a stone with
+    /// dents) or the stone failed.
     pub scores: Vec<Option<Estimate>>,
     /// Points traced, by experiment.
     pub samples: Vec<(&'static str, u64)>,
@@ -168,6 +168,10 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
             let stone = Stone::new(solid.clone());
             row.facets = Some(stone.facet_count());
             fill(&mut row, &stone, subject, plan).map_err(|e| e.to_string())
+        }
+        Ok(Shape::Dented(_)) if !plan.metrics.iter().any(|m| m.dented) => {
+            Err("not convex: it has none of the scores asked for (cutlab list metrics tells which it has)"
+                .into())
         }
         Ok(Shape::Dented(body)) => {
             row.facets = Some(body.facets.len());
