@@ -20,6 +20,7 @@ mod perfect_diamond;
 mod ply;
 mod refused;
 mod sc_tracer;
+pub mod scenery;
 mod shell;
 pub mod source;
 mod stl;

@@ -1,5 +1,5 @@
-//! Light and matter: dispersion, absorption, Fresnel, colour, and the catalogues of materials
-//! and illuminants.
+//! Light and matter: dispersion, absorption, Fresnel, colour, and the catalogues of materials,
+//! illuminants and viewers.
 
 pub mod absorption;
 pub mod colour;
@@ -7,7 +7,9 @@ pub mod dispersion;
 pub mod fresnel;
 pub mod illuminants;
 pub mod materials;
+pub mod rgb;
 pub mod stokes;
+pub mod viewers;
 
 pub use illuminants::Illuminant;
 pub use materials::Material;

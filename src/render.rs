@@ -1,8 +1,12 @@
-//! Pictures: camera rays, passes, tone.
+//! Pictures: camera rays, passes, tone, files.
 
+pub mod animation;
 pub mod film;
+mod inside;
 pub mod tone;
 pub mod tracer;
+pub mod write;
 
 pub use film::{Film, Pass};
+pub use tone::{Curve, Tone};
 pub use tracer::{Maps, Settings, render};

@@ -1,111 +1,122 @@
-//! What is around the stone: surfaces, lights, camera, and how the stone lies in it.
+//! What is around the stones: surfaces, lights, camera, and how the stones lie in it.
 //!
 //! World frame: right-handed, z up, lengths in millimetres (in the Cornell room, in room units).
 
+pub mod aim;
 pub mod camera;
-pub mod light;
+pub mod entries;
+pub mod file;
+pub mod lights;
+pub mod mesh;
+pub mod panorama;
+pub mod placed;
 pub mod pose;
-mod presets;
 pub mod surface;
 
-use crate::optics::Material;
-use crate::walk::Stone;
-use glam::{Mat3, Vec3};
+use glam::Vec3;
+use std::path::Path;
 
-pub use camera::Camera;
-pub use light::SquareLight;
+pub use aim::{Aim, Ball};
+pub use camera::{Camera, Lens};
+pub use file::{Cast, SceneError, SceneFile};
+pub use lights::Light;
+pub use placed::PlacedStone;
 pub use pose::Pose;
-pub use surface::{Reflectance, Surface};
-
-/// A stone placed in the world.
-#[derive(Debug, Clone)]
-pub struct PlacedStone {
-    /// The stone, ready to walk; made from a solid in millimetres if the material absorbs.
-    pub stone: Stone,
-    /// What it is made of.
-    pub material: Material,
-    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
-    /// each (scalar Fresnel).
-    pub polarised: bool,
-    /// Rotation from the walking frame to the world.
-    pub world_from_stone: Mat3,
-    /// World position of the walking frame's origin.
-    pub position: Vec3,
-    /// World length of one walking unit: the radius of the sphere around the stone.
-    pub radius: f32,
-}
-
-impl PlacedStone {
-    /// A world point in the walking frame.
-    pub fn point_to_stone(&self, p: Vec3) -> Vec3 {
-        self.world_from_stone.transpose() * (p - self.position) / self.radius
-    }
-
-    /// A walking-frame point in the world.
-    pub fn point_to_world(&self, p: Vec3) -> Vec3 {
-        self.position + self.world_from_stone * p * self.radius
-    }
-
-    /// A world direction in the walking frame.
-    pub fn direction_to_stone(&self, d: Vec3) -> Vec3 {
-        self.world_from_stone.transpose() * d
-    }
-
-    /// A walking-frame direction in the world.
-    pub fn direction_to_world(&self, d: Vec3) -> Vec3 {
-        self.world_from_stone * d
-    }
-
-    /// Index of refraction at `nm`.
-    pub fn index(&self, nm: f32) -> f32 {
-        self.material.index(f64::from(nm) / 1000.0) as f32
-    }
-
-    /// Absorption coefficient at `nm`, per walking unit: the stone's own size in millimetres counts,
-    /// not how large it is shown.
-    pub fn absorption(&self, nm: f32) -> f32 {
-        (self.material.absorption_per_mm(f64::from(nm) / 1000.0) * self.stone.unit) as f32
-    }
-}
+pub use surface::{Finish, Reflectance, Surface};
 
 /// A scene ready to be traced.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Its name in the catalogue.
-    pub name: &'static str,
-    /// Diffuse surfaces.
+    /// Its name.
+    pub name: String,
+    /// Surfaces.
     pub surfaces: Vec<Surface>,
     /// Light sources.
-    pub lights: Vec<SquareLight>,
-    /// The stone.
-    pub stone: PlacedStone,
+    pub lights: Vec<Light>,
+    /// The stones.
+    pub stones: Vec<PlacedStone>,
     /// The view.
     pub camera: Camera,
+    /// Most segments of a path from the eye to a light; none follows each to the end of its power.
+    pub depth: Option<u32>,
 }
 
-/// A scene of the catalogue.
-#[derive(Debug)]
-pub struct Preset {
-    /// Its name, as in `--scene table`.
-    pub name: &'static str,
-    /// One line of help.
-    pub about: &'static str,
-    /// The cut shown when none is named.
-    pub default_stone: &'static str,
-    /// How the stone stands unless `--pose` says otherwise.
-    pub default_pose: Pose,
-    /// Width and height of the picture unless they are given.
-    pub default_size: (u32, u32),
-    /// Puts a stone into the scene; the last argument is width over height of the picture.
-    pub build: fn(Stone, Material, Pose, f32) -> Scene,
+/// Every scene: its name and its file.
+pub static SCENES: &[(&str, &str)] = &[
+    ("table", include_str!("scene/presets/table.toml")),
+    ("cornell", include_str!("scene/presets/cornell.toml")),
+    ("studio", include_str!("scene/presets/studio.toml")),
+    ("spot", include_str!("scene/presets/spot.toml")),
+    ("daylight", include_str!("scene/presets/daylight.toml")),
+    ("face-up", include_str!("scene/presets/face-up.toml")),
+    ("aset", include_str!("scene/presets/aset.toml")),
+    ("ideal-scope", include_str!("scene/presets/ideal-scope.toml")),
+    ("hearts", include_str!("scene/presets/hearts.toml")),
+    ("arrows", include_str!("scene/presets/arrows.toml")),
+    ("dark-field", include_str!("scene/presets/dark-field.toml")),
+];
+
+/// The scene of the catalogue called `name`.
+pub fn preset(name: &str) -> Option<Result<SceneFile, SceneError>> {
+    let (name, text) = SCENES.iter().find(|(n, _)| *n == name)?;
+    Some(SceneFile::parse(name, name, text, Path::new("")))
 }
 
-/// Every scene.
-pub static SCENES: &[&Preset] = &[&presets::table::PRESET, &presets::cornell::PRESET];
+impl Scene {
+    /// Where photons are sent.
+    ///
+    /// - `share`: of photons sent straight at the stones
+    pub fn aim(&self, share: f32) -> Aim {
+        let targets: Vec<Ball> = self.stones.iter().map(PlacedStone::ball).collect();
+        let corners = |b: &Ball| [b.centre - Vec3::splat(b.radius), b.centre + Vec3::splat(b.radius)];
+        let mut points: Vec<Vec3> = targets.iter().flat_map(corners).collect();
+        points.extend(self.surfaces.iter().flat_map(|s| <[Vec3; 2]>::from(s.bounds())));
+        let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let world = Ball { centre: 0.5 * (low + high), radius: 0.5 * low.distance(high) };
+        Aim { targets, share, world }
+    }
+}
 
-impl Preset {
-    /// The scene called `name`.
-    pub fn named(name: &str) -> Option<&'static Preset> {
-        SCENES.iter().copied().find(|p| p.name == name)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_of_the_catalogue_can_be_set_up() {
+        for (name, _) in SCENES {
+            let file = preset(name).expect("in the catalogue").expect(name);
+            assert!(!file.about().is_empty(), "{name}");
+            match file.build(&Cast::default(), 1.0) {
+                Ok(scene) => assert!(!scene.lights.is_empty() && !scene.stones.is_empty(), "{name}"),
+                // the user's own panorama is not there
+                Err(error) => {
+                    assert!(*name == "daylight" && error.to_string().contains("panorama"), "{error}")
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        let good = SCENES[0].1;
+        let line = |text: &str| good.lines().position(|l| l.contains(text)).map(|i| i + 1).expect("is there");
+        for (from, to, says) in [
+            ("kind = \"square\"", "kind = \"cube\"", "kind 'cube' is none of square, disc"),
+            ("unit = \"stone\"", "unit = \"furlong\"", "furlong"),
+            ("reflectance = 0.45", "reflectance = 1.45", "between 0 and 1"),
+            ("pose = \"lying\"", "pose = \"asleep\"", "table-up"),
+            ("radiance = 2.4", "radiance = -1", "above 0"),
+            ("field = 34", "feild = 34", "unknown field"),
+        ] {
+            let text = good.replacen(from, to, 1);
+            assert_ne!(text, good, "{from} is in the table's file");
+            let error = SceneFile::parse("t", "t.toml", &text, Path::new(""))
+                .and_then(|f| f.build(&Cast::default(), 1.0))
+                .expect_err(to)
+                .to_string();
+            let place = format!("t.toml, line {}:", line(from));
+            assert!(error.starts_with(&place) && error.contains(says), "{error}, not {place} {says}");
+        }
     }
 }

@@ -1,88 +1,108 @@
-//! Paths through a scene: what a ray meets, and how light goes through the stone.
+//! Paths through a scene: what a ray meets, and how light goes through a stone.
 
 pub mod crossing;
 
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 use glam::Vec3;
 
 /// What a ray in the world meets first.
 #[derive(Debug, Clone, Copy)]
 pub enum Event {
-    /// A diffuse surface: its number and the place.
-    Surface(usize, Vec3),
-    /// The shining side of a light: its number.
-    Light(usize),
-    /// The stone: the facet, the place in the walking frame, and the ray's direction there.
-    Stone { facet: usize, point: Vec3, direction: Vec3 },
+    /// A surface: its number, the place, and its unit normal on the ray's side.
+    Surface(usize, Vec3, Vec3),
+    /// The shining side of a light: its number, and the colour its emitter shows.
+    Light(usize, Vec3),
+    /// A stone: its number, and how the ray arrives.
+    Stone(usize, Arrival),
     /// Nothing.
     Nothing,
 }
 
+/// A ray at a stone's surface, in its walking frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Arrival {
+    /// The facet.
+    pub facet: usize,
+    /// The place.
+    pub point: Vec3,
+    /// Unit direction.
+    pub direction: Vec3,
+}
+
+/// A shadow ray sees a light that is not nearer than this share of the way to it.
+const ALL_THE_WAY: f32 = 1.0 - 1e-4;
+
 impl Scene {
+    /// Meetings with facets inside a stone after which a path is too long for the scene.
+    ///
+    /// - `others`: segments of the path that lie outside the stone
+    pub fn most_meetings(&self, others: u32) -> u32 {
+        self.depth.map_or(u32::MAX, |depth| depth.saturating_sub(others).max(1))
+    }
+
     /// The first meeting of a ray.
     ///
     /// - `origin`, `direction` (unit): world frame
-    /// - `past_stone`: the ray has just left the stone, which is convex and cannot be met again
-    pub fn first(&self, origin: Vec3, direction: Vec3, past_stone: bool) -> Event {
+    /// - `past`: the stone that the ray has just left, which is convex and cannot be met again
+    pub fn first(&self, origin: Vec3, direction: Vec3, past: Option<usize>) -> Event {
         let mut nearest = f32::INFINITY;
         let mut event = Event::Nothing;
         for (i, surface) in self.surfaces.iter().enumerate() {
-            if let Some(t) = surface.hit(origin, direction).filter(|t| *t < nearest) {
+            if let Some((t, normal)) = surface.hit(origin, direction).filter(|h| h.0 < nearest) {
                 nearest = t;
-                event = Event::Surface(i, origin + direction * t);
+                event = Event::Surface(i, origin + direction * t, normal);
             }
         }
         for (i, light) in self.lights.iter().enumerate() {
-            if let Some(t) = light.hit(origin, direction).filter(|t| *t < nearest) {
+            if let Some((t, colour)) = light.emitter.hit(origin, direction).filter(|h| h.0 < nearest) {
                 nearest = t;
-                event = Event::Light(i);
+                event = Event::Light(i, colour);
             }
         }
-        if !past_stone {
-            let (o, d) = (self.stone.point_to_stone(origin), self.stone.direction_to_stone(direction));
-            if let Some(hit) = self.stone.stone.hit(o, d).filter(|h| h.distance * self.stone.radius < nearest)
-            {
-                return Event::Stone { facet: hit.facet, point: o + d * hit.distance, direction: d };
+        for (i, placed) in self.stones.iter().enumerate().filter(|(i, _)| Some(*i) != past) {
+            let (o, d) = (placed.point_to_stone(origin), placed.direction_to_stone(direction));
+            if let Some(hit) = placed.stone.hit(o, d).filter(|h| h.distance * placed.radius < nearest) {
+                nearest = hit.distance * placed.radius;
+                event =
+                    Event::Stone(i, Arrival { facet: hit.facet, point: o + d * hit.distance, direction: d });
             }
         }
         event
     }
 
-    /// Irradiance that comes straight from the lights at a place, unoccluded ones only, at every
-    /// wavelength (lights are of equal energy).
+    /// Irradiance that comes straight from one light at a place, unoccluded rays only: as a colour
+    /// for [`Light::at`].
     ///
-    /// - `strata`: each light is sampled at `strata`² jittered points
+    /// - `strata`: the light is sampled at `strata`² jittered points
     /// - `jitter`: gives pairs of uniforms
     pub fn direct_irradiance(
         &self,
+        light: &Light,
         point: Vec3,
         normal: Vec3,
         strata: usize,
         mut jitter: impl FnMut() -> [f32; 2],
-    ) -> f32 {
-        let mut sum = 0.0;
-        for light in &self.lights {
-            let weight = light.area() * light.radiance / (strata * strata) as f32;
-            for i in 0..strata * strata {
-                let u = jitter();
-                let cell = [(i % strata) as f32, (i / strata) as f32];
-                let st = [(cell[0] + u[0]) / strata as f32, (cell[1] + u[1]) / strata as f32];
-                let to_light = light.point(st) - point;
-                let distance2 = to_light.length_squared();
-                let direction = to_light / distance2.sqrt();
-                let cosines = normal.dot(direction).max(0.0) * (-light.normal().dot(direction)).max(0.0);
-                if cosines > 0.0 && !self.stone_hides(point, direction) {
-                    sum += weight * cosines / distance2;
-                }
+    ) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for i in 0..strata * strata {
+            let u = jitter();
+            let cell = [(i % strata) as f32, (i / strata) as f32];
+            let u = [(cell[0] + u[0]) / strata as f32, (cell[1] + u[1]) / strata as f32];
+            let Some(glimpse) = light.emitter.seen_from(point, normal, u) else { continue };
+            let cos = normal.dot(glimpse.direction);
+            if cos > 0.0 && !self.hidden(point, glimpse.direction, glimpse.distance * ALL_THE_WAY) {
+                sum += glimpse.radiance * cos;
             }
         }
-        sum
+        sum / (strata * strata) as f32
     }
 
-    /// Whether the stone stands in the way of a shadow ray. Lights lie beyond the stone in every
-    /// scene, and convex rooms hide nothing else.
-    fn stone_hides(&self, point: Vec3, direction: Vec3) -> bool {
-        let (o, d) = (self.stone.point_to_stone(point), self.stone.direction_to_stone(direction));
-        self.stone.stone.hit(o, d).is_some()
+    /// Whether a stone or a surface stands in the way of a shadow ray.
+    fn hidden(&self, point: Vec3, direction: Vec3, distance: f32) -> bool {
+        let by_stone = self.stones.iter().any(|placed| {
+            let (o, d) = (placed.point_to_stone(point), placed.direction_to_stone(direction));
+            placed.stone.hit(o, d).is_some_and(|h| h.distance * placed.radius < distance)
+        });
+        by_stone || self.surfaces.iter().any(|s| s.hides(point, direction, distance))
     }
 }

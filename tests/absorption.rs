@@ -1,5 +1,6 @@
 //! Absorption along the walk: energy, the `f64` twin, a plate's closed form, and what size does.
 
+use cutlab::cut::Design;
 use cutlab::experiments::{Medium, Traced, View};
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::math::sample;
@@ -9,13 +10,14 @@ use cutlab::optics::fresnel::unpolarised;
 use cutlab::optics::stokes::Stokes;
 use cutlab::optics::{Material, dispersion::lines};
 use cutlab::photons::{self, Shots};
-use cutlab::render::{self, Maps};
-use cutlab::scene::{Pose, Preset, Scene};
+use cutlab::render::{self, Maps, Tone};
+use cutlab::scene::{Cast, PlacedStone, Pose, Scene, preset};
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::study::score::{Effort, Plan, Subject, score};
-use cutlab::transport::crossing::{Arrival, cross};
+use cutlab::transport::Arrival;
+use cutlab::transport::crossing::{Entering, cross};
 use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
 const SEED: u64 = 29;
@@ -189,30 +191,30 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
     assert!((clear["light_return"] - same["light_return"]).abs() < 1e-4, "a clear stone has no size");
 }
 
-/// A scene with a stone of the given solid (mm) and material, upright on the table.
-fn scene(solid: Polyhedron, material: Material) -> Scene {
-    let preset = Preset::named("table").expect("in the catalogue");
-    (preset.build)(Stone::new(solid), material, Pose::TableUp, 1.0)
+/// A scene with a stone of the given material, upright on the table.
+fn scene(design: Design, material: Material) -> Scene {
+    let cast = Cast {
+        designs: vec![design],
+        material: Some(material),
+        pose: Some(Pose::TableUp),
+        ..Cast::default()
+    };
+    preset("table").expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
 }
 
 /// [D] The plate's closed form again, with photons that each leave by one way.
 #[test]
 fn photons_through_a_plate_keep_what_it_does_not_absorb() {
     let (side, per_mm) = (3.0, 0.2);
-    let placed = scene(cube(side), grey(per_mm)).stone;
+    let stone = Stone::new(cube(side));
+    let radius = stone.unit as f32;
+    let placed = PlacedStone::resting(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
     let mut stream = Stream::new(SEED, Purpose::Test, 2);
     let top = placed.stone.hit(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
-    let arrivals: Vec<Arrival> = (0..20_000)
-        .map(|_| Arrival {
-            facet: top.facet,
-            point: Vec3::Z * (2.0 - top.distance),
-            direction: Vec3::NEG_Z,
-            index: INDEX,
-            absorption: placed.absorption(589.0),
-            choice: stream.unit64(),
-        })
-        .collect();
-    let departures = cross(&placed, &arrivals);
+    let arrival = Arrival { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };
+    let entering: Vec<Entering> =
+        (0..20_000).map(|_| Entering { arrival, nm: 589.0, choice: stream.unit64() }).collect();
+    let departures = cross(&placed, u32::MAX, &entering);
     let r = unpolarised(1.0, INDEX.into()).0;
     let x = (-per_mm * side).exp();
     let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
@@ -229,11 +231,13 @@ fn photons_through_a_plate_keep_what_it_does_not_absorb() {
 fn pictures_show_the_colour_and_the_size() {
     let mean = |material: &str, mm: f64| -> Vec3 {
         let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
-        let solid = design.sized(mm).and_then(|d| d.solid()).expect("closed");
-        let scene = scene(solid, Material::named(material).expect("in the catalogue").clone());
+        let scene = scene(
+            design.sized(mm).expect("has a width"),
+            Material::named(material).expect("in the catalogue").clone(),
+        );
         let shots = Shots::shoot(&scene, &photons::Settings { photons: 2000, nearest: 50, seed: SEED });
         let maps = Maps::new(&scene, &shots, 50);
-        let settings = render::Settings { width: 48, height: 48, rays: 4, seed: SEED };
+        let settings = render::Settings { width: 48, height: 48, rays: 4, tone: Tone::default(), seed: SEED };
         let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
         // the middle of the picture, which the stone fills
         let middle = (18..30).flat_map(|y| (18..30).map(move |x| y * 48 + x));

@@ -6,36 +6,47 @@ use cutlab::math::sample;
 use cutlab::optics::Material;
 use cutlab::optics::colour::BANDS;
 use cutlab::photons::{Photon, Settings, Shot, Shots, file};
-use cutlab::render::{self, Maps, Pass, tone};
-use cutlab::scene::{Preset, Reflectance, Scene, SquareLight, Surface};
+use cutlab::render::write::{self, Bits};
+use cutlab::render::{self, Maps, Pass, Tone};
+use cutlab::scene::lights::square::Square;
+use cutlab::scene::surface::{Plate, Shape};
+use cutlab::scene::{Cast, Finish, Lens, Light, Reflectance, Scene, SceneFile, Surface, preset};
 use cutlab::transport::Event;
-use cutlab::walk::Stone;
 use glam::Vec3;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 const SEED: u64 = 20_260;
 
-fn stone(name: &str) -> Stone {
-    let design = library::design(name, &BTreeMap::new()).expect("in the library").expect("builds");
-    Stone::new(design.solid().expect("closed"))
+fn scene(name: &str, cut: &str, material: &str) -> Scene {
+    let cast = Cast {
+        designs: vec![library::design(cut, &BTreeMap::new()).expect("in the library").expect("builds")],
+        material: Some(Material::named(material).expect("in the catalogue").clone()),
+        ..Cast::default()
+    };
+    preset(name).expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
 }
 
-fn scene(preset: &str, cut: &str, material: &str) -> Scene {
-    let preset = Preset::named(preset).expect("in the catalogue");
-    let material = Material::named(material).expect("in the catalogue").clone();
-    (preset.build)(stone(cut), material, preset.default_pose, 1.0)
+fn plate(surface: &Surface) -> Plate {
+    match surface.shape {
+        Shape::Plate(plate) => plate,
+        Shape::Mesh(_) => unreachable!("the room has flat walls"),
+    }
 }
 
 /// The Cornell room with its front closed, all walls of one grey, and a small light.
 fn closed_room(grey: f32) -> Scene {
     let mut room = scene("cornell", "octahedron", "diamond");
-    let floor = room.surfaces[0];
+    let floor = plate(&room.surfaces[0]);
     let height = Vec3::Z * floor.u.length();
-    let front = Surface { corner: floor.corner, u: height, v: floor.u, reflectance: Reflectance::Grey(grey) };
-    room.surfaces.push(front);
-    room.surfaces.iter_mut().for_each(|s| s.reflectance = Reflectance::Grey(grey));
-    room.lights = vec![SquareLight::facing_down(Vec3::new(1.5, 0.0, 5.4), 0.3, 10.0)];
+    room.surfaces.push(Surface::plate(floor.corner, height, floor.u, Reflectance::Grey(grey)));
+    room.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(grey)));
+    room.lights = vec![Light::white(small_light(), 10.0)];
     room
+}
+
+fn small_light() -> Square {
+    Square::facing_down(Vec3::new(1.5, 0.0, 5.4), 0.3)
 }
 
 fn flux(shot: &Shot) -> f64 {
@@ -48,17 +59,17 @@ fn flux(shot: &Shot) -> f64 {
 
 /// Share of the light's rays that meet the stone, the light itself, and walls first.
 fn first_meetings(room: &Scene) -> (f64, f64) {
-    let light = &room.lights[0];
+    let light = small_light();
     let mut stream = Stream::new(SEED, Purpose::Test, 1);
     let n = 400_000;
     let (mut on_stone, mut on_wall) = (0, 0);
     for _ in 0..n {
         let origin = light.point(stream.pair());
         let direction = sample::about(light.normal(), sample::cosine_hemisphere(stream.pair()));
-        match room.first(origin, direction, false) {
-            Event::Stone { .. } => on_stone += 1,
+        match room.first(origin, direction, None) {
+            Event::Stone(..) => on_stone += 1,
             Event::Surface(..) => on_wall += 1,
-            Event::Light(_) | Event::Nothing => {}
+            Event::Light(..) | Event::Nothing => {}
         }
     }
     (f64::from(on_stone) / f64::from(n), f64::from(on_wall) / f64::from(n))
@@ -74,7 +85,7 @@ fn a_closed_grey_room_balances_with_the_stone_in_it() {
     let room = closed_room(grey as f32);
     let settings = Settings { photons: 1_000_000, nearest: 500, seed: SEED };
     let shots = Shots::shoot(&room, &settings);
-    let power = f64::from(room.lights[0].power());
+    let power = f64::from(small_light().area()) * 10.0 * std::f64::consts::PI;
     let (on_stone, on_wall) = first_meetings(&room);
     assert!(on_stone > 0.01, "the stone is lit: {on_stone}");
     let fallen = on_wall * power + flux(&shots.caustic) + flux(&shots.indirect);
@@ -87,7 +98,7 @@ fn a_closed_grey_room_balances_with_the_stone_in_it() {
 fn the_estimate_is_uniform_to_the_edges() {
     let room = closed_room(0.5);
     let mut stream = Stream::new(SEED, Purpose::Test, 2);
-    let floor = room.surfaces[0];
+    let floor = plate(&room.surfaces[0]);
     let n = 200_000;
     let area = floor.u.cross(floor.v).length();
     let photons = (0..n)
@@ -118,7 +129,7 @@ fn a_stone_in_uniform_light_disappears() {
     room.lights.clear();
     let grid = 80;
     let mut photons = Vec::new();
-    for (number, wall) in room.surfaces.iter().enumerate() {
+    for (number, wall) in room.surfaces.iter().map(plate).enumerate() {
         for i in 0..grid * grid {
             let [s, t] = [i % grid, i / grid].map(|k| (k as f32 + 0.5) / grid as f32);
             let point = wall.corner + wall.u * s + wall.v * t;
@@ -130,10 +141,10 @@ fn a_stone_in_uniform_light_disappears() {
     let maps = Maps::new(&room, &shots, 500);
     // look at the stone alone
     let mut camera = room.camera;
-    camera.target = room.stone.position;
-    camera.field_deg = 6.0;
+    camera.target = room.stones[0].position;
+    camera.lens = Lens::Perspective(6.0);
     camera.position = Vec3::new(0.3, -2.7, 1.2);
-    let settings = render::Settings { width: 24, height: 24, rays: 16, seed: SEED };
+    let settings = render::Settings { width: 24, height: 24, rays: 16, tone: Tone::default(), seed: SEED };
     let film = render::render(&room, &camera, &maps, &settings, &|| ());
     let radiance = 0.5 / std::f32::consts::PI;
     let mean = film.linear(None).into_iter().sum::<Vec3>() / (24.0 * 24.0);
@@ -146,10 +157,10 @@ fn a_stone_in_uniform_light_disappears() {
 #[test]
 fn direct_light_follows_the_square_of_the_distance() {
     let mut room = closed_room(0.5);
-    room.stone.position = Vec3::new(0.0, 0.0, -50.0);
-    room.lights = vec![SquareLight::facing_down(Vec3::new(0.0, 0.0, 4.0), 0.05, 10.0)];
+    room.stones[0].position = Vec3::new(0.0, 0.0, -50.0);
+    let light = Light::white(Square::facing_down(Vec3::new(0.0, 0.0, 4.0), 0.05), 10.0);
     for x in [0.0f32, 1.0, 2.5] {
-        let e = room.direct_irradiance(Vec3::new(x, 0.0, 0.0), Vec3::Z, 5, || [0.5, 0.5]);
+        let e = room.direct_irradiance(&light, Vec3::new(x, 0.0, 0.0), Vec3::Z, 5, || [0.5, 0.5]).x * 10.0;
         let cos = 4.0 / x.hypot(4.0);
         let expected = 10.0 * 0.0025 / 16.0 * cos.powi(4);
         assert!((e / expected - 1.0).abs() < 1e-3, "{e} {expected}");
@@ -158,7 +169,7 @@ fn direct_light_follows_the_square_of_the_distance() {
 
 fn small_picture(scene: &Scene, shots: &Shots) -> render::Film {
     let maps = Maps::new(scene, shots, 100);
-    let settings = render::Settings { width: 40, height: 30, rays: 4, seed: SEED };
+    let settings = render::Settings { width: 40, height: 30, rays: 4, tone: Tone::default(), seed: SEED };
     render::render(scene, &scene.camera, &maps, &settings, &|| ())
 }
 
@@ -169,7 +180,8 @@ fn passes_add_up_and_show_what_they_should() {
     let film = small_picture(&room, &Shots::shoot(&room, &settings));
     let passes: Vec<_> = Pass::ALL.iter().map(|(pass, _)| film.linear(Some(*pass))).collect();
     for (i, sum) in film.linear(None).iter().enumerate() {
-        assert!((passes[0][i] + passes[1][i] + passes[2][i] - *sum).length() <= 1e-5 * sum.length().max(1.0));
+        let of_passes: Vec3 = passes.iter().map(|p| p[i]).sum();
+        assert!((of_passes - *sum).length() <= 1e-5 * sum.length().max(1.0));
     }
     for pass in &passes {
         assert!(pass.iter().map(|p| p.length()).sum::<f32>() > 1.0, "no pass of the room is black");
@@ -188,7 +200,8 @@ fn one_two_and_five_threads_give_the_same_bytes() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let shots = Shots::shoot(&table, &settings);
-            tone::png(&small_picture(&table, &shots), None, 0.0).expect("encodes")
+            let shown = write::shown(&small_picture(&table, &shots), None, &Tone::default());
+            write::png(&shown, 40, 30, Bits::Eight, None).expect("encodes")
         })
     };
     let one = on(1);
@@ -209,7 +222,7 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
     assert_eq!(made, kept);
     assert_eq!(small_picture(&table, &made), small_picture(&table, &kept));
     let mut unpolarised = scene("table", "round-brilliant", "diamond");
-    unpolarised.stone.polarised = false;
+    unpolarised.stones[0].polarised = false;
     let others = [
         (scene("table", "octahedron", "diamond"), settings, "stone"),
         (scene("table", "round-brilliant", "quartz"), settings, "material"),
@@ -225,56 +238,42 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
     }
 }
 
-/// [R] The scene on which general renderers agree: a brilliant of diameter 1 on its culet, a grey
-/// table, a square light. They give a mean of .118–.124 in the stone with paths cut after 24
-/// segments. Cut after 24 segments too, this renderer gave .1218 (measured once, 400,000 photons);
-/// followed to the end of their power, as here, its paths bring 4.6 % more.
+/// [R] The scene on which general renderers agree: they give a mean of .118–.124 in the stone and
+/// .0155–.0171 in the umbra with paths of 24 segments, to which the file holds these too.
 #[test]
 #[ignore = "long statistics; CI runs it in release"]
 fn the_brilliant_is_as_bright_as_other_renderers_have_it() {
-    let parameters = [("pavilion-angle", 40.75), ("lower-half", 77.0), ("size", 1.0)];
-    let parameters = parameters.iter().map(|(k, v)| (k.to_string(), *v)).collect();
-    let design = library::design("round-brilliant", &parameters).expect("in the library").expect("builds");
-    let solid = design.solid().expect("closed");
-    let lowest = solid.bounds().0.z as f32;
-    let stone = Stone::new(solid);
-    let centre = stone.centre.as_vec3();
-    let mut s = scene("table", "round-brilliant", "diamond");
-    s.stone.radius = stone.unit as f32;
-    s.stone.position = centre + Vec3::Z * (0.001 - lowest);
-    s.stone.world_from_stone = glam::Mat3::IDENTITY;
-    s.stone.stone = stone;
-    s.surfaces = vec![Surface {
-        corner: Vec3::new(-10.0, -10.0, 0.0),
-        u: Vec3::X * 20.0,
-        v: Vec3::Y * 20.0,
-        reflectance: Reflectance::Grey(0.5),
-    }];
-    s.lights = vec![SquareLight::facing_down(Vec3::new(0.9, 0.5, 3.0), 1.0, 10.0)];
-    s.camera.position = Vec3::new(0.0, -3.4, 2.6);
-    s.camera.target = Vec3::new(0.0, 0.0, 0.2);
-    s.camera.field_deg = 28.0;
-    s.camera.aspect = 4.0 / 3.0;
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tools/peers/table.toml");
+    let file = SceneFile::open(&file).expect("is in the repository");
+    let s = file.build(&Cast::default(), 4.0 / 3.0).expect("is sound");
     let (width, height) = (200, 150);
-    let shots = Shots::shoot(&s, &Settings { photons: 400_000, nearest: 300, seed: SEED });
+    let shots = Shots::shoot(&s, &Settings { photons: 200_000, nearest: 300, seed: SEED });
     let maps = Maps::new(&s, &shots, 300);
-    let settings = render::Settings { width, height, rays: 64, seed: SEED };
+    let settings = render::Settings { width, height, rays: 25, tone: Tone::default(), seed: SEED };
     let picture = render::render(&s, &s.camera, &maps, &settings, &|| ()).linear(None);
-    let (mut stone, mut shadow) = (Vec::new(), Vec::new());
+    let (mut stone, mut shadow, mut open) = (Vec::new(), Vec::new(), Vec::new());
     for (i, pixel) in picture.iter().enumerate() {
         let (u, v) = ((i as u32 % width) as f32 + 0.5, (i as u32 / width) as f32 + 0.5);
-        let direction = s.camera.ray(u / width as f32, v / height as f32);
-        match s.first(s.camera.position, direction, false) {
-            Event::Stone { .. } => stone.push(*pixel),
-            Event::Surface(_, at) if s.direct_irradiance(at, Vec3::Z, 5, || [0.5, 0.5]) == 0.0 => {
-                shadow.push(*pixel);
+        let (origin, direction) = s.camera.ray(u / width as f32, v / height as f32);
+        let event = s.first(origin, direction, None);
+        let Event::Surface(_, at, _) = event else {
+            if let Event::Stone(..) = event {
+                stone.push(*pixel);
             }
-            _ => {}
+            continue;
+        };
+        let lit = s.direct_irradiance(&s.lights[0], at, Vec3::Z, 5, || [0.5, 0.5]).x * 10.0;
+        if lit == 0.0 {
+            shadow.push(*pixel);
+        } else if at.truncate().length() > 1.2 {
+            open.push(pixel.y / (0.5 / std::f32::consts::PI * lit));
         }
     }
-    let mean = |pixels: &[Vec3]| pixels.iter().sum::<Vec3>() / pixels.len() as f32;
-    let grey = |pixels: &[Vec3]| mean(pixels).element_sum() / 3.0;
+    let grey = |pixels: &[Vec3]| pixels.iter().sum::<Vec3>().element_sum() / (3 * pixels.len()) as f32;
     println!("stone {} of {} pixels, umbra {} of {}", grey(&stone), stone.len(), grey(&shadow), shadow.len());
-    assert!((0.118..0.124 * 1.06).contains(&grey(&stone)), "{}", grey(&stone));
-    assert!((0.0155..0.0171 * 1.06).contains(&grey(&shadow)), "{}", grey(&shadow));
+    assert!((0.118..0.124).contains(&grey(&stone)), "{}", grey(&stone));
+    assert!((0.0155..0.0171).contains(&grey(&shadow)), "{}", grey(&shadow));
+    // beyond the caustics the table is as bright as the closed form has it
+    let open = open.iter().sum::<f32>() / open.len() as f32;
+    assert!((open - 1.0).abs() < 0.01, "{open}");
 }

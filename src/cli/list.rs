@@ -9,7 +9,8 @@ use crate::optics::dispersion::lines;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
 use crate::optics::{Illuminant, Material, colour};
-use crate::scene::SCENES;
+use crate::scene::lights::LIGHTS;
+use crate::scene::{SCENES, preset};
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
@@ -32,6 +33,8 @@ enum Kind {
     Formats,
     /// Scenes for pictures
     Scenes,
+    /// Kinds of light for scene files
+    Lights,
 }
 
 #[derive(Serialize)]
@@ -58,7 +61,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let how = if f.write.is_some() { "read, written" } else { "read" };
             (f.name.to_string(), format!("{} ({how}; .{})", f.about, f.extensions.join(", .")))
         })),
-        Kind::Scenes => entries(SCENES.iter().map(|s| (s.name.to_string(), s.about.to_string()))),
+        Kind::Scenes => entries(SCENES.iter().map(|(name, _)| {
+            let about = preset(name).and_then(Result::ok).map_or_else(String::new, |s| s.about().into());
+            (name.to_string(), about)
+        })),
+        Kind::Lights => entries(LIGHTS.iter().map(|k| (k.name.to_string(), k.about.to_string()))),
     };
     if console.json {
         console.print_json(&entries)?;

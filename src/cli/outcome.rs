@@ -3,6 +3,7 @@
 use crate::cut::CutError;
 use crate::formats::FormatError;
 use crate::photons::file::MapFileError;
+use crate::scene::SceneError;
 use crate::solid::Body;
 use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
@@ -149,6 +150,16 @@ impl From<MapFileError> for Failure {
         match error {
             MapFileError::Write(cause) => cause.into(),
             MapFileError::Read { .. } => Failure::new(Code::Io, error.to_string()),
+            _ => Failure::input(error.to_string()),
+        }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Failure {
+        match error {
+            SceneError::Stone(error) => error.into(),
+            SceneError::Read { .. } => Failure::new(Code::Io, error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }

@@ -1,14 +1,15 @@
-//! `cutlab render`: a photon-mapped picture of a stone.
+//! `cutlab render`: a photon-mapped picture of a stone, or an animation.
+
+mod command;
+mod frames;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
-use crate::optics::dispersion::VISIBLE_UM;
 use crate::photons::{self, Shots, file};
-use crate::render::{self, Maps, Pass, tone};
-use crate::scene::{Pose, Preset, SCENES, Scene};
-use crate::store::replace;
-use crate::walk::Stone;
+use crate::render::animation::Turn;
+use crate::render::{self, Curve, Film, Maps, Tone, tone};
+use crate::scene::{self, Cast, Pose, SCENES, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -16,22 +17,26 @@ use std::path::{Path, PathBuf};
 Examples:
   cutlab render                                   the default brilliant on the table
   cutlab render octahedron --scene cornell --passes
-  cutlab render stone.asc --material quartz --photon-map stone.map --frames 36 -o turn.png")]
+  cutlab render tolkowsky --scene my-scene.toml -o picture.exr
+  cutlab render stone.asc --material quartz --photon-map stone.map --frames 36 -o turn.gif
+  cutlab render --scene spot --turn stone --rock --frames 24 -o fire-%03d.png")]
 pub struct Args {
-    /// The stone; without it the scene's own (round-brilliant on the table, octahedron in the room)
-    stone: Option<String>,
-    /// What is around it: see `cutlab list scenes`
-    #[arg(long, default_value = "table", value_parser = preset)]
-    scene: &'static Preset,
+    /// The stones, for the scene's places in order; without them the scene's own
+    #[arg(value_name = "STONE")]
+    stones: Vec<String>,
+    /// What is around it: a name of `cutlab list scenes`, or a TOML file
+    #[arg(long, default_value = "table", value_name = "NAME|FILE")]
+    scene: String,
     #[command(flatten)]
     substance: stones::Substance,
-    /// Girdle width in millimetres; the colour depends on it
+    /// Girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-    /// How it stands: lying (as a loose stone comes to rest) or table-up; the scene has a default
+    /// How it stands: lying (as a loose stone comes to rest), table-up or table-down; the scene has a
+    /// default
     #[arg(long, value_parser = pose)]
     pose: Option<Pose>,
-    /// Where to write the PNG; frames and passes add to the name
+    /// Where to write: .png, .exr (linear, with all passes); .gif, .apng or .png with %03d for frames
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels across; the scene has a default
@@ -55,30 +60,61 @@ pub struct Args {
     /// Keep the photons in this file and use them again for other views
     #[arg(long, value_name = "FILE")]
     photon_map: Option<PathBuf>,
-    /// Also write the direct, caustic and indirect passes, of which the picture is the sum
+    /// Also write the direct, caustic, indirect and stone passes, of which the picture is the sum
     #[arg(long)]
     passes: bool,
-    /// Go around the stone in this many pictures, numbered from 000
+    /// An animation of this many pictures
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
+    /// What turns in an animation: camera, stone or light
+    #[arg(long, default_value = "camera", value_parser = turn)]
+    turn: Turn,
+    /// Rock it by 15° to and fro instead of all the way around
+    #[arg(long)]
+    rock: bool,
+    /// Exposure in stops beside the scene's own, or auto
+    #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = exposure, value_name = "STOPS|auto")]
+    exposure: Exposure,
+    /// Tone curve: filmic or linear
+    #[arg(long, default_value = "filmic", value_parser = curve)]
+    tone: Curve,
+    /// Bits a channel of a PNG: 8 or 16
+    #[arg(long, default_value = "8", value_parser = ["8", "16"])]
+    bits: String,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
     polarisation: bool,
-    /// Exposure in stops
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
-    exposure: f32,
 }
 
-fn preset(name: &str) -> Result<&'static Preset, String> {
-    Preset::named(name).ok_or_else(|| {
-        let near = stones::nearest(name, SCENES.iter().map(|p| p.name));
-        format!("no scene is called '{name}', the nearest is '{near}' (all: cutlab list scenes)")
-    })
+#[derive(Debug, Clone, Copy)]
+enum Exposure {
+    Auto,
+    Stops(f32),
+}
+
+fn exposure(text: &str) -> Result<Exposure, String> {
+    match text.parse::<f32>() {
+        _ if text == "auto" => Ok(Exposure::Auto),
+        Ok(stops) if stops.abs() <= 30.0 => Ok(Exposure::Stops(stops)),
+        _ => Err("an exposure is a number of stops from -30 to 30, or auto".into()),
+    }
+}
+
+fn one_of<T: Copy, const N: usize>(all: &[(&str, T); N], name: &str) -> Result<T, String> {
+    let found = all.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
+    found.ok_or_else(|| format!("there is {}", all.each_ref().map(|(n, _)| *n).join(", ")))
 }
 
 fn pose(name: &str) -> Result<Pose, String> {
-    let known = Pose::ALL.iter().find(|(n, _)| *n == name).map(|(_, pose)| *pose);
-    known.ok_or_else(|| format!("a stone can stand {}", Pose::ALL.map(|(n, _)| n).join(" or ")))
+    one_of(&Pose::ALL, name)
+}
+
+fn turn(name: &str) -> Result<Turn, String> {
+    one_of(&Turn::ALL, name)
+}
+
+fn curve(name: &str) -> Result<Curve, String> {
+    one_of(&Curve::ALL, name)
 }
 
 fn counted(text: &str) -> Result<usize, String> {
@@ -90,43 +126,19 @@ fn counted(text: &str) -> Result<usize, String> {
 
 /// Takes the picture or pictures.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let spec = args.stone.as_deref().unwrap_or(args.scene.default_stone);
+    let file = scene_file(&args.scene)?;
+    let first = args.stones.first().map_or_else(|| file.first_cut(), String::as_str);
+    let ending = if args.frames.is_some() { "gif" } else { "png" };
     let output = args
         .output
         .clone()
-        .unwrap_or_else(|| format!("{}-{}.png", stones::file_stem(spec), args.scene.name).into());
-    check_name(&output, args)?;
-    let imported = stones::open(spec)?;
-    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = args.substance.of(&imported.design);
-    args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
-    let design = stones::sized_for_colour(imported.design, args.size, &material, console)?;
-    let stone = Stone::new(design.solid()?);
-    let pose = args.pose.unwrap_or(args.scene.default_pose);
-    let (width, height) =
-        (args.width.unwrap_or(args.scene.default_size.0), args.height.unwrap_or(args.scene.default_size.1));
-    let aspect = width as f32 / height as f32;
-    let mut scene = (args.scene.build)(stone, material, pose, aspect);
-    scene.stone.polarised = args.polarisation;
-    let maps = maps(args, &scene, console)?;
-
-    let frames = args.frames.unwrap_or(1);
-    let bar = console.progress((frames * height) as usize, "rendering");
-    let mut files = Vec::new();
-    for frame in 0..frames {
-        let camera = scene.camera.turned(360.0 * frame as f32 / frames as f32);
-        let settings = render::Settings { width, height, rays: args.spp, seed: args.seed };
-        let film = render::render(&scene, &camera, &maps, &settings, &|| bar.inc(1));
-        let number = args.frames.map(|_| frame);
-        let passes = Pass::ALL.iter().filter(|_| args.passes).map(|(pass, name)| (Some(*pass), Some(*name)));
-        for (pass, name) in passes.chain([(None, None)]) {
-            let path = file_name(&output, number, name);
-            let png = tone::png(&film, pass, args.exposure).map_err(|e| Failure::input(e.to_string()))?;
-            replace::write(&path, &png)?;
-            files.push(path);
-        }
-    }
-    bar.finish_and_clear();
+        .unwrap_or_else(|| format!("{}-{}.{ending}", stones::file_stem(first), file.name).into());
+    let target = frames::Target::of(&output, args)?;
+    let (width, height) = size(args, &file);
+    let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
+    let tone = Tone { curve: args.tone, ..Tone::default() };
+    let settings = render::Settings { width, height, rays: args.spp, tone, seed: args.seed };
+    let files = frames::take(args, &scene, settings, &target, console)?;
     if console.json {
         console.print_json(&files)?;
     } else if output != Path::new("-") {
@@ -135,17 +147,47 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(Code::Done)
 }
 
-/// A PNG is what can be written; one picture is what fits on standard output.
-fn check_name(output: &Path, args: &Args) -> Result<(), Failure> {
-    if output == Path::new("-") {
-        return match args.passes || args.frames.is_some() {
-            true => Err(Failure::input("several pictures cannot go to standard output: name a file with -o")),
-            false => Ok(()),
-        };
+/// A scene of the catalogue, or a file.
+fn scene_file(name: &str) -> Result<SceneFile, Failure> {
+    if let Some(file) = scene::preset(name) {
+        return Ok(file?);
     }
-    match output.extension().and_then(|e| e.to_str()) {
-        Some(e) if e.eq_ignore_ascii_case("png") => Ok(()),
-        _ => Err(Failure::input(format!("{}: pictures are PNG, name the file so", output.display()))),
+    let path = Path::new(name);
+    if path.extension().is_some_and(|e| e == "toml") || path.exists() {
+        return Ok(SceneFile::open(path)?);
+    }
+    let near = stones::nearest(name, SCENES.iter().map(|(n, _)| *n));
+    Err(Failure::input(format!(
+        "no scene is called '{name}', the nearest is '{near}' (all: cutlab list scenes), and there is no such file"
+    )))
+}
+
+fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
+    let mut designs = Vec::new();
+    for spec in &args.stones {
+        let imported = stones::open(spec)?;
+        imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+        let material = args.substance.of(&imported.design);
+        designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
+    }
+    Ok(Cast {
+        designs,
+        material: args.substance.asked(),
+        size_mm: args.size,
+        pose: args.pose,
+        scalar: !args.polarisation,
+    })
+}
+
+/// Width and height; one of them alone keeps the scene's shape.
+fn size(args: &Args, file: &SceneFile) -> (u32, u32) {
+    let (w, h) = file.picture();
+    let scaled = |side: u32, a: u32, b: u32| ((side * a).div_ceil(b)).clamp(1, 16384);
+    match (args.width, args.height) {
+        (Some(width), Some(height)) => (width, height),
+        (Some(width), None) => (width, scaled(width, h, w)),
+        (None, Some(height)) => (scaled(height, w, h), height),
+        (None, None) => (w, h),
     }
 }
 
@@ -167,17 +209,17 @@ fn maps(args: &Args, scene: &Scene, console: &Console) -> Result<Maps, Failure> 
     Ok(maps)
 }
 
-/// `turn.png` with frame 7 of the caustic pass: `turn-007-caustic.png`.
-fn file_name(output: &Path, frame: Option<u32>, pass: Option<&str>) -> PathBuf {
-    if frame.is_none() && pass.is_none() {
-        return output.to_owned();
+/// The exposure asked for: from a small picture if it is to be found.
+fn stops(args: &Args, scene: &Scene, maps: &Maps, settings: &render::Settings) -> f32 {
+    /// Pixels across of the picture that the exposure is found from.
+    const ACROSS: u32 = 96;
+    match args.exposure {
+        Exposure::Stops(stops) => scene.camera.stops + stops,
+        Exposure::Auto => {
+            let height = (ACROSS * settings.height).div_ceil(settings.width);
+            let small = render::Settings { width: ACROSS, height, rays: 4, ..*settings };
+            let film: Film = render::render(scene, &scene.camera, maps, &small, &|| ());
+            tone::auto_stops(&film)
+        }
     }
-    let mut name = output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    if let Some(frame) = frame {
-        name += &format!("-{frame:03}");
-    }
-    if let Some(pass) = pass {
-        name += &format!("-{pass}");
-    }
-    output.with_file_name(name + ".png")
 }

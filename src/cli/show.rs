@@ -61,7 +61,7 @@ struct Sheet {
     facets_by_kind: BTreeMap<&'static str, usize>,
     #[serde(flatten)]
     measured: Measured,
-    /// The faceter's ratios, W corner to corner.
+    /// The faceter's ratios, W as GemCad takes it: corner to corner in a round stone.
     ratios: Ratios,
     symmetry: Symmetry,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -344,7 +344,7 @@ impl Sheet {
         line(
             "ratios",
             format!(
-                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, corner to corner)",
+                "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, measured as GemCad does)",
                 r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
             ),
         );

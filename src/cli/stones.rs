@@ -114,6 +114,11 @@ impl Substance {
         }
     }
 
+    /// What was asked for on the command line, if anything.
+    pub fn asked(&self) -> Option<Material> {
+        self.material.cloned().or(self.ri.map(Material::of_index))
+    }
+
     /// What the design is made of: the material asked for, or the bare index asked for, or the
     /// index that its file was drawn for, or diamond.
     pub fn of(&self, design: &Design) -> Material {

@@ -191,22 +191,25 @@ fn fit_total(
     build_exactly(family, &given)
 }
 
-/// How many facets each tier has in the finished stone, in words, and the total.
+/// How many facets of each name the finished stone has, in words, and the total.
 pub fn made_up_of(design: &Design) -> Result<(String, usize), CutError> {
     let solid = design.solid()?;
     let mut fates = solid.fates.iter();
-    let mut parts = Vec::new();
+    let mut parts: Vec<(&str, usize)> = Vec::new();
     for tier in &design.tiers {
         let standing = tier
             .facets
             .iter()
             .filter(|_| matches!(fates.next(), Some(crate::solid::polyhedron::Fate::Facet(_))))
             .count();
-        if standing > 0 {
-            parts.push(format!("{standing} {}", tier.name));
+        match parts.iter_mut().find(|(name, _)| *name == tier.name) {
+            Some((_, count)) => *count += standing,
+            None if standing > 0 => parts.push((&tier.name, standing)),
+            None => {}
         }
     }
-    Ok((parts.join(" + "), solid.faces.len()))
+    let words: Vec<String> = parts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    Ok((words.join(" + "), solid.faces.len()))
 }
 
 fn build_exactly(family: &'static Family, given: &BTreeMap<String, f64>) -> Result<Design, CutError> {

@@ -7,6 +7,7 @@ use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::math::stats::Sum;
 use crate::optics::dispersion::lines;
+pub use crate::optics::viewers::{OBSERVER_DEG, SCOPE_DEG};
 use crate::walk::feed::{self, Rays};
 use crate::walk::{Entry, LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -64,12 +65,6 @@ impl Sky {
         if self.is_bright(Sky::mirror_height(entry)) { entry.reflectance } else { 0.0 }
     }
 }
-
-/// Half-angle of the dark cone of the Ideal-Scope, degrees: it blocks about 24° in all.
-pub const SCOPE_DEG: f64 = 12.0;
-
-/// Half-angle of the observer under the dome, degrees (GIA's brightness metric).
-pub const OBSERVER_DEG: f64 = 23.0;
 
 /// What stands around the stone in a view.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -299,5 +294,18 @@ impl Experiment for View<'_> {
         };
         let lost = feed::walk_all(self.stone, STOP_POWER, &mut gaze);
         tally.lost += lost;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::viewers::ASET_DEG;
+
+    #[test]
+    fn the_bands_are_those_of_the_viewer() {
+        for (end, deg) in BAND_ENDS.iter().zip(&ASET_DEG[1..]) {
+            assert!((end - deg.to_radians().sin()).abs() < 1e-6);
+        }
     }
 }

@@ -75,6 +75,16 @@ struct Reader<'a> {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
+    let (vertices, polygons, left_out) = polygons(source)?;
+    let mut reading = design_of_mesh(source, &vertices, &polygons, STATED_IN_F32)?;
+    if left_out > 0 {
+        reading.warnings.push(format!("{left_out} primitives of points or lines left out"));
+    }
+    Ok(reading)
+}
+
+/// The mesh as it stands in the file, +z up, and how many primitives were left out.
+pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>, usize), FormatError> {
     let (gltf, mut blob) = document(source)?;
     let mut reader = Reader {
         source,
@@ -103,12 +113,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     for node in roots {
         reader.node(&node, upright, 0)?;
     }
-    let (vertices, polygons) = (&reader.vertices, &reader.polygons);
-    let mut reading = design_of_mesh(source, vertices, polygons, STATED_IN_F32)?;
-    if reader.left_out > 0 {
-        reading.warnings.push(format!("{} primitives of points or lines left out", reader.left_out));
-    }
-    Ok(reading)
+    Ok((reader.vertices, reader.polygons, reader.left_out))
 }
 
 /// The document and its binary part. What makes `gltf` panic instead of refusing is refused first:

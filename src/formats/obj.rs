@@ -41,6 +41,12 @@ fn sniff(source: &Source) -> u8 {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
+    let (vertices, polygons) = polygons(source)?;
+    design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)
+}
+
+/// The mesh as it stands in the file.
+pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>), FormatError> {
     let Checked { text, stated } = checked(source)?;
     let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..Default::default() };
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default()))
@@ -63,7 +69,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
             polygons.push(Polygon { name: name.clone(), corners, normal });
         }
     }
-    design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)
+    Ok((vertices, polygons))
 }
 
 /// An OBJ text that holds only sound `v`, `vn`, `g` and `f` statements, points first.

@@ -210,7 +210,8 @@ pub fn adapted_srgb(xyz: Vec3, white: Vec3) -> Vec3 {
     to_adapted_srgb(white) * xyz
 }
 
-fn to_adapted_srgb(white: Vec3) -> Mat3 {
+/// The matrix of [`adapted_srgb`].
+pub fn to_adapted_srgb(white: Vec3) -> Mat3 {
     let bradford = Mat3::from_cols(
         Vec3::new(0.8951, -0.7502, 0.0389),
         Vec3::new(0.2664, 1.7135, -0.0685),

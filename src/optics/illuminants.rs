@@ -49,6 +49,17 @@ impl Illuminant {
         &d65::D65
     }
 
+    /// Light of the same power at every wavelength.
+    pub fn equal_energy() -> &'static Illuminant {
+        &equal_energy::EQUAL_ENERGY
+    }
+
+    /// Luminance of the spectrum as [`Illuminant::power`] gives it, over that of equal-energy light
+    /// of power 1.
+    pub fn luminance(&self) -> f32 {
+        Self::equal_energy().xyz(|nm| self.power(nm)).y
+    }
+
     /// Relative power per nm at `nm`, within 380–730.
     pub fn power(&self, nm: f32) -> f32 {
         match self.spectrum {

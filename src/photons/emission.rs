@@ -8,10 +8,9 @@ use super::light::Light;
 use super::{Class, Photon, Settings, Shot};
 use crate::math::points::Points;
 use crate::math::random::Stream;
-use crate::math::sample;
-use crate::scene::{Scene, SquareLight};
+use crate::scene::{Aim, Finish, Scene};
 use crate::transport::Event;
-use crate::transport::crossing::{self, Arrival};
+use crate::transport::crossing::{self, Entering};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -22,22 +21,62 @@ const ROUND: u64 = 16;
 /// Give up a class of which nothing is found after emitting this many times the photons asked for
 /// (the global map of a scene with a single plane is empty), and any class after `PATIENCE`² times.
 const PATIENCE: u64 = 8;
-/// Share of caustic photons aimed at the stone, at each emission and diffuse reflection. The rest
-/// go as the surface sends them, so that light that reaches the stone by way of a surface is found
+/// Share of caustic photons aimed at the stones, at each emission and diffuse reflection. The rest
+/// go as the surface sends them, so that light that reaches a stone by way of a surface is found
 /// too; the balance of both densities keeps powers within a factor of two of each other's class.
 const AIMED: f32 = 0.5;
+/// A light gets at least this share of the photons that an even split would give it.
+const LEAST: f32 = 0.1;
+/// Mirrors in a row, after which a photon is given up: two that face each other without loss keep
+/// it for ever.
+const MIRRORS: u32 = 1000;
+
+/// Segments of a photon's path that are not inside a stone: from the light, to the surface, and
+/// from there to the eye.
+const OUTSIDE: u32 = 3;
+
+/// What every photon of a class needs to know.
+struct Room<'a> {
+    scene: &'a Scene,
+    class: Class,
+    seed: u64,
+    aim: Aim,
+    /// For each light the probability that a photon starts there, summed up.
+    cumulative: Vec<f32>,
+}
+
+impl Room<'_> {
+    fn new(scene: &Scene, class: Class, seed: u64) -> Room<'_> {
+        let aim = scene.aim(if class == Class::Caustic { AIMED } else { 0.0 });
+        let reach = |l: &crate::scene::Light| l.emitter.reach(&aim) * (l.radiance.element_sum() / 3.0);
+        let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
+        let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
+        let total: f32 = reaches.iter().map(|r| r + floor).sum();
+        let mut sum = 0.0;
+        let cumulative = reaches
+            .iter()
+            .map(|r| {
+                sum += (r + floor) / total;
+                sum
+            })
+            .collect();
+        Room { scene, class, seed, aim, cumulative }
+    }
+}
 
 /// Shoots photons until `settings.photons` of a class are stored. If the scene has none or very few
 /// of them the result holds what was found.
 pub fn shoot(scene: &Scene, class: Class, settings: &Settings) -> Shot {
     let target = settings.photons as u64;
+    if scene.surfaces.iter().all(|s| matches!(s.finish, Finish::Mirror(_))) {
+        return Shot::default(); // nothing to land on
+    }
+    let room = Room::new(scene, class, settings.seed);
     let mut found: Vec<(u64, Photon)> = Vec::new();
     let mut emitted = 0;
     loop {
-        let batches: Vec<Vec<(u64, Photon)>> = (0..ROUND)
-            .into_par_iter()
-            .map(|b| batch(scene, class, settings.seed, emitted + b * BATCH, BATCH))
-            .collect();
+        let batches: Vec<Vec<(u64, Photon)>> =
+            (0..ROUND).into_par_iter().map(|b| batch(&room, emitted + b * BATCH, BATCH)).collect();
         emitted += ROUND * BATCH;
         batches.into_iter().for_each(|b| found.extend(b));
         let hopeless = found.is_empty() && emitted >= PATIENCE * target;
@@ -66,7 +105,10 @@ const PLACES: u64 = u64::MAX;
 enum Last {
     Light,
     Surface,
-    Stone,
+    /// A stone, of that number.
+    Stone(usize),
+    /// A mirror; the light counts as caustic, for no shadow ray finds it.
+    Mirror,
 }
 
 /// A photon under way.
@@ -81,132 +123,105 @@ struct Flight {
     last: Last,
 }
 
-/// Emits photons `from .. from + count` and returns those of `class` that landed, in order.
-fn batch(scene: &Scene, class: Class, seed: u64, from: u64, count: u64) -> Vec<(u64, Photon)> {
-    let aimed = if class == Class::Caustic { AIMED } else { 0.0 };
+/// Emits photons `from .. from + count` and returns those of the class that landed, in order.
+fn batch(room: &Room, from: u64, count: u64) -> Vec<(u64, Photon)> {
     let mut landed = Vec::new();
-    let places = Points::new(seed, class.purpose(), PLACES, from..from + count);
-    let mut flights: Vec<Flight> = (from..from + count)
-        .zip(places)
-        .filter_map(|(n, place)| emit(scene, class, seed, n, aimed, place))
-        .collect();
-    let mut arrivals: Vec<(Flight, Arrival)> = Vec::new();
+    let places = Points::new(room.seed, room.class.purpose(), PLACES, from..from + count);
+    let mut flights: Vec<Flight> =
+        (from..from + count).zip(places).filter_map(|(n, place)| emit(room, n, place)).collect();
+    let mut arrivals: Vec<Vec<(Flight, Entering)>> = room.scene.stones.iter().map(|_| Vec::new()).collect();
     while !flights.is_empty() {
         for flight in flights.drain(..) {
-            arrivals.extend(fly(scene, class, aimed, flight, &mut landed));
+            if let Some((stone, arrived)) = fly(room, flight, &mut landed) {
+                arrivals[stone].push(arrived);
+            }
         }
-        flights = cross_all(scene, &mut arrivals);
+        for (stone, arrivals) in arrivals.iter_mut().enumerate() {
+            cross_all(room.scene, stone, arrivals, &mut flights);
+        }
     }
     // the order of landing depends on how long each photon took; the order of the map must not
     landed.sort_by_key(|(number, _)| *number);
     landed
 }
 
-/// A photon leaving one of the lights, chosen by power.
+/// A photon leaving one of the lights.
 ///
 /// - `place`: its point of the cube of light, wavelength, place and direction
-fn emit(scene: &Scene, class: Class, seed: u64, number: u64, aimed: f32, place: Place) -> Option<Flight> {
+fn emit(room: &Room, number: u64, place: Place) -> Option<Flight> {
     let [which, hue, s, t, pick, u, v] = place.map(|x| x as f32);
-    let total: f32 = scene.lights.iter().map(SquareLight::power).sum();
-    let mut rest = which * total;
-    let lamp = scene.lights.iter().find(|l| {
-        rest -= l.power();
-        rest < 0.0
-    });
-    let lamp = lamp.or(scene.lights.last())?;
-    let point = lamp.point([s, t]);
-    let (direction, weight) = diffuse_direction(scene, point, lamp.normal(), aimed, pick, [u, v])?;
-    let mut stream = Stream::new(seed, class.purpose(), number);
-    let light = Light::white(total * weight, stream.unit());
+    let lights = &room.scene.lights;
+    let i = room.cumulative.partition_point(|c| *c <= which).min(lights.len().checked_sub(1)?);
+    let before = if i == 0 { 0.0 } else { room.cumulative[i - 1] };
+    let start = lights[i].emitter.leave(&room.aim, [s, t, pick, u, v])?;
+    let power = start.power / (room.cumulative[i] - before);
+    let mut stream = Stream::new(room.seed, room.class.purpose(), number);
+    let light = Light::new(|nm| lights[i].at(power, nm), stream.unit());
+    let (point, direction) = (start.point, start.direction);
     Some(Flight { stream, number, point, direction, light, hue, last: Last::Light })
 }
 
-/// A direction from a diffuse surface or light, a share of them aimed at the sphere around the
-/// stone, and the weight that makes the mixture right (balance heuristic). None for a direction
-/// below the surface.
-///
-/// - `pick`, `u`: three uniforms
-fn diffuse_direction(
-    scene: &Scene,
-    point: Vec3,
-    normal: Vec3,
-    aimed: f32,
-    pick: f32,
-    u: [f32; 2],
-) -> Option<(Vec3, f32)> {
-    let to_stone = scene.stone.position - point;
-    let sin2 = (scene.stone.radius / to_stone.length()).powi(2);
-    if aimed == 0.0 || sin2 >= 1.0 {
-        return Some((sample::about(normal, sample::cosine_hemisphere(u)), 1.0));
-    }
-    let cos_max = (1.0 - sin2).sqrt();
-    let axis = to_stone.normalize();
-    let direction = if pick < aimed {
-        sample::about(axis, sample::cone(u, cos_max))
-    } else {
-        sample::about(normal, sample::cosine_hemisphere(u))
-    };
-    let cos = direction.dot(normal);
-    if cos <= 0.0 {
-        return None;
-    }
-    let natural = sample::cosine_hemisphere_pdf(cos);
-    let in_cone = if direction.dot(axis) >= cos_max { sample::cone_pdf(cos_max) } else { 0.0 };
-    Some((direction, natural / (aimed * in_cone + (1.0 - aimed) * natural)))
-}
-
-/// Carries a photon through the world until it ends or reaches the stone.
+/// Carries a photon through the world until it ends or reaches a stone.
 fn fly(
-    scene: &Scene,
-    class: Class,
-    aimed: f32,
+    room: &Room,
     mut flight: Flight,
     landed: &mut Vec<(u64, Photon)>,
-) -> Option<(Flight, Arrival)> {
+) -> Option<(usize, (Flight, Entering))> {
+    let scene = room.scene;
+    let mut mirrors = 0;
     loop {
-        match scene.first(flight.point, flight.direction, flight.last == Last::Stone) {
-            Event::Stone { facet, point, direction } => {
+        let past = if let Last::Stone(stone) = flight.last { Some(stone) } else { None };
+        match scene.first(flight.point, flight.direction, past) {
+            Event::Stone(stone, arrival) => {
                 let nm = flight.light.single_wavelength(flight.hue);
-                let (index, absorption) = (scene.stone.index(nm), scene.stone.absorption(nm));
                 let choice = flight.stream.unit64();
-                return Some((flight, Arrival { facet, point, direction, index, absorption, choice }));
+                return Some((stone, (flight, Entering { arrival, nm, choice })));
             }
-            Event::Surface(number, point) => {
-                let wanted = match flight.last {
-                    Last::Light => false,
-                    Last::Stone => class == Class::Caustic,
-                    Last::Surface => class == Class::Indirect,
-                };
-                if wanted {
-                    landed.push((flight.number, Photon::new(point, number, flight.light.spectrum())));
+            Event::Surface(number, point, normal) => match &scene.surfaces[number].finish {
+                Finish::Diffuse(reflectance) => {
+                    let wanted = match flight.last {
+                        Last::Light => false,
+                        Last::Stone(_) | Last::Mirror => room.class == Class::Caustic,
+                        Last::Surface => room.class == Class::Indirect,
+                    };
+                    if wanted {
+                        landed.push((flight.number, Photon::new(point, number, flight.light.spectrum())));
+                    }
+                    if !flight.light.reflect(reflectance, flight.stream.unit()) {
+                        return None;
+                    }
+                    let (pick, u) = (flight.stream.unit(), flight.stream.pair());
+                    let (direction, weight) = room.aim.direction(point, normal, 1.0, pick, u)?;
+                    flight.point = point;
+                    flight.direction = direction;
+                    flight.light.weigh(weight);
+                    flight.last = Last::Surface;
                 }
-                let surface = &scene.surfaces[number];
-                if !flight.light.reflect(&surface.reflectance, flight.stream.unit()) {
-                    return None;
+                Finish::Mirror(reflectance) => {
+                    mirrors += 1;
+                    if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
+                        return None;
+                    }
+                    flight.point = point;
+                    flight.direction = flight.direction.reflect(normal);
+                    flight.last = Last::Mirror;
                 }
-                let (pick, u) = (flight.stream.unit(), flight.stream.pair());
-                let (direction, weight) = diffuse_direction(scene, point, surface.normal(), aimed, pick, u)?;
-                flight.point = point;
-                flight.direction = direction;
-                flight.light.weigh(weight);
-                flight.last = Last::Surface;
-            }
-            Event::Light(_) | Event::Nothing => return None,
+            },
+            Event::Light(..) | Event::Nothing => return None,
         }
     }
 }
 
-/// Takes all photons that have reached the stone through it.
-fn cross_all(scene: &Scene, arrivals: &mut Vec<(Flight, Arrival)>) -> Vec<Flight> {
-    let mut out = Vec::with_capacity(arrivals.len());
-    let entering: Vec<Arrival> = arrivals.iter().map(|(_, a)| *a).collect();
-    let departures = crossing::cross(&scene.stone, &entering);
+/// Takes all photons that have reached a stone through it.
+fn cross_all(scene: &Scene, number: usize, arrivals: &mut Vec<(Flight, Entering)>, out: &mut Vec<Flight>) {
+    let placed = &scene.stones[number];
+    let entering: Vec<Entering> = arrivals.iter().map(|(_, e)| *e).collect();
+    let departures = crossing::cross(placed, scene.most_meetings(OUTSIDE), &entering);
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
-        flight.point = scene.stone.point_to_world(departure.point);
-        flight.direction = scene.stone.direction_to_world(departure.direction);
+        flight.point = placed.point_to_world(departure.point);
+        flight.direction = placed.direction_to_world(departure.direction);
         flight.light.weigh(departure.share);
-        flight.last = Last::Stone;
+        flight.last = Last::Stone(number);
         out.push(flight);
     }
-    out
 }

@@ -6,7 +6,7 @@
 
 use super::{Photon, Settings, Shot, Shots};
 use crate::optics::colour::BANDS;
-use crate::scene::Scene;
+use crate::scene::{PlacedStone, Scene};
 use crate::store::replace::{self, WriteError};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -63,7 +63,7 @@ pub struct Origin {
     scene: String,
     stone: String,
     material: String,
-    polarised: bool,
+    polarised: String,
     surroundings: String,
     photons: usize,
     seed: u64,
@@ -76,10 +76,12 @@ pub struct Origin {
 impl Origin {
     fn of(scene: &Scene, settings: &Settings, shots: &Shots) -> Origin {
         Origin {
-            scene: scene.name.into(),
-            stone: format!("of {} facets ({:08x})", scene.stone.stone.facet_count(), stone_checksum(scene)),
-            material: substance(scene),
-            polarised: scene.stone.polarised,
+            scene: scene.name.clone(),
+            stone: listed(scene, |p| {
+                format!("of {} facets ({:08x})", p.stone.facet_count(), stone_checksum(p))
+            }),
+            material: listed(scene, substance),
+            polarised: listed(scene, |p| (if p.polarised { "on" } else { "off" }).into()),
             surroundings: format!("{:08x}", surroundings_checksum(scene)),
             photons: settings.photons,
             seed: settings.seed,
@@ -96,7 +98,7 @@ impl Origin {
             ("the scene", &self.scene, &wanted.scene),
             ("the stone", &self.stone, &wanted.stone),
             ("the material", &self.material, &wanted.material),
-            ("--polarisation", &on_off(self.polarised), &on_off(wanted.polarised)),
+            ("--polarisation", &self.polarised, &wanted.polarised),
             ("the surroundings", &self.surroundings, &wanted.surroundings),
             ("--photons", &self.photons.to_string(), &wanted.photons.to_string()),
             ("--seed", &self.seed.to_string(), &wanted.seed.to_string()),
@@ -105,13 +107,13 @@ impl Origin {
     }
 }
 
-fn on_off(on: bool) -> String {
-    (if on { "on" } else { "off" }).into()
+/// What is to be said of each stone.
+fn listed(scene: &Scene, say: impl Fn(&PlacedStone) -> String) -> String {
+    scene.stones.iter().map(say).collect::<Vec<_>>().join(" and ")
 }
 
 /// Checksum of the stone's shape, size and place.
-fn stone_checksum(scene: &Scene) -> u32 {
-    let placed = &scene.stone;
+fn stone_checksum(placed: &PlacedStone) -> u32 {
     let mut crc = crc32fast::Hasher::new();
     for v in &placed.stone.solid.vertices {
         let world = placed.point_to_world(placed.stone.from_design(*v).as_vec3());
@@ -122,16 +124,16 @@ fn stone_checksum(scene: &Scene) -> u32 {
 
 /// The material with a checksum of the laws by which it refracts and absorbs, and with the size of
 /// the stone if its colour depends on it.
-fn substance(scene: &Scene) -> String {
-    let material = &scene.stone.material;
+fn substance(placed: &PlacedStone) -> String {
+    let material = &placed.material;
     let laws = crc32fast::hash(format!("{:?} {:?}", material.dispersion, material.absorption).as_bytes());
-    let radius = format!(", {:.6} mm in radius", scene.stone.stone.unit);
+    let radius = format!(", {:.6} mm in radius", placed.stone.unit);
     format!("{} ({laws:08x}{})", material.name, if material.is_clear() { "" } else { &radius })
 }
 
 /// Checksum of surfaces and lights.
 fn surroundings_checksum(scene: &Scene) -> u32 {
-    crc32fast::hash(format!("{:?} {:?}", scene.surfaces, scene.lights).as_bytes())
+    crc32fast::hash(format!("{:?} {:?} {:?}", scene.surfaces, scene.lights, scene.depth).as_bytes())
 }
 
 /// The photons of a scene: read from `path` if it exists and fits, else shot and written there.
@@ -236,7 +238,7 @@ mod tests {
             scene: "table".into(),
             stone: "s".into(),
             material: "m".into(),
-            polarised: true,
+            polarised: "on".into(),
             surroundings: "r".into(),
             photons: 5,
             seed: 1,

@@ -17,15 +17,19 @@ pub struct Light {
 }
 
 impl Light {
-    /// Light of equal energy.
+    /// Light of a spectrum.
     ///
-    /// - `power`: spectral power in every band; `place_in_band`: uniform in (0, 1)
-    pub fn white(power: f32, place_in_band: f32) -> Light {
-        Light { power: [power; BANDS], place_in_band, single: false }
+    /// - `power`: by wavelength in nm; `place_in_band`: uniform in (0, 1)
+    pub fn new(power: impl Fn(f32) -> f32, place_in_band: f32) -> Light {
+        Light {
+            power: std::array::from_fn(|b| power(wavelength(b, place_in_band))),
+            place_in_band,
+            single: false,
+        }
     }
 
     fn nm(&self, band: usize) -> f32 {
-        colour::wavelength((band as f32 + self.place_in_band) / BANDS as f32)
+        wavelength(band, self.place_in_band)
     }
 
     /// Power by band.
@@ -44,6 +48,9 @@ impl Light {
     /// - `u`: uniform in (0, 1)
     pub fn reflect(&mut self, reflectance: &Reflectance, u: f32) -> bool {
         let before = self.strongest();
+        if before <= 0.0 {
+            return false;
+        }
         for band in 0..BANDS {
             self.power[band] *= reflectance.at(self.nm(band));
         }
@@ -79,6 +86,11 @@ impl Light {
     }
 }
 
+/// The wavelength at a place of a band, nm.
+fn wavelength(band: usize, place: f32) -> f32 {
+    colour::wavelength((band as f32 + place) / BANDS as f32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,7 +103,7 @@ mod tests {
         let mut stream = Stream::new(1, Purpose::Test, 0);
         let (n, mut mean, mut expected) = (200_000, [0f64; BANDS], [0f64; BANDS]);
         for _ in 0..n {
-            let mut light = Light::white(1.0, stream.unit());
+            let mut light = Light::new(|_| 1.0, stream.unit());
             for (band, sum) in expected.iter_mut().enumerate() {
                 *sum += f64::from(red.at(light.nm(band))) / f64::from(n);
             }

@@ -5,6 +5,7 @@
 use super::{Photon, Shot, Spectrum};
 use crate::optics::colour::BANDS;
 use crate::scene::Scene;
+use crate::scene::surface::Shape;
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
@@ -121,7 +122,8 @@ fn gather(
 /// kernel weight.
 fn kernel_share(scene: &Scene, surface: usize, point: Vec3, radius: f32) -> f32 {
     const POINTS: usize = 48;
-    let plate = &scene.surfaces[surface];
+    // a mesh has no edge worth the search: its photons lie all round
+    let Shape::Plate(plate) = &scene.surfaces[surface].shape else { return 1.0 };
     let (u, v) = (plate.u.normalize(), plate.normal().cross(plate.u.normalize()));
     let far = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
     if far.iter().all(|(a, b)| plate.holds(point + (u * *a + v * *b) * radius)) {

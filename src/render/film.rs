@@ -1,4 +1,4 @@
-//! What a picture is made of: three passes of light, each in linear colour.
+//! What a picture is made of: passes of light in linear colour, what is shown, and what is where.
 
 use glam::Vec3;
 
@@ -7,22 +7,50 @@ use glam::Vec3;
 pub enum Pass {
     /// Lights themselves, and surfaces lit straight by them.
     Direct,
-    /// Surfaces lit by light that came last from the stone.
+    /// Surfaces lit by light that came last from a stone or a mirror.
     Caustic,
     /// Surfaces lit by light that came last from another surface.
     Indirect,
+    /// All that is seen in a stone.
+    Stone,
 }
+
+/// How many passes there are.
+pub const PASSES: usize = 4;
 
 impl Pass {
-    /// The passes in order, with their names in file names.
-    pub const ALL: [(Pass, &'static str); 3] =
-        [(Pass::Direct, "direct"), (Pass::Caustic, "caustic"), (Pass::Indirect, "indirect")];
+    /// The passes in order, with their names in files.
+    pub const ALL: [(Pass, &'static str); PASSES] = [
+        (Pass::Direct, "direct"),
+        (Pass::Caustic, "caustic"),
+        (Pass::Indirect, "indirect"),
+        (Pass::Stone, "stone"),
+    ];
 }
 
-/// Light of one pixel by pass, linear sRGB, unclamped.
-pub type Pixel = [Vec3; 3];
+/// One pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pixel {
+    /// Light by pass: mean over the camera rays, linear sRGB, unclamped.
+    pub light: [Vec3; PASSES],
+    /// What a display shows of all passes: each camera ray goes through the tone curve before the
+    /// mean, so that the edge of a facet that mirrors a lamp is as smooth as any other. Linear sRGB
+    /// in 0..=1.
+    pub shown: Vec3,
+}
 
-/// A finished picture, before the tone curve.
+/// What lies in the middle of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Thing {
+    /// Distance from the camera; infinite where there is nothing.
+    pub depth: f32,
+    /// Facets count from 1 through all stones; 0 is no facet.
+    pub facet: u32,
+    /// Unit normal, world frame; 0 where there is nothing.
+    pub normal: Vec3,
+}
+
+/// A finished picture, before it is encoded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     /// Pixels across.
@@ -36,6 +64,9 @@ pub struct Film {
 impl Film {
     /// Linear sRGB of every pixel: one pass, or the sum of all.
     pub fn linear(&self, pass: Option<Pass>) -> Vec<Vec3> {
-        self.pixels.iter().map(|p| pass.map_or(p[0] + p[1] + p[2], |pass| p[pass as usize])).collect()
+        self.pixels
+            .iter()
+            .map(|p| pass.map_or_else(|| p.light.iter().sum(), |pass| p.light[pass as usize]))
+            .collect()
     }
 }

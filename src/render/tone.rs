@@ -1,47 +1,64 @@
-//! From linear light to a PNG.
+//! From linear light to what a display shows.
 
-use super::film::{Film, Pass};
-use crate::optics::colour;
+use super::film::Film;
 use glam::Vec3;
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 
-/// A picture that could not be encoded.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot encode the picture: {0}")]
-pub struct EncodeError(#[from] image::ImageError);
+/// A tone curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Curve {
+    /// Straight in the dark, bending toward white as film does: highlights keep their drawing.
+    #[default]
+    Filmic,
+    /// A straight line that ends at white.
+    Linear,
+}
 
-/// Where the tone curve leaves the straight line.
-const SHOULDER: f32 = 0.7;
+/// How light becomes a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tone {
+    /// Exposure in stops.
+    pub stops: f32,
+    /// The curve.
+    pub curve: Curve,
+}
 
-/// Straight up to [`SHOULDER`], then bending smoothly toward 1: bright facets keep their drawing
-/// where a straight line would burn out.
-fn curve(x: f32) -> f32 {
-    if x <= SHOULDER {
-        x.max(0.0)
-    } else {
-        SHOULDER + (1.0 - SHOULDER) * (1.0 - (-(x - SHOULDER) / (1.0 - SHOULDER)).exp())
+/// Where the filmic curve leaves the straight line.
+const SHOULDER: f32 = 0.6;
+/// What it shows as white lies this many times above its shoulder's length.
+const REACH: f32 = 1.0;
+
+impl Curve {
+    /// Every curve with its name.
+    pub const ALL: [(&'static str, Curve); 2] = [("filmic", Curve::Filmic), ("linear", Curve::Linear)];
+
+    fn of(self, x: f32) -> f32 {
+        let x = x.max(0.0);
+        match self {
+            Curve::Linear => x.min(1.0),
+            Curve::Filmic if x <= SHOULDER => x,
+            Curve::Filmic => {
+                let rest = 1.0 - SHOULDER;
+                SHOULDER + rest * (1.0 - (-(x - SHOULDER) / (REACH * rest)).exp())
+            }
+        }
     }
 }
 
-/// One pixel as 8-bit sRGB.
-fn display(linear: Vec3, exposure: f32) -> [u8; 3] {
-    (linear * exposure).to_array().map(|x| (colour::srgb_encode(curve(x)) * 255.0).round() as u8)
+impl Tone {
+    /// Linear light as a display shows it, in 0..=1, before the transfer curve.
+    pub fn shown(&self, linear: Vec3) -> Vec3 {
+        (linear * self.stops.exp2()).map(|x| self.curve.of(x))
+    }
 }
 
-/// A PNG of one pass, or of the sum of all.
-///
-/// - `stops`: exposure, 0 leaves the scene's own
-pub fn png(film: &Film, pass: Option<Pass>, stops: f32) -> Result<Vec<u8>, EncodeError> {
-    let exposure = stops.exp2();
-    let bytes: Vec<u8> = film.linear(pass).into_iter().flat_map(|p| display(p, exposure)).collect();
-    encode_rgb(&bytes, film.width, film.height)
-}
-
-/// A PNG of 8-bit RGB bytes, row after row.
-pub fn encode_rgb(bytes: &[u8], width: u32, height: u32) -> Result<Vec<u8>, EncodeError> {
-    let mut out = Vec::new();
-    PngEncoder::new(&mut out).write_image(bytes, width, height, ExtendedColorType::Rgb8)?;
-    Ok(out)
+/// Stops that bring a picture to a middle exposure: the brightness that one pixel in twenty exceeds
+/// goes to the shoulder's end. From a small picture that is thrown away.
+pub fn auto_stops(film: &Film) -> f32 {
+    let mut brightness: Vec<f32> =
+        film.linear(None).iter().map(|p| p.dot(Vec3::new(0.2126, 0.7152, 0.0722))).collect();
+    brightness.sort_by(f32::total_cmp);
+    let bright = brightness.get(brightness.len() * 19 / 20).copied().unwrap_or(0.0);
+    if bright > 0.0 { (0.8 / bright).log2().clamp(-20.0, 20.0) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -49,11 +66,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_curve_rises_smoothly_to_one() {
-        assert_eq!(curve(-0.1), 0.0);
-        assert_eq!(curve(0.5), 0.5);
-        let slope = (curve(SHOULDER + 1e-3) - curve(SHOULDER)) / 1e-3;
+    fn the_curves_rise_to_one_the_filmic_one_smoothly() {
+        for (_, curve) in Curve::ALL {
+            assert_eq!(curve.of(-0.1), 0.0);
+            assert_eq!(curve.of(0.5), 0.5);
+            assert!(curve.of(4.0) > 0.99 && curve.of(1e6) <= 1.0);
+        }
+        let slope = (Curve::Filmic.of(SHOULDER + 1e-3) - SHOULDER) / 1e-3;
         assert!((slope - 1.0).abs() < 0.01);
-        assert!(curve(4.0) > 0.99 && curve(1e6) <= 1.0);
+        let tone = Tone { stops: 1.0, curve: Curve::Linear };
+        assert_eq!(tone.shown(Vec3::splat(0.25)), Vec3::splat(0.5));
     }
 }

@@ -1,15 +1,15 @@
-//! Camera rays: eight wavelengths each, two rays to a packet at a time.
+//! Camera rays: eight wavelengths each, from the eye to the first thing that is no mirror.
 
-use super::film::{Film, Pass, Pixel};
+use super::film::{Film, PASSES, Pass, Pixel, Thing};
+use super::inside;
+use super::tone::Tone;
 use crate::math::random::{Purpose, Stream};
 use crate::optics::colour::{self, BANDS};
 use crate::photons::Shots;
 use crate::photons::map::PhotonMap;
-use crate::scene::{Camera, Scene};
-use crate::transport::Event;
-use crate::walk::feed::{self, Rays};
-use crate::walk::{LANES, Meeting, Packet};
-use glam::Vec3;
+use crate::scene::{Camera, Finish, Light, Scene};
+use crate::transport::{Arrival, Event};
+use glam::{Mat3, Vec3};
 use rayon::prelude::*;
 
 /// How a picture is taken.
@@ -21,23 +21,24 @@ pub struct Settings {
     pub height: u32,
     /// Camera rays a pixel.
     pub rays: u32,
+    /// How light becomes a picture.
+    pub tone: Tone,
     /// The user's seed.
     pub seed: u64,
 }
 
-/// Side of the grid of shadow rays on each light for a surface that the camera sees directly.
+/// Shadow rays to each light that a pixel of a surface seen directly takes at least, over all its
+/// camera rays: a penumbra of 2 % noise.
+const SHADOW_RAYS: u32 = 200;
+/// Largest side of the grid of shadow rays of one camera ray.
 const SHADOW_STRATA: usize = 5;
 
-/// A camera ray inside the stone is followed until this share of its power is left.
-const STOP_SHARE: f32 = 2e-3;
-
-/// Ways out of the stone that carry less than this share are looked along by lot, with a
-/// probability in proportion; lights at their end are always seen.
-const LOT_SHARE: f32 = 0.08;
+/// Mirrors in a row, after which a camera ray sees black.
+pub(super) const MIRRORS: u32 = 64;
 
 /// The maps of a picture.
 pub struct Maps {
-    /// Light last from the stone.
+    /// Light last from a stone.
     pub caustic: PhotonMap,
     /// Light last from another surface.
     pub indirect: PhotonMap,
@@ -67,7 +68,8 @@ pub fn render(
     settings: &Settings,
     row_done: &(dyn Fn() + Sync),
 ) -> Film {
-    let view = View { scene, camera, maps, settings };
+    let rgb_from_xyz = colour::to_adapted_srgb(camera.white.xyz(|_| 1.0));
+    let view = View { scene, camera, maps, settings, rgb_from_xyz };
     let pixels = (0..settings.height)
         .into_par_iter()
         .flat_map_iter(|y| {
@@ -79,40 +81,69 @@ pub fn render(
     Film { width: settings.width, height: settings.height, pixels }
 }
 
-struct View<'a> {
-    scene: &'a Scene,
+/// What lies in the middle of each pixel.
+pub fn things(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Vec<Thing> {
+    let before: Vec<usize> = scene
+        .stones
+        .iter()
+        .scan(0, |sum, placed| Some(std::mem::replace(sum, *sum + placed.stone.facet_count())))
+        .collect();
+    let thing = |x: u32, y: u32| {
+        let (u, v) = ((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32);
+        let (origin, direction) = camera.ray(u, v);
+        match scene.first(origin, direction, None) {
+            Event::Surface(_, at, normal) => Thing { depth: at.distance(origin), facet: 0, normal },
+            Event::Stone(i, arrival) => {
+                let placed = &scene.stones[i];
+                let normal = placed.direction_to_world(placed.stone.normals[arrival.facet]);
+                let depth = placed.point_to_world(arrival.point).distance(origin);
+                Thing { depth, facet: (before[i] + arrival.facet + 1) as u32, normal }
+            }
+            Event::Light(..) | Event::Nothing => Thing { depth: f32::INFINITY, ..Thing::default() },
+        }
+    };
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| thing(x, y)).collect()
+}
+
+/// A picture being taken.
+pub(super) struct View<'a> {
+    pub scene: &'a Scene,
     camera: &'a Camera,
-    maps: &'a Maps,
+    pub maps: &'a Maps,
     settings: &'a Settings,
+    rgb_from_xyz: Mat3,
 }
 
 /// A camera ray and what it has gathered: radiance by pass and wavelength. The wavelengths of a ray
 /// share its random numbers, so that colour has no noise.
-struct Sight {
-    nm: [f32; BANDS],
-    light: [[f32; BANDS]; 3],
+pub(super) struct Sight {
+    pub nm: [f32; BANDS],
+    light: [[f32; BANDS]; PASSES],
 }
 
 impl Sight {
-    fn colour(&self) -> Pixel {
+    fn colour(&self, rgb_from_xyz: &Mat3) -> [Vec3; PASSES] {
+        let weights = self.nm.map(colour::xyz_weight);
         self.light.map(|bands| {
-            let xyz: Vec3 =
-                (0..BANDS).map(|b| colour::xyz_weight(self.nm[b]) * bands[b]).sum::<Vec3>() / BANDS as f32;
-            colour::linear_srgb(xyz)
+            let xyz: Vec3 = (0..BANDS).map(|b| weights[b] * bands[b]).sum::<Vec3>() / BANDS as f32;
+            *rgb_from_xyz * xyz
         })
     }
 
-    fn add(&mut self, pass: Pass, band: usize, radiance: f32) {
+    pub fn add(&mut self, pass: Pass, band: usize, radiance: f32) {
         self.light[pass as usize][band] += radiance;
     }
 }
 
-/// A camera ray at the stone's surface, about to go in.
-struct Entering {
-    sight: usize,
-    facet: usize,
-    point: Vec3,
-    direction: Vec3,
+/// A camera ray at a stone's surface, about to go in.
+pub(super) struct Entering {
+    /// The camera ray's number in its pixel.
+    pub sight: usize,
+    /// The stone's number.
+    pub stone: usize,
+    pub arrival: Arrival,
+    /// Share of each wavelength that mirrors have left.
+    pub share: [f32; BANDS],
 }
 
 impl View<'_> {
@@ -124,25 +155,18 @@ impl View<'_> {
         let mut sights: Vec<Sight> =
             (0..rays).map(|ray| self.look([x, y], ray, &mut stream, &mut entering)).collect();
         if !entering.is_empty() {
-            let placed = &self.scene.stone;
-            let mut inside = Inside {
-                view: self,
-                entering: entering.iter(),
-                sights: &mut sights,
-                stream: &mut stream,
-                sight_of: [0; LANES],
-            };
-            feed::walk_all(&placed.stone, STOP_SHARE, &mut inside);
+            inside::look_into_stones(self, &entering, &mut sights, &mut stream);
         }
-        let mut sum: Pixel = [Vec3::ZERO; 3];
+        let mut pixel = Pixel::default();
         for sight in &sights {
-            let colour = sight.colour();
-            (0..3).for_each(|p| sum[p] += colour[p]);
+            let light = sight.colour(&self.rgb_from_xyz);
+            (0..PASSES).for_each(|p| pixel.light[p] += light[p] / rays as f32);
+            pixel.shown += self.settings.tone.shown(light.iter().sum()) / rays as f32;
         }
-        sum.map(|c| c / rays as f32)
+        pixel
     }
 
-    /// One camera ray up to the first thing it meets; at the stone it is noted for later.
+    /// One camera ray up to the first thing that is no mirror; at a stone it is noted for later.
     fn look(&self, [x, y]: [u32; 2], ray: u32, stream: &mut Stream, entering: &mut Vec<Entering>) -> Sight {
         let rays = self.settings.rays.max(1);
         let offset = stratified(ray, rays, stream.pair()).map(tent);
@@ -150,137 +174,68 @@ impl View<'_> {
         let v = (y as f32 + 0.5 + offset[1]) / self.settings.height as f32;
         let shift = stream.unit();
         let nm = std::array::from_fn(|b| colour::wavelength((b as f32 + shift) / BANDS as f32));
-        let mut sight = Sight { nm, light: [[0.0; BANDS]; 3] };
-        let direction = self.camera.ray(u, v);
-        match self.scene.first(self.camera.position, direction, false) {
-            Event::Nothing => {}
-            Event::Light(i) => {
-                (0..BANDS).for_each(|b| sight.add(Pass::Direct, b, self.scene.lights[i].radiance));
-            }
-            Event::Surface(s, point) => self.see_surface(s, point, &mut sight, stream),
-            Event::Stone { facet, point, direction } => {
-                entering.push(Entering { sight: ray as usize, facet, point, direction });
+        let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES] };
+        let mut share = [1.0; BANDS];
+        let (mut origin, mut direction) = self.camera.ray(u, v);
+        for _ in 0..MIRRORS {
+            match self.scene.first(origin, direction, None) {
+                Event::Nothing => break,
+                Event::Light(i, colour) => {
+                    let light = &self.scene.lights[i];
+                    (0..BANDS).for_each(|b| sight.add(Pass::Direct, b, share[b] * light.at(colour, nm[b])));
+                    break;
+                }
+                Event::Surface(s, point, normal) => match &self.scene.surfaces[s].finish {
+                    Finish::Mirror(reflectance) => {
+                        (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
+                        (origin, direction) = (point, direction.reflect(normal));
+                    }
+                    Finish::Diffuse(reflectance) => {
+                        (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
+                        self.see_surface(s, point, normal, &share, &mut sight, stream);
+                        break;
+                    }
+                },
+                Event::Stone(stone, arrival) => {
+                    entering.push(Entering { sight: ray as usize, stone, arrival, share });
+                    break;
+                }
             }
         }
         sight
     }
 
-    /// A surface that the camera sees directly: 25 shadow rays a light.
-    fn see_surface(&self, s: usize, point: Vec3, sight: &mut Sight, stream: &mut Stream) {
-        let surface = &self.scene.surfaces[s];
-        let direct = self.scene.direct_irradiance(point, surface.normal(), SHADOW_STRATA, || stream.pair());
+    /// A surface that the camera sees directly.
+    ///
+    /// - `share`: of each wavelength that the surface and the mirrors before it give back
+    fn see_surface(
+        &self,
+        s: usize,
+        point: Vec3,
+        normal: Vec3,
+        share: &[f32; BANDS],
+        sight: &mut Sight,
+        stream: &mut Stream,
+    ) {
+        let per_ray = SHADOW_RAYS.div_ceil(self.settings.rays.max(1));
+        let strata = ((per_ray as f32).sqrt().ceil() as usize).min(SHADOW_STRATA);
+        let lit: Vec<(&Light, Vec3)> = self
+            .scene
+            .lights
+            .iter()
+            .map(|light| {
+                let jitter = || stream.pair();
+                (light, self.scene.direct_irradiance(light, point, normal, strata, jitter))
+            })
+            .collect();
         let caustic = self.maps.caustic.irradiance(s, point);
         let indirect = self.maps.indirect.irradiance(s, point);
         for b in 0..BANDS {
-            let reflected = surface.reflectance.at(sight.nm[b]) / std::f32::consts::PI;
+            let reflected = share[b] / std::f32::consts::PI;
+            let direct: f32 = lit.iter().map(|(light, colour)| light.at(*colour, sight.nm[b])).sum();
             sight.add(Pass::Direct, b, reflected * direct);
             sight.add(Pass::Caustic, b, reflected * caustic[b]);
             sight.add(Pass::Indirect, b, reflected * indirect[b]);
-        }
-    }
-
-    /// What one wavelength sees along a way out of the stone: a light always, a surface by lot if
-    /// the power is small, and then it counts for more.
-    fn look_out(&self, way: WayOut, sight: &mut Sight, chance: Chance) {
-        let placed = &self.scene.stone;
-        let origin = placed.point_to_world(way.point);
-        let direction = placed.direction_to_world(way.direction);
-        match self.scene.first(origin, direction, true) {
-            Event::Light(i) => sight.add(Pass::Direct, way.band, way.power * self.scene.lights[i].radiance),
-            Event::Surface(s, at) => {
-                let probability = (way.power / LOT_SHARE).min(1.0);
-                if chance.lot < probability {
-                    self.see_afar(s, at, way.band, way.power / probability, sight, chance.jitter);
-                }
-            }
-            _ => {}
-        }
-    }
-
-    /// A surface seen through the stone or mirrored in it, at one wavelength: one shadow ray a
-    /// light, photons from the nearest known place.
-    fn see_afar(&self, s: usize, at: Vec3, band: usize, weight: f32, sight: &mut Sight, jitter: [f32; 2]) {
-        let surface = &self.scene.surfaces[s];
-        let reflected = weight * surface.reflectance.at(sight.nm[band]) / std::f32::consts::PI;
-        let direct = self.scene.direct_irradiance(at, surface.normal(), 1, || jitter);
-        sight.add(Pass::Direct, band, reflected * direct);
-        sight.add(Pass::Caustic, band, reflected * self.maps.caustic.irradiance_nearby(s, at)[band]);
-        sight.add(Pass::Indirect, band, reflected * self.maps.indirect.irradiance_nearby(s, at)[band]);
-    }
-}
-
-/// A ray that leaves the stone, in the walking frame.
-struct WayOut {
-    point: Vec3,
-    direction: Vec3,
-    band: usize,
-    power: f32,
-}
-
-/// Random numbers of one meeting.
-#[derive(Clone, Copy)]
-struct Chance {
-    lot: f32,
-    jitter: [f32; 2],
-}
-
-impl Chance {
-    fn draw(stream: &mut Stream) -> Chance {
-        Chance { lot: stream.unit(), jitter: stream.pair() }
-    }
-}
-
-/// The camera rays of a pixel inside the stone, eight lanes each.
-struct Inside<'a, 'v> {
-    view: &'a View<'v>,
-    entering: std::slice::Iter<'a, Entering>,
-    sights: &'a mut [Sight],
-    stream: &'a mut Stream,
-    /// For each lane the camera ray that it carries.
-    sight_of: [usize; LANES],
-}
-
-impl Rays for Inside<'_, '_> {
-    const WIDTH: usize = BANDS;
-
-    fn polarised(&self) -> bool {
-        self.view.scene.stone.polarised
-    }
-
-    fn absorbing(&self) -> bool {
-        !self.view.scene.stone.material.is_clear()
-    }
-
-    /// Lets a camera ray in; what the facet mirrors is seen at once.
-    fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(e) = self.entering.next() else { return false };
-        let placed = &self.view.scene.stone;
-        let sight = &mut self.sights[e.sight];
-        let mirrored = placed.stone.reflect(e.facet, e.direction);
-        let chance = Chance::draw(self.stream);
-        for band in 0..BANDS {
-            let index = placed.index(sight.nm[band]);
-            let entry = placed.stone.enter(e.facet, e.direction, index);
-            packet.enter(lane + band, e.point, &entry, index);
-            packet.absorption[lane + band] = placed.absorption(sight.nm[band]);
-            let way = WayOut { point: e.point, direction: mirrored, band, power: entry.reflectance };
-            self.view.look_out(way, sight, chance);
-        }
-        self.sight_of[lane..lane + BANDS].fill(e.sight);
-        true
-    }
-
-    fn meet(&mut self, meeting: &Meeting, packet: &Packet) {
-        let chances: [Chance; LANES / BANDS] = std::array::from_fn(|_| Chance::draw(self.stream));
-        for lane in 0..LANES {
-            let Some(exit) = meeting.exit(packet, lane) else { continue };
-            let way = WayOut {
-                point: exit.point,
-                direction: exit.direction,
-                band: lane % BANDS,
-                power: exit.power,
-            };
-            self.view.look_out(way, &mut self.sights[self.sight_of[lane]], chances[lane / BANDS]);
         }
     }
 }

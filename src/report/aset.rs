@@ -7,7 +7,7 @@
 
 use crate::experiments::view::{Band, band};
 use crate::optics::colour::srgb_encode;
-use crate::render::tone::{EncodeError, encode_rgb};
+use crate::render::write::{EncodeError, encode_rgb};
 use crate::walk::{LANES, Packet, Stone};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;

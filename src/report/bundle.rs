@@ -9,8 +9,8 @@ use crate::math::stats::Estimate;
 use crate::metrics::Metric;
 use crate::optics::Material;
 use crate::photons::{self, Shots};
-use crate::render::{self, Maps, tone};
-use crate::scene::Preset;
+use crate::render::{self, Maps, Tone, write};
+use crate::scene::{Cast, SceneError, preset};
 use crate::solid::SolidError;
 use crate::store::replace::{self, WriteError};
 use crate::study::score::{Plan, Subject, score};
@@ -56,7 +56,10 @@ pub enum ReportError {
     Format(#[from] FormatError),
     /// A picture could not be encoded.
     #[error(transparent)]
-    Picture(#[from] tone::EncodeError),
+    Picture(#[from] write::EncodeError),
+    /// The scene cannot be set up.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The table could not be made.
     #[error(transparent)]
     Table(#[from] TableError),
@@ -111,7 +114,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     step("ASET map");
     let aset = aset::picture(&stone, request.material.index_d() as f32, ASET_SIDE)?;
 
-    let picture = table_picture(stone, request, step)?;
+    let picture = table_picture(request, step)?;
 
     let files = vec![
         ("stone.obj", formats::encode(design, "obj")?),
@@ -157,26 +160,27 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
 }
 
 /// The photon-mapped picture of the stone on the grey table, as PNG.
-pub(super) fn table_picture(
-    stone: Stone,
-    request: &Request,
-    step: &dyn Fn(&'static str),
-) -> Result<Vec<u8>, ReportError> {
+pub(super) fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> Result<Vec<u8>, ReportError> {
     let (width, height, rays) = PICTURE;
     let (photons, nearest) = PHOTONS;
-    let Some(preset) = Preset::named("table") else {
+    let Some(table) = preset("table") else {
         return Err(ReportError::Scores("the scene 'table' is not in the catalogue".into()));
     };
     step("photon maps");
-    let aspect = width as f32 / height as f32;
-    let scene = (preset.build)(stone, request.material.clone(), preset.default_pose, aspect);
+    let cast = Cast {
+        designs: vec![request.design.clone()],
+        material: Some(request.material.clone()),
+        ..Cast::default()
+    };
+    let scene = table?.build(&cast, width as f32 / height as f32)?;
     let seed = request.seed;
     let shots = Shots::shoot(&scene, &photons::Settings { photons, nearest, seed });
     let maps = Maps::new(&scene, &shots, nearest);
     step("picture");
-    let settings = render::Settings { width, height, rays, seed };
+    let tone = Tone { stops: scene.camera.stops, ..Tone::default() };
+    let settings = render::Settings { width, height, rays, tone, seed };
     let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
-    Ok(tone::png(&film, None, 0.0)?)
+    Ok(write::png(&write::shown(&film, None, &tone), width, height, write::Bits::Eight, None)?)
 }
 
 impl Bundle {

@@ -56,7 +56,7 @@ pub fn html(
         let stone = Stone::new(solid.clone());
         step("ASET map");
         let aset = aset::picture(&stone, request.material.index_d() as f32, ASET_SIDE)?;
-        let picture = table_picture(stone, request, &|_| ())?;
+        let picture = table_picture(request, &|_| ())?;
         step("picture");
         let shares: Vec<String> = ["green", "red", "blue", "leak"]
             .iter()

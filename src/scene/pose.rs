@@ -11,17 +11,26 @@ pub enum Pose {
     Lying,
     /// Upright, the lowest corner on the plane.
     TableUp,
+    /// Upside down, as for the hearts viewer.
+    TableDown,
 }
 
 impl Pose {
     /// Every pose with its name on the command line.
-    pub const ALL: [(&'static str, Pose); 2] = [("lying", Pose::Lying), ("table-up", Pose::TableUp)];
+    pub const ALL: [(&'static str, Pose); 3] =
+        [("lying", Pose::Lying), ("table-up", Pose::TableUp), ("table-down", Pose::TableDown)];
+
+    /// The pose called `name`.
+    pub fn named(name: &str) -> Option<Pose> {
+        Self::ALL.iter().find(|(n, _)| *n == name).map(|(_, pose)| *pose)
+    }
 
     /// Rotation from the stone's frame to a world whose floor is horizontal. A lying stone is
     /// turned so that its crown leans toward −y, where the camera stands.
     pub fn rotation(self, solid: &Polyhedron) -> DMat3 {
         match self {
             Pose::TableUp => DMat3::IDENTITY,
+            Pose::TableDown => DMat3::from_rotation_x(std::f64::consts::PI),
             Pose::Lying => {
                 let Some(down) = resting_facet(solid) else { return DMat3::IDENTITY };
                 let laid = rotation_between(down, DVec3::NEG_Z);

@@ -1,8 +1,11 @@
-//! Diffuse surfaces: one-sided parallelograms with a spectrum.
+//! Surfaces around the stones: one-sided parallelograms and meshes, diffuse or mirrors.
 
+use super::mesh::Mesh;
+use crate::optics::rgb;
 use glam::Vec3;
+use std::sync::Arc;
 
-/// Share of light that a diffuse surface gives back, by wavelength.
+/// Share of light that a surface gives back, by wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reflectance {
     /// The same at every wavelength.
@@ -17,6 +20,8 @@ pub enum Reflectance {
         /// Wavelength of the middle, nm.
         edge_nm: f32,
     },
+    /// Parts of [`rgb::basis`], each in 0..=1.
+    Mixture(Vec3),
 }
 
 impl Reflectance {
@@ -25,6 +30,7 @@ impl Reflectance {
         const SOFTNESS_NM: f32 = 8.0;
         match *self {
             Self::Grey(r) => r,
+            Self::Mixture(parts) => rgb::basis(nm).dot(parts),
             Self::Edge { low, high, edge_nm } => {
                 low + (high - low) / (1.0 + ((edge_nm - nm) / SOFTNESS_NM).exp())
             }
@@ -32,20 +38,76 @@ impl Reflectance {
     }
 }
 
-/// A parallelogram that reflects diffusely on one side; from behind it is not there.
-#[derive(Debug, Clone, Copy)]
+/// What a surface does with light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Finish {
+    /// Scatters it evenly.
+    Diffuse(Reflectance),
+    /// Mirrors it.
+    Mirror(Reflectance),
+}
+
+/// A surface's shape.
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// A parallelogram that is there on one side; from behind it is not.
+    Plate(Plate),
+    /// Triangles, there on both sides.
+    Mesh(Arc<Mesh>),
+}
+
+/// A surface.
+#[derive(Debug, Clone)]
 pub struct Surface {
+    /// Its shape.
+    pub shape: Shape,
+    /// What it does with light.
+    pub finish: Finish,
+}
+
+impl Surface {
+    /// A diffuse parallelogram; `u × v` points to the reflecting side.
+    pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
+        Surface { shape: Shape::Plate(Plate { corner, u, v }), finish: Finish::Diffuse(reflectance) }
+    }
+
+    /// Distance along a ray to the surface, if it is met, and its unit normal on the ray's side.
+    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+        match &self.shape {
+            Shape::Plate(plate) => plate.hit(origin, direction).map(|t| (t, plate.normal())),
+            Shape::Mesh(mesh) => mesh.hit(origin, direction),
+        }
+    }
+
+    /// Whether the surface stands in the way of a ray before `distance`.
+    pub fn hides(&self, origin: Vec3, direction: Vec3, distance: f32) -> bool {
+        self.hit(origin, direction).is_some_and(|(t, _)| t < distance)
+    }
+
+    /// Lowest and highest corner of its box.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        match &self.shape {
+            Shape::Mesh(mesh) => mesh.bounds(),
+            Shape::Plate(p) => {
+                let corners = [p.corner, p.corner + p.u, p.corner + p.v, p.corner + p.u + p.v];
+                corners.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |b, c| (b.0.min(*c), b.1.max(*c)))
+            }
+        }
+    }
+}
+
+/// A parallelogram.
+#[derive(Debug, Clone, Copy)]
+pub struct Plate {
     /// A corner.
     pub corner: Vec3,
     /// One edge from the corner.
     pub u: Vec3,
     /// The other edge; `u × v` points to the reflecting side.
     pub v: Vec3,
-    /// Its colour.
-    pub reflectance: Reflectance,
 }
 
-impl Surface {
+impl Plate {
     /// Unit normal of the reflecting side.
     pub fn normal(&self) -> Vec3 {
         self.u.cross(self.v).normalize()
@@ -97,12 +159,7 @@ mod tests {
 
     #[test]
     fn one_side_reflects() {
-        let floor = Surface {
-            corner: Vec3::new(-1.0, -1.0, 0.0),
-            u: Vec3::X * 2.0,
-            v: Vec3::Y * 2.0,
-            reflectance: Reflectance::Grey(0.5),
-        };
+        let floor = Plate { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0 };
         assert_eq!(floor.normal(), Vec3::Z);
         assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z), Some(3.0));
         assert_eq!(floor.hit(Vec3::new(0.5, 0.0, -3.0), Vec3::Z), None);

@@ -1,23 +1,18 @@
-//! Photons through the stone: each goes in with its whole power and comes out by one exit.
+//! Photons through a stone: each goes in with its whole power and comes out by one exit.
 
+use super::Arrival;
 use crate::scene::PlacedStone;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Meeting, Packet};
 use glam::Vec3;
 
-/// A photon that is about to enter, in the walking frame.
+/// A photon that is about to enter.
 #[derive(Debug, Clone, Copy)]
-pub struct Arrival {
-    /// Facet it meets.
-    pub facet: usize,
-    /// Where.
-    pub point: Vec3,
-    /// Unit direction.
-    pub direction: Vec3,
-    /// Index of the stone at the photon's wavelength.
-    pub index: f32,
-    /// Absorption coefficient there, per walking unit.
-    pub absorption: f32,
+pub struct Entering {
+    /// How it arrives.
+    pub arrival: Arrival,
+    /// Its wavelength, nm.
+    pub nm: f32,
     /// One uniform number, by which the exit is chosen.
     pub choice: f64,
 }
@@ -42,9 +37,12 @@ const STOP_SHARE: f32 = 1e-3;
 /// Every way out, the reflection at entry among them, is chosen with a probability proportional to
 /// its power, so each photon goes on alone and the mean over photons is right. One uniform number
 /// serves all choices: it is stretched back to (0, 1) after each.
-pub fn cross(placed: &PlacedStone, arrivals: &[Arrival]) -> Vec<Departure> {
+///
+/// - `most_meetings`: with facets inside, after which a photon that is still there is lost
+pub fn cross(placed: &PlacedStone, most_meetings: u32, arrivals: &[Entering]) -> Vec<Departure> {
     let mut crossing = Crossing {
         placed,
+        most_meetings,
         arrivals: arrivals.iter(),
         departures: Vec::with_capacity(arrivals.len()),
         photon: [0; LANES],
@@ -53,14 +51,15 @@ pub fn cross(placed: &PlacedStone, arrivals: &[Arrival]) -> Vec<Departure> {
     };
     feed::walk_all(&placed.stone, STOP_SHARE, &mut crossing);
     for (departure, arrival) in crossing.departures.iter_mut().zip(arrivals) {
-        departure.direction = departure.direction.normalize_or(arrival.direction);
+        departure.direction = departure.direction.normalize_or(arrival.arrival.direction);
     }
     crossing.departures
 }
 
 struct Crossing<'a> {
     placed: &'a PlacedStone,
-    arrivals: std::slice::Iter<'a, Arrival>,
+    most_meetings: u32,
+    arrivals: std::slice::Iter<'a, Entering>,
     departures: Vec<Departure>,
     /// For each lane: which photon it carries, the number that chooses, the power that has left.
     photon: [usize; LANES],
@@ -79,17 +78,22 @@ impl Rays for Crossing<'_> {
         !self.placed.material.is_clear()
     }
 
+    fn most_meetings(&self) -> u32 {
+        self.most_meetings
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(a) = self.arrivals.next() else { return false };
+        let Some(Entering { arrival, nm, choice }) = self.arrivals.next() else { return false };
         let stone = &self.placed.stone;
-        let entry = stone.enter(a.facet, a.direction, a.index);
-        packet.enter(lane, a.point, &entry, a.index);
-        packet.absorption[lane] = a.absorption;
+        let index = self.placed.index(*nm);
+        let entry = stone.enter(arrival.facet, arrival.direction, index);
+        packet.enter(lane, arrival.point, &entry, index);
+        packet.absorption[lane] = self.placed.absorption(*nm);
         self.photon[lane] = self.departures.len();
-        self.choice[lane] = a.choice;
+        self.choice[lane] = *choice;
         self.total[lane] = entry.reflectance.into();
-        let direction = stone.reflect(a.facet, a.direction);
-        self.departures.push(Departure { point: a.point, direction, share: entry.reflectance });
+        let direction = stone.reflect(arrival.facet, arrival.direction);
+        self.departures.push(Departure { point: arrival.point, direction, share: entry.reflectance });
         true
     }
 

@@ -24,6 +24,11 @@ pub trait Rays {
         false
     }
 
+    /// After so many meetings a ray is at its end whatever power it holds, which counts as given up.
+    fn most_meetings(&self) -> u32 {
+        u32::MAX
+    }
+
     /// Puts the next ray into the lanes from `lane` on; false if there is none left.
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool;
 
@@ -49,6 +54,8 @@ pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
         let mut fed = 0;
         let lanes = || (0..LANES / R::WIDTH).map(|i| i * R::WIDTH);
         let mut alive = [false; LANES];
+        let mut meetings = [0; LANES];
+        let most = rays.most_meetings();
         for lane in lanes() {
             more = more && rays.next(&mut packet, lane);
             alive[lane] = more;
@@ -58,10 +65,13 @@ pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
             rays.meet(meeting, packet);
             for lane in lanes() {
                 let powers = &mut packet.power[lane..lane + R::WIDTH];
-                let goes_on = powers.iter().any(|p| *p >= stop_power) && !rays.is_done(lane);
+                meetings[lane] += 1;
+                let lit = powers.iter().any(|p| *p >= stop_power);
+                let goes_on = lit && meetings[lane] < most && !rays.is_done(lane);
                 if !alive[lane] || goes_on {
                     continue;
                 }
+                meetings[lane] = 0;
                 lost += powers.iter().map(|p| f64::from(*p)).sum::<f64>();
                 powers.fill(0.0);
                 rays.ended(lane);

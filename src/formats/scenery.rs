@@ -1,0 +1,42 @@
+//! Meshes that are no stones: what stands around them in a scene. OBJ and glTF, any shape.
+
+use super::error::FormatError;
+use super::source::Source;
+use super::{MOST_BYTES, bytes_of, glb, obj};
+use glam::DVec3;
+use std::path::Path;
+
+/// Corners and triangles of a mesh, in the file's unit, +z up.
+#[derive(Debug, Clone, Default)]
+pub struct Triangles {
+    /// Corners.
+    pub vertices: Vec<DVec3>,
+    /// Numbers of each triangle's corners.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// Reads an OBJ, glTF or GLB file; polygons become fans of triangles.
+///
+/// Errors name the file and the place in it.
+pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
+    let bytes = bytes_of(path, MOST_BYTES)?;
+    let name = path.display().to_string();
+    let source = Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) };
+    let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(&source) > 0) {
+        let (vertices, polygons, _) = glb::polygons(&source)?;
+        (vertices, polygons)
+    } else {
+        obj::polygons(&source)?
+    };
+    let mut triangles = Vec::new();
+    for p in &polygons {
+        if let Some(c) = p.corners.iter().find(|c| vertices.get(**c).is_none_or(|v| !v.is_finite())) {
+            return Err(source.at_byte(0, "finite corners", format!("corner {c}")));
+        }
+        triangles.extend((2..p.corners.len()).map(|i| [p.corners[0], p.corners[i - 1], p.corners[i]]));
+    }
+    if triangles.is_empty() {
+        return Err(source.at_byte(0, "at least one triangle", "none"));
+    }
+    Ok(Triangles { vertices, triangles })
+}

@@ -1,0 +1,249 @@
+//! Scene files: TOML, from the user or from the catalogue.
+//!
+//! `unit` is `"stone"` (one is the radius of the sphere around the first stone) or `"mm"`. Points
+//! are `[x, y, z]`, z up. Then
+//!
+//! - `[camera]`: `at`, `to` (the first stone if absent), `field` (degrees across the width) or
+//!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
+//!   (the illuminant that comes out white)
+//! - `[[stone]]`: `cut`, `material`, `size` (mm) or `radius` (as large as the scene wants it),
+//!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
+//!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
+//! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
+//!   `scale`; `reflectance` (a number, `[r, g, b]`, or `{ low, high, edge }`); `mirror = true`
+//! - `[[light]]`: `kind` of `cutlab list lights` with what that needs; `radiance` or `power`,
+//!   `colour`, `spectrum`
+//!
+//! `depth` limits the segments of a path, to compare with programs that do; without it paths are
+//! followed to the end of their power.
+
+use super::entries::{CameraEntry, LightEntry, StoneEntry, SurfaceEntry, Wrong};
+use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
+use crate::cut::Design;
+use crate::formats::{self, FormatError};
+use crate::optics::Material;
+use crate::walk::Stone;
+use glam::Vec3;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// A scene that cannot be set up. Each error is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("cannot read the scene {path}: {cause}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        cause: std::io::Error,
+    },
+    /// Something in the file is wrong.
+    #[error("{file}, line {line}: {problem}")]
+    Line {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The stone is none.
+    #[error(transparent)]
+    Stone(#[from] FormatError),
+    /// More stones than the scene has places for.
+    #[error("the scene '{scene}' has places for {places} stone(s), not for {given}")]
+    Places {
+        /// The scene.
+        scene: String,
+        /// `[[stone]]` entries.
+        places: usize,
+        /// Stones named.
+        given: usize,
+    },
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum Unit {
+    Stone,
+    Mm,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    #[serde(default)]
+    about: String,
+    unit: Unit,
+    #[serde(default)]
+    picture: Option<[u32; 2]>,
+    #[serde(default)]
+    depth: Option<u32>,
+    camera: Spanned<CameraEntry>,
+    stone: Vec<Spanned<StoneEntry>>,
+    #[serde(default)]
+    surface: Vec<Spanned<SurfaceEntry>>,
+    light: Vec<Spanned<LightEntry>>,
+}
+
+/// A scene as written.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// Its name: of the catalogue, or the file's without folder and ending.
+    pub name: String,
+    file: String,
+    text: String,
+    folder: PathBuf,
+    document: Document,
+}
+
+/// Who plays in a scene. What is none is as the scene has it.
+#[derive(Debug, Clone, Default)]
+pub struct Cast {
+    /// Stones, for the scene's places in order.
+    pub designs: Vec<Design>,
+    /// What all are made of.
+    pub material: Option<Material>,
+    /// Girdle width of all, mm.
+    pub size_mm: Option<f64>,
+    /// How all stand.
+    pub pose: Option<Pose>,
+    /// Whether light is taken as unpolarised at every facet.
+    pub scalar: bool,
+}
+
+/// What entries are read against.
+pub struct Place<'a> {
+    /// World length of one of the file's units.
+    pub unit: f32,
+    /// Where files that the scene names are looked for.
+    pub folder: &'a Path,
+    /// Centre of the first stone.
+    pub centre: Vec3,
+}
+
+impl Place<'_> {
+    /// A length of the file in the world.
+    pub fn length(&self, l: f32) -> f32 {
+        l * self.unit
+    }
+
+    /// A point of the file in the world.
+    pub fn point(&self, p: [f32; 3]) -> Vec3 {
+        Vec3::from_array(p) * self.unit
+    }
+}
+
+impl SceneFile {
+    /// Reads a scene file.
+    pub fn open(path: &Path) -> Result<SceneFile, SceneError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|cause| SceneError::Read { path: path.to_owned(), cause })?;
+        let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        Self::parse(&name, &path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Understands the text of a scene.
+    ///
+    /// - `file`: what errors call it; `folder`: where files that it names are looked for
+    pub fn parse(name: &str, file: &str, text: &str, folder: &Path) -> Result<SceneFile, SceneError> {
+        let document = toml::from_str(text).map_err(|e| SceneError::Line {
+            file: file.into(),
+            line: e.span().map_or(1, |s| line_at(text, s.start)),
+            problem: e.message().replace('\n', " "),
+        })?;
+        Ok(SceneFile {
+            name: name.into(),
+            file: file.into(),
+            text: text.into(),
+            folder: folder.into(),
+            document,
+        })
+    }
+
+    /// One line about it.
+    pub fn about(&self) -> &str {
+        &self.document.about
+    }
+
+    /// The first stone's STONE, by which a picture is called.
+    pub fn first_cut(&self) -> &str {
+        self.document.stone.first().map_or("round-brilliant", |s| s.get_ref().cut())
+    }
+
+    /// Width and height of its picture.
+    pub fn picture(&self) -> (u32, u32) {
+        let [width, height] = self.document.picture.unwrap_or([640, 480]);
+        (width.clamp(1, 1 << 14), height.clamp(1, 1 << 14))
+    }
+
+    /// Sets the scene up.
+    ///
+    /// - `aspect`: width over height of the picture
+    pub fn build(&self, cast: &Cast, aspect: f32) -> Result<Scene, SceneError> {
+        let document = &self.document;
+        let (places, given) = (document.stone.len(), cast.designs.len());
+        if given > places || places == 0 {
+            return Err(SceneError::Places { scene: self.name.clone(), places, given });
+        }
+        let mut unit = 1.0;
+        let mut stones: Vec<PlacedStone> = Vec::with_capacity(places);
+        for (i, entry) in document.stone.iter().enumerate() {
+            let design = match cast.designs.get(i) {
+                Some(design) => design.clone(),
+                None => formats::stone::open(entry.get_ref().cut())?.design,
+            };
+            let (stone, material) = self.say(entry, entry.get_ref().stone(design, cast))?;
+            if i == 0 && document.unit == Unit::Stone {
+                unit = stone.unit as f32;
+            }
+            stones.push(self.say(entry, entry.get_ref().place(stone, material, unit, cast))?);
+        }
+        let centre = stones[0].position;
+        let place = Place { unit, folder: &self.folder, centre };
+        let camera: Camera = self.say(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
+        let surfaces: Result<Vec<Surface>, _> =
+            document.surface.iter().map(|e| self.say(e, e.get_ref().surface(&place))).collect();
+        let lights: Result<Vec<Light>, _> =
+            document.light.iter().map(|e| self.say(e, e.get_ref().light(&place))).collect();
+        Ok(Scene {
+            name: self.name.clone(),
+            surfaces: surfaces?,
+            lights: lights?,
+            stones,
+            camera,
+            depth: document.depth,
+        })
+    }
+
+    /// Adds the line to what is wrong with an entry: that of the key, or where the entry begins.
+    fn say<E, T>(&self, entry: &Spanned<E>, result: Result<T, Wrong>) -> Result<T, SceneError> {
+        result.map_err(|wrong| {
+            let span = entry.span();
+            let body = self.text.get(span.start..).unwrap_or_default();
+            let is_key = |line: &str| {
+                let rest = line.trim_start().strip_prefix(wrong.key).unwrap_or_default();
+                rest.trim_start().starts_with('=')
+            };
+            let down = body.lines().position(is_key).unwrap_or(0);
+            let line = line_at(&self.text, span.start) + down;
+            SceneError::Line { file: self.file.clone(), line, problem: wrong.problem }
+        })
+    }
+}
+
+/// The number, from 1, of the line that a byte lies in.
+fn line_at(text: &str, byte: usize) -> usize {
+    1 + text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count()
+}
+
+/// A stone of the walk at its size.
+pub(super) fn walking_stone(design: Design, size_mm: Option<f64>) -> Result<Stone, String> {
+    let design = match size_mm {
+        Some(mm) => design.sized(mm).map_err(|e| e.to_string())?,
+        None => design,
+    };
+    Ok(Stone::new(design.solid().map_err(|e| e.to_string())?))
+}

@@ -1,0 +1,211 @@
+//! Lights: the catalogue of what shines, one kind a file.
+
+pub mod disc;
+pub mod dome;
+pub mod sphere;
+pub mod spot;
+pub mod square;
+
+use super::Aim;
+use super::entries::{LightEntry, Wrong};
+use super::file::Place;
+use crate::optics::{Illuminant, rgb};
+use glam::{Mat3, Vec3};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// Shape of a light and how it shines, at radiance 1. Colours are parts of
+/// [`crate::optics::rgb::basis`]; white is 1, 1, 1.
+pub trait Emitter: Debug + Send + Sync {
+    /// Distance along a ray to the shining side and the colour seen there. What lies behind
+    /// everything is at `f32::MAX`.
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)>;
+
+    /// A place of the light as seen from a point, for shadow rays.
+    ///
+    /// - `normal`: of the surface at the point; `u`: two uniforms
+    fn seen_from(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse>;
+
+    /// A photon's start.
+    ///
+    /// - `u`: five uniforms
+    fn leave(&self, aim: &Aim, u: [f32; 5]) -> Option<Start>;
+
+    /// Roughly the power sent at the targets of `aim`, or into the world if it has none: what
+    /// decides how many photons a light gets.
+    fn reach(&self, aim: &Aim) -> f32;
+
+    /// Power emitted; none for a light at infinity.
+    fn power(&self) -> Option<f32>;
+
+    /// The light turned about a point.
+    fn turned(&self, turn: Mat3, about: Vec3) -> Arc<dyn Emitter>;
+}
+
+/// A place of a light, seen from a surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Glimpse {
+    /// Unit direction to it.
+    pub direction: Vec3,
+    /// How far away it is.
+    pub distance: f32,
+    /// Its colour over the density of the direction (per steradian): the mean over glimpses,
+    /// weighted by the cosine at the surface, is the irradiance.
+    pub radiance: Vec3,
+}
+
+/// A photon's first ray.
+#[derive(Debug, Clone, Copy)]
+pub struct Start {
+    /// Where.
+    pub point: Vec3,
+    /// Unit direction.
+    pub direction: Vec3,
+    /// Power: the mean over starts is the power emitted.
+    pub power: Vec3,
+}
+
+/// A light of a scene.
+#[derive(Debug, Clone)]
+pub struct Light {
+    /// Shape.
+    pub emitter: Arc<dyn Emitter>,
+    /// Spectrum.
+    pub spectrum: &'static Illuminant,
+    /// Radiance as a mixture of colours of the spectrum; grey for a light of the spectrum alone.
+    /// Scaled so that a grey light has the luminance of equal-energy light of that radiance.
+    pub radiance: Vec3,
+}
+
+impl Light {
+    /// A light of equal energy.
+    pub fn white(emitter: impl Emitter + 'static, radiance: f32) -> Light {
+        Light::new(Arc::new(emitter), Illuminant::equal_energy(), Vec3::splat(radiance))
+    }
+
+    /// A light of any spectrum.
+    ///
+    /// - `radiance`: that of equal-energy light of the same luminance
+    pub fn new(emitter: Arc<dyn Emitter>, spectrum: &'static Illuminant, radiance: Vec3) -> Light {
+        Light { emitter, spectrum, radiance: radiance / spectrum.luminance() }
+    }
+
+    /// The light turned about a point.
+    pub fn turned(&self, turn: Mat3, about: Vec3) -> Light {
+        Light { emitter: self.emitter.turned(turn, about), ..self.clone() }
+    }
+
+    /// Radiance or power at `nm` of a colour that the emitter gave.
+    pub fn at(&self, colour: Vec3, nm: f32) -> f32 {
+        let colour = colour * self.radiance;
+        if colour == Vec3::ZERO {
+            0.0
+        } else if colour == Vec3::splat(colour.x) {
+            self.spectrum.power(nm) * colour.x // the parts add up to 1
+        } else {
+            self.spectrum.power(nm) * rgb::basis(nm).dot(colour)
+        }
+    }
+}
+
+/// Makes a light's shape of its entry.
+pub type Reader = fn(&LightEntry, &Place) -> Result<Arc<dyn Emitter>, Wrong>;
+
+/// A kind of light.
+pub struct Kind {
+    /// Its name in scene files.
+    pub name: &'static str,
+    /// What it is, and what its entry states.
+    pub about: &'static str,
+    /// Makes one of its entry.
+    pub read: Reader,
+}
+
+/// Every kind of light.
+pub static LIGHTS: &[&Kind] = &[&square::KIND, &disc::KIND, &sphere::KIND, &dome::KIND, &spot::KIND];
+
+impl Kind {
+    /// The kind called `name`.
+    pub fn named(name: &str) -> Option<&'static Kind> {
+        LIGHTS.iter().copied().find(|k| k.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::disc::Disc;
+    use super::dome::Dome;
+    use super::sphere::Sphere;
+    use super::square::Square;
+    use super::*;
+    use crate::math::random::{Purpose, Stream};
+    use crate::scene::aim::Ball;
+    use std::f32::consts::PI;
+
+    fn every_kind() -> Vec<(&'static str, Arc<dyn Emitter>)> {
+        let at = Vec3::new(0.3, -0.2, 4.0);
+        vec![
+            ("square", Arc::new(Square::facing(at, Vec3::ZERO, 1.0))),
+            ("disc", Arc::new(Disc::facing(at, Vec3::ZERO, 0.6, 90.0))),
+            ("spot", Arc::new(Disc::facing(at, Vec3::ZERO, 0.6, 20.0))),
+            ("sphere", Arc::new(Sphere { centre: at, radius: 0.6 })),
+            ("dome", Arc::new(Dome::uniform())),
+        ]
+    }
+
+    /// [D] What a light throws on a small target by photons, aimed or not, is what shadow rays see
+    /// there; and the power of all photons is the closed form.
+    #[test]
+    fn photons_and_shadow_rays_agree_and_power_has_its_closed_form() {
+        let target = Ball { centre: Vec3::ZERO, radius: 0.5 };
+        let world = Ball { centre: Vec3::ZERO, radius: 2.0 };
+        for (name, light) in every_kind() {
+            let mut stream = Stream::new(3, Purpose::Test, 0);
+            let n = 100_000;
+            // irradiance on the disc z = 0, |xy| < 0.3, facing up, times its area
+            let mut seen = 0.0f64;
+            for _ in 0..n {
+                let at = (crate::math::sample::disc(stream.pair()) * 0.3).extend(0.0);
+                if let Some(g) = light.seen_from(at, Vec3::Z, stream.pair()) {
+                    let cos = g.direction.z.max(0.0);
+                    seen += f64::from(g.radiance.y * cos * PI * 0.09) / f64::from(n);
+                }
+            }
+            for share in [0.0, 0.5] {
+                let aim = Aim { targets: vec![target], share, world };
+                let (mut caught, mut all, mut hits) = (0.0f64, 0.0f64, 0);
+                for _ in 0..n {
+                    let u = std::array::from_fn(|_| stream.unit());
+                    let Some(start) = light.leave(&aim, u) else { continue };
+                    all += f64::from(start.power.y) / f64::from(n);
+                    let t = -start.point.z / start.direction.z;
+                    let at = start.point + start.direction * t;
+                    if start.direction.z < 0.0 && t > 0.0 && at.truncate().length() < 0.3 {
+                        caught += f64::from(start.power.y) / f64::from(n);
+                        hits += 1;
+                    }
+                }
+                // powers of hits differ by less than a factor of two
+                let tolerance = 4.0 * 1.2 / f64::from(hits).sqrt() + 0.005;
+                assert!((caught / seen - 1.0).abs() < tolerance, "{name} {share}: {caught} {seen}");
+                if let Some(power) = light.power() {
+                    assert!((all / f64::from(power) - 1.0).abs() < 0.03, "{name} {share}: {all} {power}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_glimpse_sees_is_there() {
+        let mut stream = Stream::new(4, Purpose::Test, 0);
+        for (name, light) in every_kind() {
+            for _ in 0..1000 {
+                let point = Vec3::new(stream.unit(), stream.unit(), 0.0);
+                let Some(g) = light.seen_from(point, Vec3::Z, stream.pair()) else { continue };
+                let (t, colour) = light.hit(point, g.direction).expect(name);
+                assert!(t == g.distance || (t - g.distance).abs() < 1e-3, "{name}: {t} {}", g.distance);
+                assert!(colour.y > 0.0 || g.radiance.y == 0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The dome: light from all directions, far away. Uniform, a gem viewer's zones, or a panorama.
+
+use super::{Emitter, Glimpse, Kind, Start};
+use crate::math::sample;
+use crate::optics::viewers::Viewer;
+use crate::scene::Aim;
+use crate::scene::panorama::Panorama;
+use glam::{Mat3, Vec3};
+use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Nothing, `viewer` or `panorama`.
+pub static KIND: Kind = Kind {
+    name: "dome",
+    about: "light from everywhere: uniform, or viewer = NAME, or panorama = FILE (.hdr, .exr)",
+    read: |entry, place| {
+        let sky = match (entry.viewer()?, entry.panorama(place)?) {
+            (Some(viewer), _) => Sky::Zones(viewer),
+            (None, Some(panorama)) => Sky::Panorama(Arc::new(panorama)),
+            (None, None) => Sky::Uniform,
+        };
+        Ok(Arc::new(Dome { sky, world_from_sky: entry.turned() }))
+    },
+};
+
+/// A sphere of light at infinity.
+#[derive(Debug, Clone)]
+pub struct Dome {
+    sky: Sky,
+    world_from_sky: Mat3,
+}
+
+#[derive(Debug, Clone)]
+enum Sky {
+    Uniform,
+    Zones(&'static Viewer),
+    Panorama(Arc<Panorama>),
+}
+
+impl Dome {
+    /// Radiance 1 from everywhere.
+    pub fn uniform() -> Dome {
+        Dome { sky: Sky::Uniform, world_from_sky: Mat3::IDENTITY }
+    }
+
+    fn colour(&self, direction: Vec3) -> Vec3 {
+        let d = self.world_from_sky.transpose() * direction;
+        match &self.sky {
+            Sky::Uniform => Vec3::ONE,
+            Sky::Zones(viewer) => viewer.zones[viewer.zone(d.z)].colour,
+            Sky::Panorama(panorama) => panorama.colour(d),
+        }
+    }
+
+    /// A direction to the sky and its colour over the density.
+    fn draw(&self, u: [f32; 2]) -> (Vec3, Vec3) {
+        if let Sky::Panorama(panorama) = &self.sky {
+            let (d, colour) = panorama.draw(u);
+            return (self.world_from_sky * d, colour);
+        }
+        let (z, phi) = (1.0 - 2.0 * u[0], TAU * u[1]);
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        let direction = Vec3::new(r * phi.cos(), r * phi.sin(), z);
+        (direction, self.colour(direction) * (4.0 * PI))
+    }
+}
+
+impl Emitter for Dome {
+    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+        Some((f32::MAX, self.colour(direction)))
+    }
+
+    fn seen_from(&self, _: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse> {
+        let (direction, radiance) = match &self.sky {
+            Sky::Panorama(_) => self.draw(u),
+            _ => {
+                let direction = sample::about(normal, sample::cosine_hemisphere(u));
+                let density = sample::cosine_hemisphere_pdf(direction.dot(normal).max(1e-6));
+                (direction, self.colour(direction) / density)
+            }
+        };
+        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: f32::MAX, radiance })
+    }
+
+    fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {
+        let (from, colour) = self.draw([s, t]);
+        let (point, area) = aim.beam(-from, pick, [u, v]);
+        Some(Start { point, direction: -from, power: colour * area })
+    }
+
+    fn reach(&self, aim: &Aim) -> f32 {
+        let mean = match &self.sky {
+            Sky::Panorama(panorama) => panorama.mean(),
+            _ => 1.0,
+        };
+        4.0 * PI * mean * aim.area()
+    }
+
+    fn power(&self) -> Option<f32> {
+        None
+    }
+
+    fn turned(&self, turn: Mat3, _: Vec3) -> Arc<dyn Emitter> {
+        Arc::new(Dome { sky: self.sky.clone(), world_from_sky: turn * self.world_from_sky })
+    }
+}

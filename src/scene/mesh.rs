@@ -1,0 +1,109 @@
+//! Triangle meshes around the stones, in a tree of boxes.
+
+use crate::formats::scenery::Triangles;
+use glam::{DMat3, DVec3, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::triangle::Triangle;
+
+/// A mesh ready to be met by rays, on both sides.
+pub struct Mesh {
+    triangles: Vec<Triangle>,
+    tree: Bvh2,
+    /// CRC-32 of its corners.
+    checksum: u32,
+}
+
+/// A mesh is told apart by its corners.
+impl std::fmt::Debug for Mesh {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "mesh of {} triangles {:08x}", self.triangles.len(), self.checksum)
+    }
+}
+
+impl Mesh {
+    /// Places a mesh: turned and scaled about its own origin, then moved.
+    pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Mesh {
+        let place = |i: usize| (at + turn * mesh.vertices[i] * scale).as_vec3a();
+        let mut triangles: Vec<Triangle> = mesh
+            .triangles
+            .iter()
+            .map(|[a, b, c]| Triangle { v0: place(*a), v1: place(*b), v2: place(*c) })
+            .collect();
+        let mut crc = crc32fast::Hasher::new();
+        for t in &triangles {
+            [t.v0, t.v1, t.v2].iter().flat_map(|v| v.to_array()).for_each(|x| crc.update(&x.to_le_bytes()));
+        }
+        let tree = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Default::default());
+        // in the tree's order, so that a leaf's number is its triangle's
+        triangles = tree.primitive_indices.iter().map(|i| triangles[*i as usize]).collect();
+        Mesh { triangles, tree, checksum: crc.finalize() }
+    }
+
+    /// Distance along a ray and the unit normal on the ray's side.
+    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+        // a ray that starts on the mesh does not meet it again there
+        let (low, high) = self.bounds();
+        let near = 1e-5 * (high - low).length().max(origin.abs().max_element());
+        let ray = Ray::new(origin.into(), direction.into(), near, f32::INFINITY);
+        let mut hit = RayHit::none();
+        let met = self.tree.ray_traverse(ray, &mut hit, |ray, id| self.triangles[id].intersect(ray));
+        if !met {
+            return None;
+        }
+        let t = &self.triangles[hit.primitive_id as usize];
+        let normal = Vec3::from((t.v1 - t.v0).cross(t.v2 - t.v0)).normalize_or(-direction);
+        Some((hit.t, if normal.dot(direction) > 0.0 { -normal } else { normal }))
+    }
+
+    /// Lowest and highest corner of its box.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let root = self.tree.nodes.first().map(|n| (n.aabb().min, n.aabb().max));
+        let (low, high) = root.unwrap_or((Vec3A::ZERO, Vec3A::ZERO));
+        (low.into(), high.into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::library;
+    use crate::math::random::{Purpose, Stream};
+    use crate::walk::Stone;
+    use std::collections::BTreeMap;
+
+    /// The tree finds what the planes of a convex stone find.
+    #[test]
+    fn a_mesh_of_a_brilliant_is_met_where_its_planes_are() {
+        let design =
+            library::design("round-brilliant", &BTreeMap::new()).expect("in the library").expect("builds");
+        let stone = Stone::new(design.solid().expect("closed"));
+        let mesh = stone.solid.triangulate();
+        let triangles = Triangles { vertices: mesh.vertices, triangles: mesh.triangles };
+        let scale = 1.0 / stone.unit;
+        let mesh = Mesh::new(&triangles, DMat3::IDENTITY, scale, -stone.centre * scale);
+        let mut stream = Stream::new(5, Purpose::Test, 0);
+        let mut met = 0;
+        for _ in 0..2000 {
+            let from =
+                Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5).normalize() * 3.0;
+            let to = Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5) * 1.5;
+            let d = (to - from).normalize();
+            match (stone.hit(from, d), mesh.hit(from, d)) {
+                (Some(a), Some((t, n))) => {
+                    met += 1;
+                    assert!((a.distance - t).abs() < 1e-4, "{} {t}", a.distance);
+                    assert!(n.dot(d) < 0.0);
+                }
+                (None, None) => {}
+                (a, b) => assert!(
+                    a.map(|h| h.distance).or(b.map(|h| h.0)).is_some_and(|t| (from + d * t).length() > 0.3),
+                    "one side alone {a:?} {b:?}"
+                ),
+            }
+        }
+        assert!(met > 500);
+    }
+}

@@ -1,0 +1,125 @@
+//! Panoramas: light all around, from a picture of high dynamic range.
+//!
+//! Equirectangular, the zenith at the top, the middle of the picture toward +y.
+
+use crate::optics::rgb;
+use glam::Vec3;
+use std::f32::consts::{PI, TAU};
+use std::path::Path;
+
+/// Most pixels of a panorama: 16384 × 8192.
+const MOST_PIXELS: u64 = 1 << 27;
+
+/// A panorama ready for look-up and for drawing directions by brightness.
+pub struct Panorama {
+    width: usize,
+    height: usize,
+    /// Colours as parts of [`rgb::basis`].
+    pixels: Vec<Vec3>,
+    /// Cumulative brightness × solid angle after each pixel, from 0 to 1.
+    cumulative: Vec<f64>,
+    mean: f32,
+    /// CRC-32 of the file.
+    checksum: u32,
+}
+
+/// A panorama is told apart by its file.
+impl std::fmt::Debug for Panorama {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "panorama {}×{} {:08x}", self.width, self.height, self.checksum)
+    }
+}
+
+impl Panorama {
+    /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
+    pub fn open(path: &Path) -> Result<Panorama, String> {
+        let wrong = |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", path.display());
+        let bytes = std::fs::read(path).map_err(|e| wrong(&e))?;
+        let reader = image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
+        let mut reader = reader.map_err(|e| wrong(&e))?;
+        let mut limits = image::Limits::default();
+        limits.max_alloc = Some(MOST_PIXELS * 16);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|e| wrong(&e))?.into_rgb32f();
+        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        let pixels: Vec<Vec3> = picture
+            .pixels()
+            .map(|p| rgb::mixture(Vec3::from_array(p.0).map(|x| if x.is_finite() { x } else { 0.0 })))
+            .collect();
+        if pixels.iter().all(|p| *p == Vec3::ZERO) {
+            return Err(wrong(&"it is black"));
+        }
+        Ok(Panorama::new(width, height, pixels, crc32fast::hash(&bytes)))
+    }
+
+    fn new(width: usize, height: usize, pixels: Vec<Vec3>, checksum: u32) -> Panorama {
+        let solid_angle = |i: usize| {
+            let row = |y: usize| f64::from((PI * y as f32 / height as f32).cos());
+            (row(i / width) - row(i / width + 1)) * f64::from(TAU) / width as f64
+        };
+        let mut sum = 0.0;
+        let mut cumulative: Vec<f64> = (0..pixels.len())
+            .map(|i| {
+                sum += f64::from(pixels[i].element_sum() / 3.0) * solid_angle(i);
+                sum
+            })
+            .collect();
+        cumulative.iter_mut().for_each(|c| *c /= sum);
+        Panorama { width, height, pixels, cumulative, mean: (sum / f64::from(4.0 * PI)) as f32, checksum }
+    }
+
+    /// Mean brightness over the sphere.
+    pub fn mean(&self) -> f32 {
+        self.mean
+    }
+
+    /// Colour seen in a unit direction.
+    pub fn colour(&self, d: Vec3) -> Vec3 {
+        let x = (0.5 + d.x.atan2(d.y) / TAU) * self.width as f32;
+        let y = d.z.clamp(-1.0, 1.0).acos() / PI * self.height as f32;
+        self.pixels[(y as usize).min(self.height - 1) * self.width + (x as usize).min(self.width - 1)]
+    }
+
+    /// A direction drawn by brightness, and its colour over the density per steradian.
+    pub fn draw(&self, u: [f32; 2]) -> (Vec3, Vec3) {
+        let target = f64::from(u[0]);
+        let i = self.cumulative.partition_point(|c| *c <= target).min(self.pixels.len() - 1);
+        let before = if i == 0 { 0.0 } else { self.cumulative[i - 1] };
+        let within = ((target - before) / (self.cumulative[i] - before)).clamp(0.0, 1.0) as f32;
+        let row = |y: usize| (PI * y as f32 / self.height as f32).cos();
+        let z = row(i / self.width) + (row(i / self.width + 1) - row(i / self.width)) * u[1];
+        let phi = ((i % self.width) as f32 + within) / self.width as f32 * TAU - PI;
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        let colour = self.pixels[i];
+        let brightness = colour.element_sum() / 3.0;
+        (Vec3::new(r * phi.sin(), r * phi.cos(), z), colour * (4.0 * PI * self.mean / brightness))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::{Purpose, Stream};
+
+    #[test]
+    fn directions_are_drawn_by_brightness_and_found_again() {
+        let mut pixels = vec![Vec3::splat(0.1); 32 * 16];
+        pixels[4 * 32 + 20] = Vec3::new(50.0, 40.0, 30.0);
+        let sky = Panorama::new(32, 16, pixels, 0);
+        let mut stream = Stream::new(1, Purpose::Test, 0);
+        let n = 100_000;
+        let mut up = Vec3::ZERO;
+        for _ in 0..n {
+            let (d, radiance) = sky.draw(stream.pair());
+            let seen = sky.colour(d);
+            let density = seen.y / radiance.y;
+            assert!((density / (seen.element_sum() / 3.0) * (4.0 * PI * sky.mean()) - 1.0).abs() < 1e-3);
+            up += radiance * d.z.max(0.0) / n as f32;
+        }
+        // the sun's pixel: solid angle × sine of its height; the sky: π × 0.1
+        let (a, b) = ((PI * 4.0 / 16.0).cos(), (PI * 5.0 / 16.0).cos());
+        let sun = (a * a - b * b) / 2.0 * TAU / 32.0;
+        let expected = 0.1 * PI + sun * 39.9;
+        assert!((up.y / expected - 1.0).abs() < 0.01, "{} {expected}", up.y);
+    }
+}

@@ -1,0 +1,90 @@
+//! A stone in the world.
+
+use super::aim::Ball;
+use crate::optics::Material;
+use crate::walk::Stone;
+use glam::{DMat3, DVec3, Mat3, Vec3};
+
+/// A stone placed in the world.
+#[derive(Debug, Clone)]
+pub struct PlacedStone {
+    /// The stone, ready to walk; made from a solid in millimetres if the material absorbs.
+    pub stone: Stone,
+    /// What it is made of.
+    pub material: Material,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
+    /// each (scalar Fresnel).
+    pub polarised: bool,
+    /// Rotation from the walking frame to the world.
+    pub world_from_stone: Mat3,
+    /// World position of the walking frame's origin.
+    pub position: Vec3,
+    /// World length of one walking unit: the radius of the sphere around the stone.
+    pub radius: f32,
+}
+
+impl PlacedStone {
+    /// A stone of `radius` (world units) set down so that its lowest corner touches z = `floor.z`,
+    /// its centre above the other two.
+    pub fn resting(stone: Stone, material: Material, turn: DMat3, radius: f32, floor: Vec3) -> PlacedStone {
+        let lowest = stone
+            .solid
+            .vertices
+            .iter()
+            .map(|v| (turn * stone.from_design(*v)).z)
+            .fold(f64::INFINITY, f64::min);
+        // a hair above the floor, so that no point of the floor lies inside the stone
+        const GAP: f32 = 1e-3;
+        let position = floor + Vec3::Z * radius * (GAP - lowest as f32);
+        PlacedStone { stone, material, polarised: true, world_from_stone: turn.as_mat3(), position, radius }
+    }
+
+    /// The stone turned in the world about its centre, then lifted or lowered so that its lowest
+    /// corner is as high as before.
+    pub fn turned(&self, turn: Mat3) -> PlacedStone {
+        let mut turned = PlacedStone { world_from_stone: turn * self.world_from_stone, ..self.clone() };
+        turned.position.z += self.lowest() - turned.lowest();
+        turned
+    }
+
+    fn lowest(&self) -> f32 {
+        let height = |v: &DVec3| self.point_to_world(self.stone.from_design(*v).as_vec3()).z;
+        self.stone.solid.vertices.iter().map(height).fold(f32::INFINITY, f32::min)
+    }
+
+    /// The sphere around the stone.
+    pub fn ball(&self) -> Ball {
+        Ball { centre: self.position, radius: self.radius }
+    }
+
+    /// A world point in the walking frame.
+    pub fn point_to_stone(&self, p: Vec3) -> Vec3 {
+        self.world_from_stone.transpose() * (p - self.position) / self.radius
+    }
+
+    /// A walking-frame point in the world.
+    pub fn point_to_world(&self, p: Vec3) -> Vec3 {
+        self.position + self.world_from_stone * p * self.radius
+    }
+
+    /// A world direction in the walking frame.
+    pub fn direction_to_stone(&self, d: Vec3) -> Vec3 {
+        self.world_from_stone.transpose() * d
+    }
+
+    /// A walking-frame direction in the world.
+    pub fn direction_to_world(&self, d: Vec3) -> Vec3 {
+        self.world_from_stone * d
+    }
+
+    /// Index of refraction at `nm`.
+    pub fn index(&self, nm: f32) -> f32 {
+        self.material.index(f64::from(nm) / 1000.0) as f32
+    }
+
+    /// Absorption coefficient at `nm`, per walking unit: the stone's own size in millimetres counts,
+    /// not how large it is shown.
+    pub fn absorption(&self, nm: f32) -> f32 {
+        (self.material.absorption_per_mm(f64::from(nm) / 1000.0) * self.stone.unit) as f32
+    }
+}
