@@ -65,8 +65,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     args.scoring.notes(console);
     let requests: Vec<Request> = args.stones.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
     let subject = |r: &Request| {
-        let solid = Ok(r.design.solid()?);
-        Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), solid, tilt: None })
+        let shape = Ok(r.design.solid()?.into());
+        Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
     let subjects: Vec<Subject> = requests.iter().map(subject).collect::<Result<_, Failure>>()?;
     let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");

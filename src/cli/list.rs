@@ -54,7 +54,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Kind::Metrics => entries(METRICS.iter().map(|m| {
             let unit = if m.unit.is_empty() { String::new() } else { format!(" [{}]", m.unit) };
             let beams = if m.by_beams { " By beams with --exact." } else { "" };
-            (m.name.to_string(), format!("{}{beams} Source: {}.{unit}", m.definition, m.source))
+            let dented = if m.dented { " Of stones with dents too." } else { "" };
+            (m.name.to_string(), format!("{}{beams}{dented} Source: {}.{unit}", m.definition, m.source))
         })),
         Kind::Formats => entries(FORMATS.iter().map(|f| {
             let how = if f.write.is_some() { "read, written" } else { "read" };

@@ -101,7 +101,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     let subject = Subject {
         stone: request.stone.clone(),
         material: request.material.clone(),
-        solid: Ok(solid.clone()),
+        shape: Ok(solid.clone().into()),
         tilt: None,
     };
     let row = score(&subject, &plan);

@@ -60,6 +60,7 @@ pub fn plots(stones: &[(&Request, &str, &Polyhedron)], plan: &Plan, step: &dyn F
             x: "tilt (°)".into(),
             y: format!("{}{unit}", metric.name),
             curves,
+            dots: Vec::new(),
             small: true,
             ..Curves::default()
         };

@@ -146,6 +146,7 @@ fn plot(report: &Report, axes: Axes) -> String {
         x: axes.x.into(),
         y: axes.y.into(),
         curves: vec![Curve { name: String::new(), points }],
+        small: false,
         dots: report.outcomes.iter().filter_map(dot).collect(),
         ..Curves::default()
     }

@@ -35,7 +35,8 @@ pub fn diamond() -> Material {
 }
 
 pub fn subject(name: &str, design: &Design, material: Material) -> Subject {
-    Subject { stone: name.into(), material, solid: design.solid().map_err(|e| e.to_string()), tilt: None }
+    let shape = design.solid().map(Into::into).map_err(|e| e.to_string());
+    Subject { stone: name.into(), material, shape, tilt: None }
 }
 
 /// Scalar Fresnel, as the reference figures have it.
