@@ -10,3 +10,4 @@ pub mod shard;
 mod sheet;
 pub mod sweep;
 pub mod table;
+pub mod validate;
