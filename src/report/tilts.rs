@@ -44,7 +44,7 @@ pub fn plots(stones: &[(&Request, &str, &Polyhedron)], plan: &Plan, step: &dyn F
             let subject = Subject {
                 stone: request.stone.clone(),
                 material: request.material.clone(),
-                solid: Ok((*solid).clone()),
+                shape: Ok((*solid).clone().into()),
                 tilt: Some(Tilt { degrees, azimuth: 0.0 }),
             };
             for (line, value) in lines.iter_mut().zip(score(&subject, &plan).scores) {

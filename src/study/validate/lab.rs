@@ -75,8 +75,8 @@ impl Lab {
         let named = |name: &&str| Metric::named(name).ok_or_else(|| TrialError::Unknown(name.to_string()));
         let metrics = metrics.iter().map(named).collect::<Result<_, _>>()?;
         let plan = Plan { metrics, polarised: false, seed: self.seed, ..plan };
-        let solid = Ok(design.solid()?);
-        let subject = Subject { stone: design.name.clone(), material: material.clone(), solid, tilt: None };
+        let shape = Ok(design.solid()?.into());
+        let subject = Subject { stone: design.name.clone(), material: material.clone(), shape, tilt: None };
         let row = score(&subject, &plan);
         if let Some(error) = row.error {
             return Err(TrialError::Score(error));
