@@ -20,6 +20,7 @@ mod show;
 mod stones;
 mod sweep;
 mod tables;
+mod validate;
 mod words;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -40,7 +41,7 @@ struct Cli {
 const AFTER_HELP: &str = "\
 STONE is a name from `cutlab list cuts`, a name with parameters
 (round-brilliant:crown-angle=35,pavilion-angle=41), or a file.
-Exit codes: 0 done, 1 some stones failed, 2 usage or no input was good,
+Exit codes: 0 done, 1 some stones (or figures of validate) failed, 2 usage or no input was good,
 3 could not read or write, 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
@@ -63,6 +64,8 @@ enum Command {
     Compare(compare::Args),
     /// Everything about one stone: pictures, scores and a page
     Report(report::Args),
+    /// Published and derivable figures against what this program computes
+    Validate(validate::Args),
     /// What there is to choose from
     List(list::Args),
 }
@@ -79,6 +82,7 @@ impl Command {
             Command::Merge(args) => merge::run(args, console),
             Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
+            Command::Validate(args) => validate::run(args, console),
             Command::List(args) => list::run(args, console),
         }
     }

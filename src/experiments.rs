@@ -3,7 +3,8 @@
 //! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of
 //! the stone, traced backward; [`Iso`] the same by the rules of faceters; [`Contrast`] and
 //! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`Beam`]: a
-//! point light at infinity, in colours. An experiment adds up small sums in independent batches
+//! point light at infinity, in colours. [`dented`] has the first two for stones that are not convex. An
+//! experiment adds up small sums in independent batches
 //! ([`Traced`]); a metric is a function of such sums, and the spread of the batches is its error.
 //! The viewer, and light with him, looks from an [`Aspect`].
 
@@ -13,6 +14,7 @@ pub mod beam;
 pub mod by_beams;
 pub mod cells;
 pub mod contrast;
+pub mod dented;
 mod entrance;
 pub mod exact;
 pub mod hemisphere;
@@ -35,7 +37,6 @@ pub use scintillation::Scintillation;
 pub use view::View;
 
 use crate::optics::Material;
-use crate::walk::Stone;
 
 /// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is
 /// in millimetres: its size shows.
@@ -63,10 +64,11 @@ impl Optics {
 }
 
 impl Medium<'_> {
-    /// Optics of a stone at `um` (µm); refuses indices at which the formulas mean nothing.
-    fn optics(&self, stone: &Stone, um: f64) -> Result<Optics, ExperimentError> {
+    /// Optics of a stone with a walking unit of `unit` at `um` (µm); refuses indices at which the
+    /// formulas mean nothing.
+    fn optics(&self, unit: f64, um: f64) -> Result<Optics, ExperimentError> {
         let index = check_index(self.material.index(um))?;
-        Ok(Optics { index, absorption: (self.material.absorption_per_mm(um) * stone.unit) as f32 })
+        Ok(Optics { index, absorption: (self.material.absorption_per_mm(um) * unit) as f32 })
     }
 }
 

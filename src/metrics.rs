@@ -57,6 +57,8 @@ pub struct Metric {
     pub observer: Option<f64>,
     /// Whether beams give it too (`--exact`).
     pub by_beams: bool,
+    /// Whether stones that are not convex have it too: a sum of power.
+    pub dented: bool,
     /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
     pub definition: &'static str,
     /// Where the definition is from.

@@ -7,5 +7,7 @@ pub mod merge;
 pub mod meta;
 pub mod score;
 pub mod shard;
+mod sheet;
 pub mod sweep;
 pub mod table;
+pub mod validate;

@@ -169,7 +169,7 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
         let subject = Subject {
             stone: "s".into(),
             material,
-            solid: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed")),
+            shape: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed").into()),
             tilt: None,
         };
         let plan = Plan { effort: Effort::Samples(1 << 14), seed: SEED, ..Plan::default() };

@@ -63,7 +63,34 @@ fn show_tells_what_it_can_of_a_mesh_with_a_dent() {
     assert!(sheet["facets"].as_u64().is_some_and(|n| n > 4) && sheet["box"].is_array(), "{sheet}");
     assert!(sheet["volume"].as_f64().is_some_and(|v| v > 0.0), "{sheet}");
     assert!(bench.good(&["show", &dented]).contains("convex          no"));
-    assert!(bench.bad(&["score", &dented]).contains("not convex"));
+}
+
+/// Its sums of power add up; scores that ask for the strongest path, or the solid, have no value.
+#[test]
+fn a_mesh_with_a_dent_is_scored_as_far_as_it_can_be() {
+    let bench = Bench::new();
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bad");
+    let dented = bad.join("dented.obj").display().to_string();
+    let table = bench.good(&["score", &dented, "--size", "5", "--material", "ruby"]);
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let heads = reader.headers().expect("a header").clone();
+    let row = reader.records().next().expect("a row").expect("a row");
+    let cell = |name: &str| heads.iter().position(|h| h == name).map_or("", |i| &row[i]);
+    let number = |name: &str| cell(name).parse::<f64>().unwrap_or(f64::NAN);
+    let sum: f64 = ["light_return", "glare", "leakage", "absorbed", "lost"].map(number).iter().sum();
+    assert!((sum - 1.0).abs() < 1e-6, "{table}");
+    assert!(number("absorbed") > 0.0 && number("brightness") > 0.0 && number("wlr_se") > 0.0, "{table}");
+    assert_eq!(cell("facets").parse().ok(), Some(8), "{table}");
+    for name in ["leakage_strongest", "windowing", "extinction", "iso", "weight_ratio", "error"] {
+        assert_eq!(cell(name), "", "{name}: {table}");
+    }
+    let out = bench.run(&["score", &dented, "--metrics", "iso,windowing"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("none of the scores asked for"), "{}", text(&out.stderr));
+    let two = bad.join("two-stones.obj").display().to_string();
+    let out = bench.run(&["score", &two, "--metrics", "wlr"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("2 separate closed"), "{}", text(&out.stderr));
 }
 
 #[test]

@@ -156,6 +156,22 @@ fn entered_is_left_and_lost() {
     }
 }
 
+/// A lane that has been put to rest, or never set, lets nothing out whatever its Stokes vector was.
+#[test]
+fn a_lane_at_rest_stays_dark() {
+    for isa in Isa::all() {
+        let mut packet = rain(&brilliant(isa), &mut Stream::new(SEED, Purpose::Test, 3));
+        packet.power[5] = 0.0;
+        (packet.q[5], packet.u[5]) = (0.3, -0.2);
+        let mut meetings = 0;
+        brilliant(isa).walk(&mut packet, 1e-4, |m, after| {
+            meetings += 1;
+            assert_eq!((m.power[5], after.power[5]), (0.0, 0.0), "{}", isa.name());
+        });
+        assert!(meetings > 10);
+    }
+}
+
 /// [R] With polarisation the light that a vertical view of the reference stone sends up changes by
 /// .0007.
 #[test]

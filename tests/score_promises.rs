@@ -84,7 +84,7 @@ fn rows_hold_what_applies_and_say_what_failed() {
     subjects.push(Subject {
         stone: "open".into(),
         material: diamond(),
-        solid: Err("open: no table".into()),
+        shape: Err("open: no table".into()),
         tilt: None,
     });
     let plan = plan(&["wlr", "fire_streak"], 1000);

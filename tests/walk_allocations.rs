@@ -90,7 +90,7 @@ fn twin_and_dented_stones_allocate_nothing() {
                 stokes: None,
             };
             scalar::walk(&stone.planes, ray, 1e-4, |_| meetings += 1);
-            mesh.walk(ray, Side::Inside, 1e-4, &mut stream, |_| meetings += 1);
+            mesh.walk(ray, Side::Inside, 1e-4, &mut stream, |_, _| meetings += 1);
         }
     });
     assert!(meetings > 100);

@@ -65,8 +65,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     args.scoring.notes(console);
     let requests: Vec<Request> = args.stones.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
     let subject = |r: &Request| {
-        let solid = Ok(r.design.solid()?);
-        Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), solid, tilt: None })
+        let shape = Ok(r.design.solid()?.into());
+        Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
     let subjects: Vec<Subject> = requests.iter().map(subject).collect::<Result<_, Failure>>()?;
     let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");
@@ -137,9 +137,11 @@ fn text(comparison: &Comparison, plan: &Plan) -> String {
         Some((value, None)) => value,
         None => "–".into(),
     };
+    let names: Vec<&str> = rows.iter().map(|r| r.stone.as_str()).collect();
+    let labels = versus::labels(&names);
     let mut head = vec![String::new()];
-    head.extend(rows.iter().map(|r| r.stone.clone()));
-    head.extend(rows[1..].iter().map(|r| format!("{} less {}", r.stone, rows[0].stone)));
+    head.extend(labels.iter().cloned());
+    head.extend(labels[1..].iter().map(|label| format!("{label} less {}", labels[0])));
     let mut lines = vec![head];
     for (m, metric) in plan.metrics.iter().enumerate() {
         let mut line = vec![metric.name.to_string()];
@@ -159,6 +161,9 @@ fn text(comparison: &Comparison, plan: &Plan) -> String {
             line.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}", w = *w)).collect();
         out += cells.join("  ").trim_end();
         out += "\n";
+    }
+    for line in versus::explained(&names) {
+        out += &format!("{line}\n");
     }
     out + "after ± one standard error; * a difference beyond three of its errors\n"
 }

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::library;
 use crate::formats::FORMATS;
-use crate::metrics::METRICS;
+use crate::metrics::{METRICS, Metric, Reading};
 use crate::optics::dispersion::lines;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
@@ -54,7 +54,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Kind::Metrics => entries(METRICS.iter().map(|m| {
             let unit = if m.unit.is_empty() { String::new() } else { format!(" [{}]", m.unit) };
             let beams = if m.by_beams { " By beams with --exact." } else { "" };
-            (m.name.to_string(), format!("{}{beams} Source: {}.{unit}", m.definition, m.source))
+            let dented = if m.dented { " Of stones with dents too." } else { "" };
+            (m.name.to_string(), format!("{}{beams}{dented} Source: {}.{unit}", m.definition, m.source))
         })),
         Kind::Formats => entries(FORMATS.iter().map(|f| {
             let how = if f.write.is_some() { "read, written" } else { "read" };
@@ -68,12 +69,56 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     };
     if console.json {
         console.print_json(&entries)?;
+    } else if matches!(args.kind, Kind::Metrics) {
+        let blocks: Vec<String> = METRICS.iter().map(|m| block(m)).collect();
+        console.print(blocks.join("\n").trim_end())?;
     } else {
         let width = entries.iter().map(|e| e.name.len()).max().unwrap_or(0);
         let lines: Vec<String> = entries.iter().map(|e| format!("{:width$}  {}", e.name, e.about)).collect();
         console.print(&lines.join("\n"))?;
     }
     Ok(Code::Done)
+}
+
+/// A score for people: what it tells, its definition, and what belongs to it line by line.
+fn block(m: &Metric) -> String {
+    let unit = if m.unit.is_empty() { "a fraction" } else { m.unit };
+    let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
+    let error = match (m.reading, m.by_beams) {
+        (Reading::Solid(_), _) => "none: a closed form",
+        (_, true) => "of 64 batches of random rays; beams with --exact",
+        (_, false) => "of 64 batches of random rays",
+    };
+    let mut out = format!("{}: {}\n", m.name, m.about);
+    let lines = [
+        ("definition", m.definition.to_string()),
+        ("observer", observer),
+        ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
+        ("experiment", m.reading.experiment().into()),
+        ("error", error.into()),
+        ("source", m.source.into()),
+    ];
+    for (label, text) in lines {
+        for (i, line) in wrapped(&text, 84).iter().enumerate() {
+            out += &format!("    {:<11} {line}\n", if i == 0 { label } else { "" });
+        }
+    }
+    out
+}
+
+/// Words in lines of up to `width` characters.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                *line += " ";
+                *line += word;
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
 }
 
 /// Indices, range, density, colour and sources of a material.

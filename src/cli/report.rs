@@ -15,6 +15,14 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Example:
+  cutlab report tolkowsky -o out       writes into out/
+
+index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
+the cutting diagram, every score beside five reference stones, scores against the tilt, and for round
+brilliants their place on the map of light return. Beside it stand the pictures (table.png, aset.png,
+ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml.")]
 pub struct Args {
     /// The stone: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
@@ -73,7 +81,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         return Ok(Code::Done);
     }
     let mut text = String::new();
-    for section in &bundle.sections {
+    for section in bundle.sections.iter().filter(|s| s.large > 0) {
         text += &format!("{}\n", section.head);
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };

@@ -9,7 +9,7 @@ use crate::optics::Material;
 use crate::optics::dispersion::lines;
 use crate::study::batch::Outcome;
 use crate::study::identity::Identity;
-use crate::study::score::{Effort, Plan, Row, Subject, Tilt, score};
+use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
 use std::path::Path;
 
 #[derive(Debug, Clone, clap::Args)]
@@ -108,25 +108,38 @@ impl Scoring {
         words
     }
 
+    /// What the STONE `spec` is made of, and its shape as large as it is to be.
+    fn shape(&self, spec: &str) -> Result<(Material, Shape), Failure> {
+        let failure = match stones::open(spec) {
+            Ok(imported) => {
+                let material = self.substance.of(&imported.design);
+                let size = self.size.or(stones::usual_size(&imported.design, &material));
+                let design = stones::sized(imported.design, size)?;
+                return Ok((material, design.solid()?.into()));
+            }
+            Err(failure) => failure,
+        };
+        let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
+        let body = body.ok_or(failure)?;
+        let material = self.substance.drawn_for(None);
+        let size = self.size.or((!material.is_clear()).then_some(stones::USUAL_SIZE));
+        let scale = size.map_or(1.0, |mm| mm / body.width());
+        Ok((material, Shape::Dented(Box::new(body.scaled(scale)))))
+    }
+
     /// Scores the STONE `spec`.
     pub fn score(&self, spec: &str, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
-        let substance = self.substance;
-        let opened = stones::open(spec).and_then(|imported| {
-            let material = substance.of(&imported.design);
-            let size = self.size.or(stones::usual_size(&imported.design, &material));
-            let design = stones::sized(imported.design, size)?;
-            Ok((material, design.solid()?))
-        });
-        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
-        let (material, solid, code) = match opened {
-            Ok((material, solid)) => (material, Ok(solid), None),
+        let opened = self.shape(spec);
+        let known = opened.is_ok() || self.substance.material.is_some() || self.substance.ri.is_some();
+        let (material, shape, code) = match opened {
+            Ok((material, shape)) => (material, Ok(shape), None),
             Err(failure) => {
-                let of_index = || Material::of_index(substance.ri.unwrap_or(1.0));
-                let material = substance.material.cloned().unwrap_or_else(of_index);
+                let of_index = || Material::of_index(self.substance.ri.unwrap_or(1.0));
+                let material = self.substance.material.cloned().unwrap_or_else(of_index);
                 (material, Err(failure.message()), Some(failure.code()))
             }
         };
-        let mut row = score(&Subject { stone: spec.into(), material, solid, tilt }, plan);
+        let mut row = score(&Subject { stone: spec.into(), material, shape, tilt }, plan);
         if !known {
             row.material.clear();
         }

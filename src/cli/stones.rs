@@ -122,7 +122,14 @@ impl Substance {
     /// What the design is made of: the material asked for, or the bare index asked for, or the
     /// index that its file was drawn for, or diamond.
     pub fn of(&self, design: &Design) -> Material {
-        match (self.material, self.ri.or(design.refractive_index)) {
+        self.drawn_for(design.refractive_index)
+    }
+
+    /// As [`Substance::of`], for a stone without a design.
+    ///
+    /// - `index`: that its file was drawn for, if any
+    pub fn drawn_for(&self, index: Option<f64>) -> Material {
+        match (self.material, self.ri.or(index)) {
             (Some(material), _) => material.clone(),
             (None, Some(n)) => Material::of_index(n),
             (None, None) => MATERIALS[0].clone(),

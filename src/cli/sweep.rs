@@ -183,7 +183,7 @@ fn plots(
         let all = own.is_empty() && metrics.len() > 1;
         let wanted = if own.is_empty() { metrics.iter().collect() } else { own };
         for metric in wanted {
-            let drawing = plot::Drawing { metric, axes: &axes, stone: &args.stone, family };
+            let drawing = plot::Drawing { metric, axes: &axes, stone: &args.stone, family, own: None };
             let svg = drawing.svg(&table::Numbers::read(bytes, form)?, sweep.scatter.is_some());
             let ending = picture(path).unwrap_or("svg");
             let target = if all {

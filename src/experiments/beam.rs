@@ -87,7 +87,7 @@ impl<'a> Beam<'a> {
         let mut optics = [[Optics::default(); LINES]; 2];
         for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
             for (optics, um) in into.iter_mut().zip(lines) {
-                *optics = medium.optics(stone, um)?;
+                *optics = medium.optics(stone.unit, um)?;
             }
         }
         let (outline, crown) = (Outline::new(stone, aspect)?, entrance::crown_flags(stone));

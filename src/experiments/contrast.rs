@@ -65,7 +65,7 @@ impl<'a> Contrast<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            optics: medium.optics(stone, lines::D)?,
+            optics: medium.optics(stone.unit, lines::D)?,
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,

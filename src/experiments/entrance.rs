@@ -4,6 +4,7 @@ use super::{Aspect, ExperimentError};
 use crate::cut::Zone;
 use crate::solid::measure::convex_hull;
 use crate::walk::Stone;
+use crate::walk::mesh::MeshStone;
 use glam::{DVec2, DVec3, Vec3};
 
 /// Whether light through facet with unit normal `n` goes through the crown (the table included).
@@ -76,6 +77,11 @@ pub(super) struct Crown {
 }
 
 impl Crown {
+    /// The crown of a stone that is not convex: every facet that faces up, in a dent too.
+    pub(super) fn of_mesh(stone: &MeshStone) -> Result<Self, ExperimentError> {
+        Self::of(stone.triangles().filter(|(facet, _)| is_crown(stone.planes[*facet].normal)).collect())
+    }
+
     pub(super) fn new(stone: &Stone) -> Result<Self, ExperimentError> {
         let mut triangles = Vec::new();
         for (f, plane) in stone.planes.iter().enumerate() {
@@ -88,6 +94,10 @@ impl Crown {
                 triangles.push((f, [middle, a, corners[(i + 1) % corners.len()]]));
             }
         }
+        Self::of(triangles)
+    }
+
+    fn of(triangles: Vec<(usize, [DVec3; 3])>) -> Result<Self, ExperimentError> {
         let area = |t: &(usize, [DVec3; 3])| 0.5 * (t.1[1] - t.1[0]).cross(t.1[2] - t.1[0]).length();
         let pick = Pick::new(triangles.iter().map(area));
         if pick.total() > 0.0 { Ok(Self { triangles, pick }) } else { Err(ExperimentError::NoCrown) }
@@ -99,11 +109,11 @@ impl Crown {
     }
 
     /// Facet and point, uniform by area.
-    pub(super) fn sample(&self, u: [f64; 2]) -> (usize, Vec3) {
+    pub(super) fn sample(&self, u: [f64; 2]) -> (usize, DVec3) {
         let (i, along) = self.pick.at(u[0]);
         let (facet, [middle, a, b]) = &self.triangles[i];
         let rim = *a + (*b - *a) * along;
-        (*facet, (*middle + (rim - *middle) * u[1].sqrt()).as_vec3())
+        (*facet, *middle + (rim - *middle) * u[1].sqrt())
     }
 }
 

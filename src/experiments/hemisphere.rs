@@ -80,7 +80,7 @@ impl<'a> Hemisphere<'a> {
             stone,
             aspect,
             polarised: medium.polarised,
-            optics: medium.optics(stone, lines::D)?,
+            optics: medium.optics(stone.unit, lines::D)?,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone, aspect)?.area(),
             entrance,
@@ -121,7 +121,7 @@ impl Rays for Dome<'_> {
                 let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
-                packet.enter(lane, point, &entry, optics.index);
+                packet.enter(lane, point.as_vec3(), &entry, optics.index);
                 packet.absorption[lane] = optics.absorption;
                 return true;
             }

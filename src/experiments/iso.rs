@@ -103,7 +103,7 @@ impl<'a> Iso<'a> {
     ) -> Result<Self, ExperimentError> {
         Ok(Self {
             stone,
-            optics: medium.optics(stone, lines::D)?,
+            optics: medium.optics(stone.unit, lines::D)?,
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,

@@ -87,7 +87,7 @@ impl<'a> Scintillation<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            optics: medium.optics(stone, lines::D)?,
+            optics: medium.optics(stone.unit, lines::D)?,
             sky,
             steps,
             side: SIDE * stone.solid.width() / stone.unit,

@@ -163,7 +163,7 @@ impl<'a> View<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            optics: medium.optics(stone, lines::D)?,
+            optics: medium.optics(stone.unit, lines::D)?,
             aspect,
             surroundings,
             outline: Outline::new(stone, aspect)?,

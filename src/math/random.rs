@@ -33,6 +33,8 @@ pub enum Purpose {
     Contrast = 10,
     /// Cells of the rocked picture, likewise.
     Scintillation = 11,
+    /// Which way light goes on in a dent, one stream a ray.
+    Dents = 13,
     /// Scattered points of a sweep, one stream.
     Scatter = 20,
 }

@@ -11,6 +11,7 @@ pub static ABSORBED: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power absorbed inside by Beer–Lambert over the path in millimetres, per power \

@@ -12,6 +12,7 @@ pub static ASET_BLUE: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: true,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
         off), D line. Share of the sight lines' power that comes from 75 to 90° above the girdle \

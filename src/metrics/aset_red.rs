@@ -12,6 +12,7 @@ pub static ASET_RED: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: true,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
         off), D line. Share of the sight lines' power that comes from 45 to 75° above the girdle \

@@ -11,6 +11,7 @@ pub static DISPERSION_MEAN: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: false,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Angle between lines B and G where both leave by the same facets as D, mean weighted \

@@ -12,6 +12,7 @@ pub static EXTINCTION: Metric = Metric {
     scale: 1.0,
     observer: Some(OBSERVER_DEG),
     by_beams: false,
+    dented: false,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
         with its polarisation followed inside (scalar with --polarisation off), D line. White dome \
         above the horizon with a dark observer cone of 23° half-angle, or --observer. Share of the \

@@ -11,6 +11,7 @@ pub static FIRE_STREAK: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: false,
+    dented: false,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Area of the exiting beams brighter than 1e-3 of the incident irradiance at D, \

@@ -12,6 +12,7 @@ pub static IDEAL_SCOPE_RED: Metric = Metric {
     scale: 1.0,
     observer: Some(SCOPE_DEG),
     by_beams: true,
+    dented: true,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
         with its polarisation followed inside (scalar with --polarisation off), D line. Share of the \
         sight lines' power that comes from above the horizon, outside the dark cone about the \

@@ -11,6 +11,7 @@ pub static LEAKAGE: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that leaves otherwise than upward through the crown, per power arriving. \

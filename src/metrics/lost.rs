@@ -11,6 +11,7 @@ pub static LOST: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
         light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
         line. Power that the tracer stopped following (a ray with less than 1e-4 of its light), per \

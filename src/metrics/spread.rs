@@ -14,6 +14,7 @@ pub static SPREAD: Metric = Metric {
     scale: 100.0,
     observer: None,
     by_beams: false,
+    dented: false,
     definition: "Geometry of the solid, no light. Area of the outline seen face-up per that of the \
         library's Tolkowsky brilliant of equal mass, less 1, in percent.",
     source: "defined by cutlab; proportions of the other stone: M. Tolkowsky, Diamond Design (1919)",

@@ -12,6 +12,7 @@ pub static TABLE_ISO: Metric = Metric {
     scale: 100.0,
     observer: Some(OBSERVER_DEG),
     by_beams: true,
+    dented: false,
     definition: "Parallel view from the eye over the table alone; light that is unpolarised at every \
         facet (scalar Fresnel, whatever --polarisation), D line. Rays of at most ten segments, the \
         incoming one and nine inside. Power from directions whose sine h of elevation lies above 0 \

@@ -15,6 +15,7 @@ pub static WEIGHT_RATIO: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: false,
+    dented: false,
     definition: "Geometry of the solid, no light. Mass per that of the library's Tolkowsky brilliant of \
         equal girdle width (the least distance of two parallels that hold the outline) and the same \
         material.",

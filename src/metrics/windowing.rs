@@ -11,6 +11,7 @@ pub static WINDOWING: Metric = Metric {
     scale: 1.0,
     observer: None,
     by_beams: true,
+    dented: false,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
         with its polarisation followed inside (scalar with --polarisation off), D line. No \
         observer's head. Share of the outline whose strongest path leaves through the first pavilion \

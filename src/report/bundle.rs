@@ -1,7 +1,8 @@
 //! Everything about one stone: the files of `cutlab report`.
 
 use super::page::{Page, Section};
-use super::{aset, diagram, sections};
+use super::references::References;
+use super::{chart, diagram, scopes, sections, tilts};
 use crate::cut::proportions::{self, Proportions};
 use crate::cut::{CutError, Design, families};
 use crate::formats::{self, FormatError};
@@ -24,8 +25,8 @@ const PICTURE: (u32, u32, u32) = (640, 480, 16);
 /// Photons of each map, and how many an estimate gathers: the original project's numbers.
 const PHOTONS: (usize, usize) = (100_000, 500);
 
-/// Pixels across and down of the ASET picture.
-const ASET_SIDE: u32 = 720;
+/// Pixels across and down of the pictures through scopes.
+const SCOPE_SIDE: u32 = 480;
 
 /// What to report on.
 #[derive(Debug, Clone)]
@@ -80,7 +81,7 @@ pub struct Bundle {
 }
 
 /// Steps that [`make`] reports.
-pub const STEPS: usize = 4;
+pub const STEPS: usize = 5;
 
 /// Makes the report.
 ///
@@ -100,7 +101,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     let subject = Subject {
         stone: request.stone.clone(),
         material: request.material.clone(),
-        solid: Ok(solid.clone()),
+        shape: Ok(solid.clone().into()),
         tilt: None,
     };
     let row = score(&subject, &plan);
@@ -109,21 +110,26 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     }
     let scored: Vec<(&'static Metric, Option<Estimate>)> =
         plan.metrics.iter().copied().zip(row.scores.iter().copied()).collect();
-    let sections = sections::sections(&scored);
+    let sections = sections::sections(&scored, &References::read()?);
 
-    step("ASET map");
-    let aset = aset::picture(&stone, request.material.index_d() as f32, ASET_SIDE)?;
+    step("scopes");
+    let index = request.material.index_d() as f32;
+    let pictures = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
+
+    let tilts = tilts::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
 
     let picture = table_picture(request, step)?;
+    let diagram = diagram::draw(design, design.refractive_index)?;
+    let map = chart::of(&proportions, &request.material)?;
 
-    let files = vec![
+    let mut files = vec![
         ("stone.obj", formats::encode(design, "obj")?),
         ("stone.toml", formats::encode(design, "toml")?),
-        ("table.png", picture),
-        ("aset.png", aset.png.clone()),
-        ("diagram.svg", diagram::draw(design, design.refractive_index)?.into_bytes()),
+        ("table.png", picture.clone()),
+        ("diagram.svg", diagram.clone().into_bytes()),
         ("scores.csv", table::csv(&plan.metrics, std::slice::from_ref(&row))?),
     ];
+    files.extend(pictures.iter().map(|p| (p.scope.file, p.png.clone())));
     let names: Vec<String> = files.iter().map(|(name, _)| name.to_string()).collect();
     let material = &request.material;
     let weight = material.carats(proportions.volume).map_or_else(
@@ -136,10 +142,9 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         source: &design.source,
         material: format!("{}, n {:.4} (D line)", material.name, material.index_d()),
         weight,
-        solid: &solid,
         proportions: &proportions,
         picture: Some((
-            &files[2].1,
+            &picture,
             format!(
                 "Lying on a grey table: {},000 photons in each of two maps, the {} nearest gathered, {} rays a pixel",
                 PHOTONS.0 / 1000,
@@ -147,14 +152,16 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
                 PICTURE.2
             ),
         )),
-        aset: &aset,
+        scopes: &pictures,
+        diagram: &diagram,
         sections: &sections,
+        tilts: &tilts,
+        map,
         traced: format!("Light traced by photons, seed {}.", request.seed),
         command: request.command.clone(),
         files: &names,
     }
     .html();
-    let mut files = files;
     files.push(("index.html", page.into_bytes()));
     Ok(Bundle { files, sections, proportions })
 }

@@ -1,11 +1,10 @@
 //! The page about one stone: one HTML file that needs nothing beside it.
 
-use super::aset;
-use super::diagram::View;
-use super::diagram::projection;
+use super::references::STONES;
+use super::scopes::Picture;
+use super::tilts::Plot;
 use crate::cut::proportions::Proportions;
 use crate::math::stats::Estimate;
-use crate::solid::Polyhedron;
 use base64::Engine;
 use std::fmt::Write;
 
@@ -22,12 +21,14 @@ pub struct Score {
     pub unit: String,
     /// Value with standard error; none if the metric has no value here.
     pub value: Option<Estimate>,
+    /// The same of the reference stones.
+    pub references: [Option<Estimate>; STONES.len()],
 }
 
 /// A head with its scores, the ones that matter first.
 #[derive(Debug, Clone)]
 pub struct Section {
-    /// Brilliance, Dispersion.
+    /// Brilliance, Dispersion and others.
     pub head: &'static str,
     /// One line on what the head is about.
     pub about: &'static str,
@@ -50,16 +51,20 @@ pub struct Page<'a> {
     pub material: String,
     /// Width and weight, in words.
     pub weight: String,
-    /// Its solid, for the drawings.
-    pub solid: &'a Polyhedron,
     /// Its proportions.
     pub proportions: &'a Proportions,
     /// The picture on the table as PNG, and a line under it.
     pub picture: Option<(&'a [u8], String)>,
-    /// The ASET picture.
-    pub aset: &'a aset::Aset,
+    /// The pictures through scopes.
+    pub scopes: &'a [Picture],
+    /// The cutting diagram as SVG.
+    pub diagram: &'a str,
     /// The scores.
     pub sections: &'a [Section],
+    /// Scores against the tilt.
+    pub tilts: &'a [Plot],
+    /// The stone on the contour map as SVG, and a line under it; for round brilliants.
+    pub map: Option<(String, String)>,
     /// How the scores were traced, in words.
     pub traced: String,
     /// The command that made the page.
@@ -74,8 +79,67 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// A PNG picture inside the page.
 pub(super) fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
+}
+
+/// A drawing inside the page; as a picture of its own, so that no name in it meets another's.
+pub(super) fn svg_uri(svg: &str) -> String {
+    format!("data:image/svg+xml;base64,{}", base64::engine::general_purpose::STANDARD.encode(svg))
+}
+
+/// The beginning of a page, up to its content.
+pub(super) fn head(title: &str, style: &str, sub: &str) -> String {
+    let title = escaped(title);
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title} · cutlab</title>\n<style>\n{STYLE}{style}</style>\n</head>\n<body>\n<main>\n\
+         <header>\n<h1>{title}</h1>\n<p class=\"sub\">{}</p>\n</header>\n",
+        escaped(sub)
+    )
+}
+
+/// A picture through a scope, with its legend and shares.
+pub(super) fn scope_figure(picture: &Picture) -> String {
+    let scope = picture.scope;
+    let mut out = format!(
+        "<figure><img src=\"{}\" alt=\"{name}, seen from above\"><figcaption><b>{name}</b>: {}\
+         <ul class=\"legend\">",
+        data_uri(&picture.png),
+        escaped(scope.about),
+        name = escaped(scope.name),
+    );
+    for (key, share) in scope.legend.iter().zip(&picture.shares) {
+        let [r, g, b] = key.colour;
+        let _ = write!(
+            out,
+            "<li><i style=\"background:rgb({r},{g},{b})\"></i><span data-name=\"{}\">{}</span><b>{:.1} %</b></li>",
+            key.name,
+            escaped(key.about),
+            100.0 * share
+        );
+    }
+    out + "</ul></figcaption></figure>\n"
+}
+
+/// The plots of scores against the tilt.
+pub(super) fn tilt_section(plots: &[Plot]) -> String {
+    let mut out = String::from(
+        "<section>\n<h2>Tilted</h2>\n<p class=\"note\">Scores of the stone as it is tilted about the x axis before a viewer \
+         who stays with the light; the band holds the value 95 times in 100.</p>\n<div class=\"plots\">\n",
+    );
+    for plot in plots {
+        let _ = writeln!(
+            out,
+            "<figure><img src=\"{}\" alt=\"{} against tilt (°)\"><figcaption>{}</figcaption></figure>",
+            svg_uri(&plot.svg),
+            plot.metric.name,
+            escaped(plot.metric.about)
+        );
+    }
+    out + "</div>\n</section>\n"
 }
 
 /// A number with two digits of its error, and the error; a small number in powers of ten.
@@ -91,41 +155,56 @@ pub fn number(e: Estimate) -> (String, Option<String>) {
 }
 
 impl Score {
-    fn value_html(&self) -> String {
-        let Some(value) = self.value else { return "–".into() };
-        let (value, error) = number(value);
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
-        match error {
-            Some(error) => format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>"),
-            None => format!("<b>{value}</b>{unit}"),
+    /// The score's row beside the reference stones.
+    fn row(&self) -> String {
+        let mut out = format!(
+            "<tr><th scope=\"row\"><code>{}</code><span>{}</span></th><td class=\"value\">{}</td>",
+            escaped(&self.name),
+            escaped(&self.about),
+            self.value_html()
+        );
+        for ((name, ..), value) in STONES.iter().zip(self.references) {
+            let _ = write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", cell(value, ""));
         }
+        out + "</tr>\n"
+    }
+
+    fn value_html(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
+        cell(self.value, &unit)
+    }
+}
+
+/// A score with its error as HTML.
+pub(super) fn cell(value: Option<Estimate>, unit: &str) -> String {
+    let minus = |text: String| text.replace('-', "−");
+    match value.map(number).map(|(value, error)| (minus(value), error.map(minus))) {
+        Some((value, Some(error))) => {
+            format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>")
+        }
+        Some((value, None)) => format!("<b>{value}</b>{unit}"),
+        None => "–".into(),
     }
 }
 
 impl Page<'_> {
     /// The whole page.
     pub fn html(&self) -> String {
-        let mut out = format!(
-            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{name} · cutlab</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
-             <header>\n<h1>{name}</h1>\n<p class=\"sub\">{facets} facets · {weight} · {material}</p>\n</header>\n",
-            name = escaped(self.name),
-            facets = self.proportions.facets,
-            weight = escaped(&self.weight),
-            material = escaped(&self.material),
-        );
+        let sub = format!("{} facets · {} · {}", self.proportions.facets, self.weight, self.material);
+        let mut out = head(self.name, "", &sub);
         self.tiles(&mut out);
         self.pictures(&mut out);
         self.proportions(&mut out);
         self.scores(&mut out);
+        out += &tilt_section(self.tilts);
+        self.map(&mut out);
         self.footer(&mut out);
         out + "</main>\n</body>\n</html>\n"
     }
 
     fn tiles(&self, out: &mut String) {
         *out += "<section class=\"tiles\">\n";
-        for section in self.sections {
+        for section in self.sections.iter().filter(|s| s.large > 0) {
             let _ = write!(out, "<div class=\"tile\"><h2>{}</h2><dl>", section.head);
             for score in section.scores.iter().take(section.large) {
                 let _ = write!(
@@ -141,45 +220,22 @@ impl Page<'_> {
     }
 
     fn pictures(&self, out: &mut String) {
-        *out += "<section class=\"pictures\">\n";
         if let Some((png, caption)) = &self.picture {
             let _ = writeln!(
                 out,
-                "<figure class=\"wide\"><img src=\"{}\" alt=\"the stone on a grey table\">\
-                 <figcaption>{}</figcaption></figure>",
+                "<section>\n<figure class=\"wide-picture\"><img src=\"{}\" alt=\"the stone on a grey table\">\
+                 <figcaption>{}</figcaption></figure>\n</section>",
                 data_uri(png),
                 escaped(caption)
             );
         }
-        let _ = write!(
-            out,
-            "<figure><img src=\"{}\" alt=\"ASET map of the stone seen from above\"><figcaption>ASET map, seen \
-             straight from above; each point has the colour of its strongest path<ul class=\"legend\">",
-            data_uri(&self.aset.png)
-        );
-        for (key, share) in aset::LEGEND.iter().zip(self.aset.shares) {
-            let [r, g, b] = key.colour;
-            let _ = write!(
-                out,
-                "<li><i style=\"background:rgb({r},{g},{b})\"></i><span>{}</span><b>{:.1} %</b></li>",
-                escaped(key.about),
-                100.0 * share
-            );
-        }
-        *out += "</ul></figcaption></figure>\n</section>\n";
+        *out += "<section>\n<h2>Seen straight from above</h2>\n<div class=\"scopes\">\n";
+        self.scopes.iter().for_each(|p| *out += &scope_figure(p));
+        *out += "</div>\n</section>\n";
     }
 
     fn proportions(&self, out: &mut String) {
-        *out += "<section>\n<h2>Proportions</h2>\n<div class=\"drawings\">";
-        for view in [View::Crown, View::Side, View::Pavilion] {
-            let _ = write!(
-                out,
-                "<figure>{}<figcaption>{}</figcaption></figure>",
-                projection::svg(self.solid, view),
-                view.name()
-            );
-        }
-        *out += "</div>\n<table class=\"facts\"><tbody>\n";
+        *out += "<section>\n<h2>Proportions</h2>\n<table class=\"facts\"><tbody>\n";
         for (label, value) in self.facts() {
             let _ = writeln!(out, "<tr><th scope=\"row\">{label}</th><td>{}</td></tr>", escaped(&value));
         }
@@ -187,7 +243,12 @@ impl Page<'_> {
         if !self.source.is_empty() {
             let _ = writeln!(out, "<p class=\"note\">Source: {}</p>", escaped(self.source));
         }
-        *out += "</section>\n";
+        let _ = writeln!(
+            out,
+            "</section>\n<section>\n<h2>Cutting diagram</h2>\n<figure class=\"sheet\"><a href=\"diagram.svg\">\
+             <img src=\"{}\" alt=\"cutting diagram: crown, pavilion and sides, the tiers\"></a></figure>\n</section>",
+            svg_uri(self.diagram)
+        );
     }
 
     fn facts(&self) -> Vec<(&'static str, String)> {
@@ -213,26 +274,36 @@ impl Page<'_> {
         for section in self.sections {
             let _ = write!(
                 out,
-                "<section>\n<h2>{}</h2>\n<p class=\"note\">{}</p>\n<table class=\"scores\"><tbody>\n",
+                "<section class=\"head\">\n<h2>{}</h2>\n<p class=\"note\">{}</p>\n<table class=\"scores\">\n\
+                 <thead><tr><th></th><th>this stone</th>",
                 section.head,
                 escaped(section.about)
             );
-            for score in &section.scores {
-                let _ = writeln!(
-                    out,
-                    "<tr><th scope=\"row\">{}</th><td class=\"value\">{}</td><td>{}</td></tr>",
-                    escaped(&score.name),
-                    score.value_html(),
-                    escaped(&score.about)
-                );
+            for (name, proportions, _) in STONES {
+                let _ = write!(out, "<th>{name} <span class=\"se\">{proportions}</span></th>");
             }
+            *out += "</tr></thead>\n<tbody>\n";
+            section.scores.iter().for_each(|score| *out += &score.row());
             *out += "</tbody></table>\n</section>\n";
         }
         let _ = writeln!(
             out,
-            "<p class=\"note\">{} After ± stands one standard error.</p>",
+            "<section><p class=\"note\">{} After ± stands one standard error. The five reference stones are round brilliants \
+             (table/crown/pavilion) in diamond.</p></section>",
             escaped(&self.traced)
         );
+    }
+
+    fn map(&self, out: &mut String) {
+        if let Some((svg, caption)) = &self.map {
+            let _ = writeln!(
+                out,
+                "<section>\n<h2>Among round brilliants</h2>\n<figure class=\"map\"><img src=\"{}\" \
+                 alt=\"map of wlr over crown and pavilion angle\"><figcaption>{}</figcaption></figure>\n</section>",
+                svg_uri(svg),
+                escaped(caption)
+            );
+        }
     }
 
     fn footer(&self, out: &mut String) {

@@ -5,7 +5,7 @@ mod frame;
 mod map;
 mod surface;
 
-pub use curve::{Curve, Curves};
+pub use curve::{Curve, Curves, Dot};
 
 use super::page::escaped;
 use crate::cut::brilliant;
@@ -54,12 +54,16 @@ pub struct Drawing<'a> {
     pub stone: &'a str,
     /// Its family.
     pub family: Option<&'static Family>,
+    /// A stone to be marked above the others: its name and place on the axes.
+    pub own: Option<(&'a str, &'a [f64])>,
 }
 
 /// A point or a line to be named in a plot.
 struct Mark {
     name: String,
     at: Vec<f64>,
+    /// Whether it is the stone that the plot is about.
+    own: bool,
 }
 
 impl Drawing<'_> {
@@ -96,6 +100,8 @@ impl Drawing<'_> {
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
             marks: self.marks().into_iter().map(|m| (m.name, m.at[0])).collect(),
+            dots: Vec::new(),
+            small: false,
         }
         .svg()
     }
@@ -120,11 +126,17 @@ impl Drawing<'_> {
                 document.parameters.get(&axis.key).copied().or_else(default)
             };
             let at = self.axes.iter().map(value).collect::<Option<_>>()?;
-            Some(Mark { name: if name == family.name { "reference".into() } else { name.into() }, at })
+            Some(Mark {
+                name: if name == family.name { "reference".into() } else { name.into() },
+                at,
+                own: false,
+            })
         };
+        let own = self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true });
+        let near = |a: &Mark, b: &Mark| a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);
         let mut marks: Vec<Mark> = Vec::new();
-        for mark in library::names().filter_map(mark) {
-            match marks.iter_mut().find(|m| m.at == mark.at) {
+        for mark in own.into_iter().chain(library::names().filter_map(mark)) {
+            match marks.iter_mut().find(|m| near(m, &mark)) {
                 Some(same) => same.name += &format!(", {}", mark.name),
                 None => marks.push(mark),
             }

@@ -1,24 +1,26 @@
 //! The heads of a report and the scores under them, the ones that matter first.
 
 use super::page::{Score, Section};
+use super::references::References;
 use crate::math::stats::Estimate;
-use crate::metrics::Metric;
+use crate::metrics::{Metric, Reading};
 
 /// A head, and under it the scores that are shown large, then those that follow.
 struct Head {
     name: &'static str,
     about: &'static str,
     large: &'static [&'static str],
-    /// Whether a score that stands nowhere by name belongs here.
+    /// Whether a score that no head before takes belongs here.
     takes: fn(&Metric) -> bool,
 }
 
-const HEADS: [Head; 2] = [
+/// The heads; the last one takes what no other does, so that a new score is never left out.
+const HEADS: [Head; 6] = [
     Head {
         name: "Brilliance",
         about: "How much light comes back to someone who looks at the crown. D line.",
         large: &["wlr", "leakage"],
-        takes: |m| !m.needs_dispersion(),
+        takes: |m| matches!(m.reading, Reading::Hemisphere(_)) || m.name == "brightness",
     },
     Head {
         name: "Dispersion",
@@ -26,23 +28,55 @@ const HEADS: [Head; 2] = [
         large: &["fire_streak", "dispersion_mean"],
         takes: Metric::needs_dispersion,
     },
+    Head {
+        name: "Contrast and scintillation",
+        about: "How much the face-up picture varies, and how much it changes when the stone is rocked.",
+        large: &[],
+        takes: |m| {
+            matches!(m.reading, Reading::Contrast(_) | Reading::Scintillation(_))
+                || ["extinction", "windowing"].contains(&m.name)
+        },
+    },
+    Head {
+        name: "Faceters’ scores",
+        about: "Light return by the rules of faceters, of the whole stone and of the table alone, in percent.",
+        large: &[],
+        takes: |m| matches!(m.reading, Reading::Iso(_)),
+    },
+    Head {
+        name: "Weight and spread",
+        about: "The solid alone, against Tolkowsky’s brilliant.",
+        large: &[],
+        takes: |m| matches!(m.reading, Reading::Solid(_)),
+    },
+    Head {
+        name: "Viewer maps",
+        about: "Where the light of the face-up stone comes from, as the pictures show it: by power, and by \
+                strongest path.",
+        large: &[],
+        takes: |_| true,
+    },
 ];
 
 /// The sections of a report.
 ///
 /// - `scores`: every metric of the catalogue with its value, none where it does not apply
-pub fn sections(scores: &[(&'static Metric, Option<Estimate>)]) -> Vec<Section> {
+pub fn sections(scores: &[(&'static Metric, Option<Estimate>)], references: &References) -> Vec<Section> {
     let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| Score {
         name: metric.name.into(),
         about: metric.about.into(),
         unit: metric.unit.into(),
         value,
+        references: references.of(metric),
     };
+    let home = |m: &Metric| HEADS.iter().position(|head| (head.takes)(m));
     HEADS
         .iter()
-        .map(|head| {
-            let first = head.large.iter().filter_map(|name| scores.iter().find(|(m, _)| m.name == *name));
-            let rest = scores.iter().filter(|(m, _)| (head.takes)(m) && !head.large.contains(&m.name));
+        .enumerate()
+        .map(|(i, head)| {
+            let here = || scores.iter().filter(move |(m, _)| home(m) == Some(i));
+            let first = head.large.iter().filter_map(|name| here().find(|(m, _)| m.name == *name));
+            let rest = here().filter(|(m, _)| !head.large.contains(&m.name));
             Section {
                 head: head.name,
                 about: head.about,
@@ -50,6 +84,7 @@ pub fn sections(scores: &[(&'static Metric, Option<Estimate>)]) -> Vec<Section> 
                 scores: first.chain(rest).map(line).collect(),
             }
         })
+        .filter(|section| !section.scores.is_empty())
         .collect()
 }
 
@@ -61,10 +96,11 @@ mod tests {
     #[test]
     fn every_metric_stands_under_one_head() {
         let scores: Vec<_> = METRICS.iter().map(|m| (*m, None)).collect();
-        let sections = sections(&scores);
+        let sections = sections(&scores, &References::read().expect("can be read"));
         let names: Vec<&str> = sections.iter().flat_map(|s| &s.scores).map(|s| s.name.as_str()).collect();
         for metric in METRICS {
             assert_eq!(names.iter().filter(|n| **n == metric.name).count(), 1, "{}", metric.name);
         }
+        assert!(sections.iter().all(|s| s.large <= s.scores.len()));
     }
 }

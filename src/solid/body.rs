@@ -1,6 +1,7 @@
 //! A closed surface that is no convex solid: dented, or in several parts.
 
 use super::measure::{calipers, convex_hull};
+use super::mesh::Mesh;
 use glam::DVec3;
 
 /// A facet of a [`Body`].
@@ -33,6 +34,12 @@ pub struct Body {
 }
 
 impl Body {
+    /// Its surface, faces numbered as the facets.
+    pub fn mesh(&self) -> Mesh {
+        let (vertices, triangles) = (self.vertices.clone(), self.triangles.clone());
+        Mesh { vertices, triangles, faces: self.facet_of.clone() }
+    }
+
     /// Smallest and largest coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         self.vertices

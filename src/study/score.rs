@@ -1,17 +1,18 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
+use super::sheet::Sheet;
 use crate::experiments::view::{Sky, Surroundings};
-use crate::experiments::weigh::Effort as Work;
 use crate::experiments::{
-    Aspect, BATCHES, Beam, Contrast, Experiment, ExperimentError, Hemisphere, Iso, Medium, Quadrature,
-    Scintillation, Traced, View, by_beams, cells, iso, view,
+    Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, Scintillation, View,
+    by_beams, cells, dented, hemisphere, iso, view,
 };
-use crate::math::stats::{self, Estimate, Sum};
+use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading};
 use crate::optics::Material;
-use crate::solid::Polyhedron;
+use crate::solid::{Body, Polyhedron};
 use crate::walk::Stone;
 use crate::walk::beams::Beams;
+use crate::walk::mesh::MeshStone;
 
 /// Points of the hemisphere and of the view when nothing else is asked: ±.0003 of `wlr` for a
 /// round brilliant, ±.0002 of the `aset` scores.
@@ -27,19 +28,11 @@ const CONTRAST_COST: u64 = 2;
 /// The same for a cell of one to a thousand points, three on average, seen twice.
 const ROCKING_COST: u64 = 6;
 
+/// The same for a ray of a stone that is not convex.
+const DENTED_COST: u64 = 16;
+
 /// The same for a direction of the dome that is followed by beams.
 const DIRECTION_COST: u64 = 256;
-
-/// The same for a photon that finishes beams, which then outweigh it.
-const PHOTON_COST: u64 = 16;
-
-/// Points of the hemisphere, or as much of other experiments, before its error is looked at: enough for every batch to have seen
-/// something.
-const FIRST_SAMPLES: u64 = 1 << 13;
-
-/// By how much samples grow from one look at the error to the next.
-const LEAST_STEP: f64 = 1.1;
-const LARGEST_STEP: f64 = 16.0;
 
 /// Unless the plan says otherwise no experiment is traced further than this in pursuit of an error:
 /// about a minute a stone and experiment on two cores.
@@ -77,7 +70,7 @@ pub struct Plan {
     /// fewer); where this ends one, the row says so.
     pub cap: u64,
     /// Whether metrics that beams can give are taken from beams: the effort is then theirs. Not in a
-    /// stone that absorbs: the path differs across a beam.
+    /// stone that absorbs: the path differs across a beam; nor in one with dents.
     pub exact: bool,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have one
     /// ([`Metric::observer`]); none leaves each its own.
@@ -109,6 +102,21 @@ pub struct Tilt {
     pub azimuth: f64,
 }
 
+/// The shape of a stone.
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// A convex solid: it has every score.
+    Convex(Polyhedron),
+    /// One closed surface with dents: it has the scores that are sums of power ([`Metric::dented`]).
+    Dented(Box<Body>),
+}
+
+impl From<Polyhedron> for Shape {
+    fn from(solid: Polyhedron) -> Shape {
+        Shape::Convex(solid)
+    }
+}
+
 /// A stone to score.
 #[derive(Debug, Clone)]
 pub struct Subject {
@@ -118,7 +126,7 @@ pub struct Subject {
     pub material: Material,
     /// Its shape, in millimetres if the material absorbs; or why it has none: the row then carries
     /// the message.
-    pub solid: Result<Polyhedron, String>,
+    pub shape: Result<Shape, String>,
     /// How it is turned; none for face-up.
     pub tilt: Option<Tilt>,
 }
@@ -132,8 +140,8 @@ pub struct Row {
     pub material: String,
     /// Number of its facets; none if it has no shape.
     pub facets: Option<usize>,
-    /// One a metric of the plan; none where the metric does not apply (no dispersion) or the stone
-    /// failed.
+    /// One a metric of the plan; none where the metric does not apply (no dispersion, a stone with
+    /// dents) or the stone failed.
     pub scores: Vec<Option<Estimate>>,
     /// Points traced, by experiment.
     pub samples: Vec<(&'static str, u64)>,
@@ -155,15 +163,26 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
         samples: Vec::new(),
         error: None,
     };
-    match &subject.solid {
-        Ok(solid) => {
+    let filled = match &subject.shape {
+        Ok(Shape::Convex(solid)) => {
             let stone = Stone::new(solid.clone());
             row.facets = Some(stone.facet_count());
-            if let Err(e) = fill(&mut row, &stone, subject, plan) {
-                row.error = Some(e.to_string());
-            }
+            fill(&mut row, &stone, subject, plan).map_err(|e| e.to_string())
         }
-        Err(why) => row.error = Some(why.clone()),
+        Ok(Shape::Dented(_)) if !plan.metrics.iter().any(|m| m.dented) => {
+            Err("not convex: it has none of the scores asked for (cutlab list metrics tells which it has)"
+                .into())
+        }
+        Ok(Shape::Dented(body)) => {
+            row.facets = Some(body.facets.len());
+            MeshStone::new(&body.mesh())
+                .map_err(|e| e.to_string())
+                .and_then(|stone| fill_dented(&mut row, &stone, subject, plan).map_err(|e| e.to_string()))
+        }
+        Err(why) => Err(why.clone()),
+    };
+    if let Err(why) = filled {
+        row.error = Some(why);
     }
     row
 }
@@ -174,21 +193,18 @@ pub fn score_all(subjects: &[Subject], plan: &Plan) -> Vec<Row> {
 }
 
 fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<(), ExperimentError> {
-    let medium = Medium { material: &subject.material, polarised: plan.polarised };
-    let aspect = subject.tilt.map_or(Aspect::FACE_UP, |t| Aspect::tilted(t.degrees, t.azimuth));
-    let sky = |own: f64| Sky::behind(plan.observer.unwrap_or(own));
+    let (medium, aspect) = (subject.medium(plan), subject.aspect());
+    let sky = |own: f64| plan.sky(own);
     for (column, metric) in plan.metrics.iter().enumerate() {
         if let Reading::Solid(of) = metric.reading {
             row.scores[column] = of(&stone.solid).map(Estimate::exact);
         }
     }
     let exact = plan.exact && subject.material.is_clear();
-    let mut sheet = Sheet { row, plan, exact };
-    let hemisphere = |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None };
-    sheet.fill("hemisphere", hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
-    let view = |r| if let Reading::View(f) = r { Some(f) } else { None };
-    let surroundings = Surroundings { scope: sky(view::SCOPE_DEG), dome: sky(view::OBSERVER_DEG) };
-    sheet.fill("view", view, false, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
+    let mut sheet = Sheet { row, plan, exact, dented: false };
+    sheet.fill("hemisphere", of_hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
+    let surroundings = plan.surroundings();
+    sheet.fill("view", of_view, false, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
     let iso = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
     let head = sky(iso::OBSERVER_DEG);
     sheet.fill("iso", iso, false, 1, || Iso::seen_from(stone, &medium, aspect, head))?;
@@ -208,9 +224,10 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     }
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
-        sheet.fill("quadrature", hemisphere, true, DIRECTION_COST, make)?;
+        sheet.fill("quadrature", of_hemisphere, true, DIRECTION_COST, make)?;
         let beams = Beams::new(stone);
-        sheet.finish("view by beams", view, |w| by_beams::view(&beams, &medium, aspect, surroundings, w))?;
+        sheet
+            .finish("view by beams", of_view, |w| by_beams::view(&beams, &medium, aspect, surroundings, w))?;
         sheet.finish("iso by beams", iso, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
         if dispersive {
             sheet.finish("beam by beams", beam, |w| by_beams::colours(&beams, &medium, aspect, w))?;
@@ -219,150 +236,48 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     Ok(())
 }
 
-/// A row that is being filled in.
-struct Sheet<'a> {
-    row: &'a mut Row,
-    plan: &'a Plan,
-    /// Whether beams are used.
-    exact: bool,
+/// The scores of a stone that is not convex.
+fn fill_dented(
+    row: &mut Row,
+    stone: &MeshStone,
+    subject: &Subject,
+    plan: &Plan,
+) -> Result<(), ExperimentError> {
+    let (medium, aspect) = (subject.medium(plan), subject.aspect());
+    let mut sheet = Sheet { row, plan, exact: false, dented: true };
+    sheet.fill("hemisphere", of_hemisphere, false, DENTED_COST, || {
+        dented::Dome::new(stone, &medium, aspect)
+    })?;
+    sheet.fill("view", of_view, false, DENTED_COST, || {
+        dented::Gaze::new(stone, &medium, aspect, plan.surroundings())
+    })
 }
 
-/// A column: its number, its metric's scale, and what it reads from a tally.
-type Column<F> = (usize, f64, F);
+fn of_hemisphere(reading: Reading) -> Option<fn(&hemisphere::Tally) -> f64> {
+    if let Reading::Hemisphere(f) = reading { Some(f) } else { None }
+}
 
-impl Sheet<'_> {
-    /// The columns that read a tally.
-    ///
-    /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
-    fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
-        let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams;
-        let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
-        metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
+fn of_view(reading: Reading) -> Option<fn(&view::Tally) -> f64> {
+    if let Reading::View(f) = reading { Some(f) } else { None }
+}
+
+impl Plan {
+    /// The dome of a metric whose own observer has a cone of half-angle `own`, in degrees.
+    fn sky(&self, own: f64) -> Sky {
+        Sky::behind(self.observer.unwrap_or(own))
     }
 
-    /// Traces an experiment as far as the plan asks and fills in the columns that read it, if there
-    /// are any.
-    ///
-    /// - `of`, `by_beams`: as [`Sheet::columns`] has them
-    /// - `cost`: so many points of the hemisphere are as dear as one of this experiment
-    fn fill<E: Experiment, F: Fn(&E::Tally) -> f64>(
-        &mut self,
-        name: &'static str,
-        of: impl Fn(Reading) -> Option<F>,
-        by_beams: bool,
-        cost: u64,
-        make: impl FnOnce() -> Result<E, ExperimentError>,
-    ) -> Result<(), ExperimentError> {
-        let columns = self.columns(of, by_beams);
-        if columns.is_empty() {
-            return Ok(());
-        }
-        let mut traced = Traced::new(make()?, self.plan.seed);
-        match self.plan.effort {
-            Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
-            Effort::Error(target) => {
-                let worst = |t: &Traced<E>| worst(&columns, |f| t.estimate(f));
-                let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
-                if let Some(error) = reach(&mut traced, target, first.max(1), cap, worst) {
-                    self.complain(name, target, error, traced.samples());
-                }
-            }
-        }
-        self.take(name, traced.samples(), &columns, |f| traced.estimate(f));
-        Ok(())
-    }
-
-    /// Fills in the columns that beams of one direction give, with photons for what is left over as
-    /// far as the plan asks.
-    fn finish<T: Sum, F: Fn(&T) -> f64>(
-        &mut self,
-        name: &'static str,
-        of: impl Fn(Reading) -> Option<F>,
-        tallies: impl Fn(&Work) -> Result<Vec<T>, ExperimentError>,
-    ) -> Result<(), ExperimentError> {
-        let columns = self.columns(of, true);
-        if columns.is_empty() {
-            return Ok(());
-        }
-        let cap = self.plan.cap / PHOTON_COST;
-        let mut photons = match self.plan.effort {
-            Effort::Samples(samples) => samples / PHOTON_COST,
-            Effort::Error(_) => FIRST_SAMPLES / PHOTON_COST,
-        };
-        loop {
-            // fewer than two a batch would leave the remainder out
-            photons = photons.max(2 * BATCHES as u64);
-            let work = Work { photons: photons as usize, seed: self.plan.seed, ..Work::default() };
-            let found = tallies(&work)?;
-            let estimate = |f: &F| match &found[..] {
-                [only] => Estimate::exact(f(only)),
-                all => stats::jackknife(all, f),
-            };
-            let error = worst(&columns, estimate);
-            match self.plan.effort {
-                Effort::Error(target) if error > target && photons < cap => {
-                    photons = more(photons, error / target).min(cap);
-                    continue;
-                }
-                Effort::Error(target) if error > target => self.complain(name, target, error, photons),
-                _ => (),
-            }
-            self.take(name, photons, &columns, estimate);
-            return Ok(());
-        }
-    }
-
-    fn take<F>(
-        &mut self,
-        name: &'static str,
-        samples: u64,
-        columns: &[Column<F>],
-        estimate: impl Fn(&F) -> Estimate,
-    ) {
-        for (column, _, f) in columns {
-            let score = estimate(f);
-            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
-        }
-        self.row.samples.push((name, samples));
-    }
-
-    /// Notes an error that was not reached.
-    fn complain(&mut self, name: &str, target: f64, error: f64, samples: u64) {
-        let note =
-            format!("{name}: standard error {target} not reached: {error:.2e} after {samples} samples");
-        let before = self.row.error.take();
-        self.row.error = Some(before.map_or(note.clone(), |e| format!("{e}; {note}")));
+    fn surroundings(&self) -> Surroundings {
+        Surroundings { scope: self.sky(view::SCOPE_DEG), dome: self.sky(view::OBSERVER_DEG) }
     }
 }
 
-/// The largest error of any column, measured against its scale.
-fn worst<F>(columns: &[Column<F>], estimate: impl Fn(&F) -> Estimate) -> f64 {
-    columns.iter().map(|(_, scale, f)| estimate(f).error / scale).fold(0.0, f64::max)
-}
+impl Subject {
+    fn medium(&self, plan: &Plan) -> Medium<'_> {
+        Medium { material: &self.material, polarised: plan.polarised }
+    }
 
-/// How many samples are likely to bring an error down that is `times` too large: the errors of evenly
-/// spread points fall with the root of the samples or faster, about as samples to the power of 2/3.
-fn more(samples: u64, times: f64) -> u64 {
-    (samples as f64 * times.powf(1.5).clamp(LEAST_STEP, LARGEST_STEP)) as u64
-}
-
-/// Traces until the error is below the target; the error if the cap comes first.
-fn reach<E: Experiment>(
-    traced: &mut Traced<E>,
-    target: f64,
-    first: u64,
-    cap: u64,
-    worst: impl Fn(&Traced<E>) -> f64,
-) -> Option<f64> {
-    traced.extend_to(first.min(cap));
-    loop {
-        let error = worst(traced);
-        if error <= target {
-            return None;
-        }
-        if traced.samples() >= cap {
-            return Some(error);
-        }
-        traced.extend_to(more(traced.samples(), error / target).min(cap));
+    fn aspect(&self) -> Aspect {
+        self.tilt.map_or(Aspect::FACE_UP, |t| Aspect::tilted(t.degrees, t.azimuth))
     }
 }

@@ -79,7 +79,8 @@ pub(super) fn meet<
         if POLARISED {
             let half = 0.5 * (r_s - r_p);
             let turned = about_incidence(p, l, [nx, ny, nz]);
-            kept += half * turned.q;
+            // within its bounds also where a lane at rest still has the q of its last light
+            kept = (kept + half * turned.q).max(0.0).min(p.power[l]);
             p.q[l] = half * p.power[l] + mean * turned.q;
             // r_s r_p*: real where light passes, of size 1 at total reflection
             let kappa = (sin2_t - 1.0).max(0.0).sqrt();

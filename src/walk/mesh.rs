@@ -9,6 +9,7 @@
 use super::scalar::{Meeting, Ray};
 use crate::math::random::Stream;
 use crate::optics::fresnel::Facing;
+use crate::optics::stokes::Stokes;
 use crate::solid::Plane;
 use crate::solid::mesh::Mesh;
 use glam::{DVec3, Vec3A};
@@ -17,8 +18,9 @@ use obvhs::bvh2::{Bvh2, builder};
 use obvhs::{BvhBuildParams, ray};
 use std::collections::HashMap;
 
-/// Corners of a facet lie in its plane within this, walking units: nine decimals in a file pass.
-const FLAT: f64 = 1e-8;
+/// Corners of a facet lie in its plane within this, walking units: `f32` in a file passes. A ray that
+/// finds a gap of that width between two facets is lost, and counted.
+const FLAT: f64 = 1e-6;
 
 /// A point within this of a plane or an edge is on it, walking units: some thousand roundings.
 const ON: f64 = 1e-12;
@@ -111,18 +113,23 @@ impl MeshStone {
         best
     }
 
-    /// Walks a ray until its power falls below `stop_power`, calling `visit` at every meeting;
-    /// returns the power given up. A ray from outside that misses the stone gives up all.
+    /// Facet and corners of each triangle, counter-clockwise seen from outside, walking frame.
+    pub fn triangles(&self) -> impl Iterator<Item = (usize, [DVec3; 3])> {
+        self.triangles.iter().map(|t| (t.facet, t.corners))
+    }
+
+    /// Walks a ray until its power falls below `stop_power`, calling `visit` at every meeting with the
+    /// side on which it met the facet; returns the power given up. A ray from outside that misses the
+    /// stone gives up all.
     ///
-    /// - `ray`: walking frame; light is taken as unpolarised at every facet
-    /// - `side`: where the ray starts; `stream`: what chance takes its numbers from
+    /// - `ray`: walking frame; `side`: where it starts; `stream`: what chance takes its numbers from
     pub fn walk(
         &self,
         mut ray: Ray,
         mut side: Side,
         stop_power: f64,
         stream: &mut Stream,
-        mut visit: impl FnMut(&Meeting),
+        mut visit: impl FnMut(&Meeting, Side),
     ) -> f64 {
         for _ in 0..super::MEETINGS_LIMIT {
             if ray.power < stop_power || ray.power <= 0.0 {
@@ -133,38 +140,52 @@ impl MeshStone {
             ray.point += ray.direction * distance;
             ray.point -= plane.normal * plane.height(ray.point);
             let absorbed = if side == Side::Inside { ray.absorb(distance) } else { 0.0 };
-            let split = Split::at(plane.normal, &ray, side);
-            let leaves = split.power_outside > 0.0
-                && self.next_facet(ray.point, split.outside, Side::Outside).is_none();
-            let mut power = 0.0;
-            side = Side::Inside;
-            if leaves {
-                power = split.power_outside;
-                ray.power -= power;
-            } else if stream.unit64() * ray.power < split.power_outside {
-                side = Side::Outside;
-            }
-            visit(&Meeting {
+            let Split { inside, outside, cos_inside, cos_outside } = Split::at(plane.normal, &ray, side);
+            let leaves =
+                outside.power > 0.0 && self.next_facet(ray.point, outside.direction, Side::Outside).is_none();
+            let meeting = Meeting {
                 facet,
                 point: ray.point,
-                direction: if leaves { split.outside } else { DVec3::ZERO },
-                power,
+                direction: if leaves { outside.direction } else { DVec3::ZERO },
+                power: if leaves { outside.power } else { 0.0 },
                 absorbed,
-                cos_inside: split.cos_inside,
-                cos_outside: split.cos_outside,
-            });
-            ray.direction = if side == Side::Outside { split.outside } else { split.inside };
+                cos_inside,
+                cos_outside,
+            };
+            visit(&meeting, side);
+            let whole = ray.power;
+            let goes_outside = !leaves && stream.unit64() * whole < outside.power;
+            side = if goes_outside { Side::Outside } else { Side::Inside };
+            let mut way = if goes_outside { outside } else { inside };
+            if !leaves {
+                way = way.with_power(whole);
+            }
+            ray = Ray { direction: way.direction, power: way.power, stokes: way.stokes, ..ray };
         }
         ray.power
     }
 }
 
-/// The two ways on from a facet.
+/// One of the two ways on from a facet.
+struct Way {
+    /// Unit.
+    direction: DVec3,
+    power: f64,
+    stokes: Option<Stokes>,
+}
+
+impl Way {
+    /// The same light, as strong as `power`.
+    fn with_power(self, power: f64) -> Way {
+        let grown = power / self.power;
+        Way { power, stokes: self.stokes.map(|light| Stokes { i: power, ..light.dimmed(grown) }), ..self }
+    }
+}
+
+/// Both ways on from a facet.
 struct Split {
-    /// Unit directions.
-    inside: DVec3,
-    outside: DVec3,
-    power_outside: f64,
+    inside: Way,
+    outside: Way,
     cos_inside: f64,
     cos_outside: f64,
 }
@@ -172,32 +193,31 @@ struct Split {
 impl Split {
     fn at(normal: DVec3, ray: &Ray, side: Side) -> Split {
         let along = ray.direction.dot(normal);
-        let (cos_i, n) = (along.abs().min(1.0), ray.index);
-        let mirrored = (ray.direction - 2.0 * along * normal).normalize_or_zero();
-        let through = |eta: f64, facing: &Facing| {
-            let bend = (facing.cos_t - cos_i / eta) * along.signum();
-            (ray.direction / eta + bend * normal).normalize_or_zero()
+        let cos_i = along.abs().min(1.0);
+        let eta = if side == Side::Inside { 1.0 / ray.index } else { ray.index };
+        let facing = Facing::new(cos_i, eta);
+        let bend = (facing.cos_t - cos_i / eta) * along.signum();
+        let light = ray.stokes.map(|light| light.about_incidence(ray.direction, normal));
+        let reflected = light.map(|light| light.reflected(&facing));
+        let power = reflected.map_or(ray.power * facing.mean(), |light| light.i);
+        let mirrored = Way {
+            direction: (ray.direction - 2.0 * along * normal).normalize_or_zero(),
+            power,
+            stokes: reflected,
         };
+        let passed = ray.power - power;
+        let through = Way {
+            direction: (ray.direction / eta + bend * normal).normalize_or_zero(),
+            power: passed,
+            stokes: light.map(|light| Stokes { i: passed, ..light.transmitted(&facing) }),
+        };
+        let cos_t = facing.cos_t;
         match side {
             Side::Inside => {
-                let facing = Facing::new(cos_i, 1.0 / n);
-                Split {
-                    inside: mirrored,
-                    outside: through(1.0 / n, &facing),
-                    power_outside: ray.power * (1.0 - facing.mean()),
-                    cos_inside: cos_i,
-                    cos_outside: facing.cos_t,
-                }
+                Split { inside: mirrored, outside: through, cos_inside: cos_i, cos_outside: cos_t }
             }
             Side::Outside => {
-                let facing = Facing::new(cos_i, n);
-                Split {
-                    inside: through(n, &facing),
-                    outside: mirrored,
-                    power_outside: ray.power * facing.mean(),
-                    cos_inside: facing.cos_t,
-                    cos_outside: cos_i,
-                }
+                Split { inside: through, outside: mirrored, cos_inside: cos_t, cos_outside: cos_i }
             }
         }
     }

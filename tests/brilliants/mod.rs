@@ -2,30 +2,19 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use cutlab::cut::{Design, families};
+use cutlab::cut::Design;
 use cutlab::math::stats::Estimate;
 use cutlab::metrics::Metric;
 use cutlab::optics::Material;
 use cutlab::study::score::{Effort, Plan, Subject, score};
+use cutlab::study::validate::stones::{self, STONES};
 use cutlab::walk::Stone;
-use std::collections::BTreeMap;
 
 /// The only seed of these tests.
 pub const SEED: u64 = 1;
 
-/// Names and proportions of the stones of §4; what is not given is star 50, lower half 75, girdle 3.
-pub const STONES: [(&str, &[(&str, f64)]); 6] = [
-    ("reference", &[]),
-    ("tolkowsky", &[("table", 53.0), ("crown-angle", 34.5), ("pavilion-angle", 40.75), ("girdle", 2.0)]),
-    ("57", &[("table", 57.0), ("crown-angle", 34.5), ("pavilion-angle", 40.8), ("lower-half", 77.0)]),
-    ("steep-deep", &[("table", 58.0), ("crown-angle", 36.0), ("pavilion-angle", 41.8), ("lower-half", 80.0)]),
-    ("fisheye", &[("table", 65.0), ("crown-angle", 30.0), ("pavilion-angle", 38.5)]),
-    ("nailhead", &[("table", 58.0), ("crown-angle", 36.0), ("pavilion-angle", 43.0)]),
-];
-
 pub fn design(proportions: &[(&str, f64)]) -> Design {
-    let given: BTreeMap<String, f64> = proportions.iter().map(|(k, v)| (k.to_string(), *v)).collect();
-    families::build("round-brilliant", &given).expect("builds")
+    stones::brilliant(proportions).expect("builds")
 }
 
 pub fn named(name: &str) -> Design {
@@ -46,7 +35,8 @@ pub fn diamond() -> Material {
 }
 
 pub fn subject(name: &str, design: &Design, material: Material) -> Subject {
-    Subject { stone: name.into(), material, solid: design.solid().map_err(|e| e.to_string()), tilt: None }
+    let shape = design.solid().map(Into::into).map_err(|e| e.to_string());
+    Subject { stone: name.into(), material, shape, tilt: None }
 }
 
 /// Scalar Fresnel, as the reference figures have it.

@@ -3,12 +3,13 @@
 use crate::stones::*;
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::optics::fresnel::Facing;
+use cutlab::optics::stokes::Stokes;
 use cutlab::solid::mesh::Mesh;
 use cutlab::walk::mesh::{MeshError, MeshStone, Side};
 use cutlab::walk::{LANES, Stone, scalar};
 use glam::DVec3;
 
-const N: f64 = 2.417;
+pub const N: f64 = 2.417;
 
 /// A mesh of faces given by their corners, each cut as a fan.
 fn mesh(vertices: &[[f64; 3]], faces: &[&[usize]]) -> Mesh {
@@ -24,7 +25,7 @@ fn mesh(vertices: &[[f64; 3]], faces: &[&[usize]]) -> Mesh {
 }
 
 /// A cube whose top is a pyramid pressed in to half its depth.
-fn dented_cube() -> Mesh {
+pub fn dented_cube() -> Mesh {
     let [a, b] = [-1.0, 1.0];
     let corners = [
         [a, a, a],
@@ -43,7 +44,7 @@ fn dented_cube() -> Mesh {
 }
 
 /// A prism with a notch: an L seen from above.
-fn notched_prism() -> Mesh {
+pub fn notched_prism() -> Mesh {
     let outline = [[0.0, 0.0], [2.0, 0.1], [2.0, 1.0], [0.9, 1.0], [1.0, 2.0], [0.0, 2.0]];
     let corners: Vec<_> = [-0.7, 0.7].iter().flat_map(|z| outline.map(|[x, y]| [x, y, *z])).collect();
     let walls: Vec<[usize; 4]> = (0..6).map(|i| [i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6]).collect();
@@ -53,18 +54,18 @@ fn notched_prism() -> Mesh {
     mesh(&corners, &faces)
 }
 
-/// A ray from outside onto the middle of the stone's box or near it.
-fn aimed(s: &mut Stream) -> scalar::Ray {
+/// A ray of unpolarised light from outside onto the middle of the stone's box or near it; whether its
+/// polarisation is followed.
+fn aimed(s: &mut Stream, polarised: bool) -> scalar::Ray {
     let direction = random_direction(s).as_dvec3().normalize();
     let target = random_direction(s).as_dvec3() * 0.4 * s.unit64();
-    scalar::Ray {
-        point: target - direction * 3.0,
-        direction,
-        power: 1.0,
-        index: N,
-        absorption: 0.0,
-        stokes: None,
-    }
+    falling(target - direction * 3.0, direction, polarised)
+}
+
+/// A ray of unpolarised light of power 1; whether its polarisation is followed.
+pub fn falling(point: DVec3, direction: DVec3, polarised: bool) -> scalar::Ray {
+    let stokes = polarised.then(|| Stokes::unpolarised(1.0, direction.any_orthonormal_vector()));
+    scalar::Ray { point, direction, power: 1.0, index: N, absorption: 0.0, stokes }
 }
 
 /// [D] facet by facet, until two are equally near.
@@ -81,12 +82,18 @@ fn convex_stones_are_walked_as_the_twin_walks_them() {
         for _ in 0..20 {
             let (packet, _) = entering(&stone, &mut s, DIAMOND);
             for lane in 0..LANES {
-                let ray = twin_of(&packet, lane);
+                let mut ray = twin_of(&packet, lane);
+                if lane % 2 == 0 {
+                    // any state of polarisation
+                    let axis = ray.direction.any_orthonormal_vector();
+                    let [q, u, v] = [0.3, -0.5, 0.6].map(|part| part * ray.power);
+                    ray.stokes = Some(Stokes { i: ray.power, q, u, v, axis });
+                }
                 let mut twin = Vec::new();
                 scalar::walk(&stone.planes, ray, 1e-3, |m| twin.push(*m));
                 let mut twin = twin.into_iter();
                 let mut together = true;
-                mesh.walk(ray, Side::Inside, 1e-3, &mut s.clone(), |m| {
+                mesh.walk(ray, Side::Inside, 1e-3, &mut s.clone(), |m, _| {
                     let Some(t) = twin.next().filter(|_| together) else { return };
                     together = t.facet == m.facet;
                     meetings += 1;
@@ -109,13 +116,13 @@ fn uniform_light_comes_back_whole() {
         let stone = MeshStone::new(mesh).expect("closed");
         let mut s = Stream::new(SEED, Purpose::Test, 910 + number as u64);
         let (mut rays, mut again, mut leaked) = (0, 0, 0.0);
-        for _ in 0..2000 {
-            let ray = aimed(&mut s);
+        for number in 0..2000 {
+            let ray = aimed(&mut s, number % 2 == 0);
             if stone.next_facet(ray.point, ray.direction, Side::Outside).is_none() {
                 continue;
             }
             let (mut left, mut returns) = (0.0, 0);
-            let lost = stone.walk(ray, Side::Outside, 1e-9, &mut s, |m| {
+            let lost = stone.walk(ray, Side::Outside, 1e-9, &mut s, |m, _| {
                 left += m.power;
                 returns += i32::from(m.power == 0.0 && m.cos_outside > 0.0);
             });
@@ -130,6 +137,16 @@ fn uniform_light_comes_back_whole() {
         );
         assert!(rays > 1000 && again > rays / 20, "{again} of {rays}");
     }
+}
+
+/// Corners and normal of every triangle, walking frame.
+pub fn triangles_of(mesh: &Mesh, stone: &MeshStone) -> Vec<([DVec3; 3], DVec3)> {
+    let corner = |c: usize| (mesh.vertices[c] - stone.centre) / stone.unit;
+    let triangle = |t: &[usize; 3]| {
+        let [a, b, c] = t.map(corner);
+        ([a, b, c], (b - a).cross(c - a).normalize())
+    };
+    mesh.triangles.iter().map(triangle).collect()
 }
 
 /// The nearest crossing of a ray with any triangle, by brute force (Möller and Trumbore).
@@ -150,9 +167,10 @@ fn nearest(stone: &[([DVec3; 3], DVec3)], point: DVec3, direction: DVec3) -> Opt
     best
 }
 
-/// Power that leaves upward if both parts of every split are followed; what is below `least` is left
-/// out and counted.
-fn tree(stone: &[([DVec3; 3], DVec3)], point: DVec3, direction: DVec3, power: f64, least: f64) -> [f64; 2] {
+/// Power that leaves upward if both parts of every split are followed, with or without their
+/// polarisation; what is below `least` is left out and counted.
+pub fn tree(stone: &[([DVec3; 3], DVec3)], ray: scalar::Ray, least: f64) -> [f64; 2] {
+    let scalar::Ray { point, direction, power, stokes, .. } = ray;
     if power < least {
         return [0.0, power];
     }
@@ -162,12 +180,21 @@ fn tree(stone: &[([DVec3; 3], DVec3)], point: DVec3, direction: DVec3, power: f6
     let along = direction.dot(normal);
     let eta = if along > 0.0 { 1.0 / N } else { N };
     let facing = Facing::new(along.abs(), eta);
-    let at = point + direction * t;
+    let light = stokes.map(|light| light.about_incidence(direction, normal));
+    let go = |direction: DVec3, part: Option<Stokes>, share: f64| {
+        let power = part.map_or(share * power, |light| light.i);
+        let direction = direction.normalize();
+        tree(
+            stone,
+            scalar::Ray { point: point + ray.direction * t, direction, power, stokes: part, ..ray },
+            least,
+        )
+    };
     let mirrored = direction - 2.0 * along * normal;
     let through = direction / eta + normal * along.signum() * (facing.cos_t - along.abs() / eta);
-    let [a, lost_a] = tree(stone, at, mirrored.normalize(), power * facing.mean(), least);
+    let [a, lost_a] = go(mirrored, light.map(|l| l.reflected(&facing)), facing.mean());
     let [b, lost_b] = if facing.mean() < 1.0 {
-        tree(stone, at, through.normalize(), power * (1.0 - facing.mean()), least)
+        go(through, light.map(|l| l.transmitted(&facing)), 1.0 - facing.mean())
     } else {
         [0.0; 2]
     };
@@ -181,26 +208,18 @@ fn chance_is_without_bias() {
     const WALKS: usize = 1000;
     for (number, mesh) in [dented_cube(), notched_prism()].iter().enumerate() {
         let stone = MeshStone::new(mesh).expect("closed");
-        let corner = |c: usize| (mesh.vertices[c] - stone.centre) / stone.unit;
-        let triangles: Vec<_> = mesh
-            .triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = t.map(corner);
-                ([a, b, c], (b - a).cross(c - a).normalize())
-            })
-            .collect();
+        let triangles = triangles_of(mesh, &stone);
         let mut s = Stream::new(SEED, Purpose::Test, 920 + number as u64);
         let (mut compared, mut chances) = (0, 0);
         while compared < 60 {
-            let ray = aimed(&mut s);
+            let ray = aimed(&mut s, compared % 2 == 0);
             if stone.next_facet(ray.point, ray.direction, Side::Outside).is_none() {
                 continue;
             }
-            let [up, cut] = tree(&triangles, ray.point, ray.direction, 1.0, 1e-6);
+            let [up, cut] = tree(&triangles, ray, 1e-6);
             let walks = (0..WALKS).map(|_| {
                 let mut sent = 0.0;
-                let upward = |m: &scalar::Meeting| sent += if m.direction.z > 0.0 { m.power } else { 0.0 };
+                let upward = |m: &scalar::Meeting, _| sent += if m.direction.z > 0.0 { m.power } else { 0.0 };
                 let lost = stone.walk(ray, Side::Outside, 1e-6, &mut s, upward);
                 [sent, lost]
             });

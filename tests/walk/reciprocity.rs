@@ -6,6 +6,7 @@ use cutlab::math::{
     random::{Purpose, Stream},
     sample,
 };
+use cutlab::optics::stokes::Stokes;
 use cutlab::walk::{LANES, Packet, Stone, scalar};
 use glam::{DVec3, Vec3};
 
@@ -17,15 +18,19 @@ struct Way {
     share: f64,
 }
 
-/// The ways of a ray onto a facet by the twin: one for each exit of more than a thousandth.
-fn ways_of_twin(stone: &Stone, point: DVec3, toward: DVec3, facet: usize) -> Vec<Way> {
+/// The ways of an unpolarised ray onto a facet by the twin: one for each exit of more than a
+/// thousandth.
+fn ways_of_twin(stone: &Stone, point: DVec3, toward: DVec3, facet: usize, polarised: bool) -> Vec<Way> {
     let n = f64::from(DIAMOND);
     let normal = stone.planes[facet].normal;
     let cos = -toward.dot(normal);
     let facing = cutlab::optics::fresnel::Facing::new(cos, n);
     let inside = (toward / n + normal * (cos / n - facing.cos_t)).normalize();
     let power = 1.0 - facing.mean();
-    let ray = scalar::Ray { point, direction: inside, power, index: n, absorption: 0.0, stokes: None };
+    let light = Stokes::unpolarised(1.0, toward.any_orthonormal_vector());
+    let light = light.about_incidence(toward, normal).transmitted(&facing);
+    let stokes = polarised.then_some(light);
+    let ray = scalar::Ray { point, direction: inside, power, index: n, absorption: 0.0, stokes };
     let mut ways = Vec::new();
     scalar::walk(&stone.planes, ray, 1e-3, |m| {
         if m.power > 1e-3 {
@@ -36,9 +41,9 @@ fn ways_of_twin(stone: &Stone, point: DVec3, toward: DVec3, facet: usize) -> Vec
 }
 
 /// The same in lanes, in the first lane of a packet.
-fn ways_of_lanes(stone: &Stone, point: DVec3, toward: DVec3, facet: usize) -> Vec<Way> {
+fn ways_of_lanes(stone: &Stone, point: DVec3, toward: DVec3, facet: usize, polarised: bool) -> Vec<Way> {
     let entry = stone.enter(facet, toward.as_vec3(), DIAMOND);
-    let mut packet = Packet::default();
+    let mut packet = Packet::new(polarised);
     packet.enter(0, point.as_vec3(), &entry, DIAMOND);
     let mut ways = Vec::new();
     stone.walk(&mut packet, 1e-3, |m, packet| {
@@ -56,27 +61,29 @@ fn facet_at(stone: &Stone, point: DVec3) -> usize {
     (0..stone.facet_count()).min_by(|a, b| height(a).total_cmp(&height(b))).expect("has facets")
 }
 
-type Ways = fn(&Stone, DVec3, DVec3, usize) -> Vec<Way>;
+type Ways = fn(&Stone, DVec3, DVec3, usize, bool) -> Vec<Way>;
 
-/// Every exit sent back comes out where the ray came from, with the same share.
+/// Every exit sent back comes out where the ray came from, with the same share, whether its
+/// polarisation is followed or not.
 fn assert_returns(ways: Ways, within: f64, most_lost: usize) {
     let stone = Stone::new(brilliant());
     let mut s = Stream::new(SEED, Purpose::Test, 800);
     let (mut tried, mut lost) = (0, 0);
-    for _ in 0..200 {
+    for number in 0..200 {
+        let polarised = number % 2 == 0;
         let toward = -sample::cone(s.pair(), 0.5);
         let origin = (0.9 * sample::disc(s.pair())).extend(0.0) - 3.0 * toward;
         let Some(hit) = stone.hit(origin, toward) else { continue };
         let (origin, toward) = (origin.as_dvec3(), toward.as_dvec3().normalize());
         let plane = stone.planes[hit.facet];
         let point = origin - toward * (plane.height(origin) / plane.normal.dot(toward));
-        for way in ways(&stone, point, toward, hit.facet) {
+        for way in ways(&stone, point, toward, hit.facet, polarised) {
             let (start, back) = (way.to.0, -way.to.1);
             if back.dot(stone.planes[facet_at(&stone, start)].normal) > -0.02 {
                 continue; // along the facet: the way back hangs on the last digits
             }
             tried += 1;
-            let found = ways(&stone, start, back, facet_at(&stone, start)).into_iter().any(|w| {
+            let found = ways(&stone, start, back, facet_at(&stone, start), polarised).into_iter().any(|w| {
                 w.to.0.distance(way.from.0) < 100.0 * within
                     && w.to.1.distance(-way.from.1) < 100.0 * within
                     && (w.share - way.share).abs() < within

@@ -5,6 +5,7 @@ use cutlab::math::{
     random::{Purpose, Stream},
     sample,
 };
+use cutlab::optics::stokes::Stokes;
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::walk::{LANES, Packet, Stone, scalar};
 use glam::{DVec3, Vec3};
@@ -61,21 +62,24 @@ pub fn entering(stone: &Stone, s: &mut Stream, index: f32) -> (Packet, [f32; LAN
         let point = corners[0] + (corners[i] - corners[0]) * b + (corners[i + 1] - corners[0]) * c;
         let direction = -sample::about(stone.normals[facet], sample::cosine_hemisphere(s.pair()));
         let entry = stone.enter(facet, direction, index);
-        packet.set(lane, point.as_vec3(), entry.direction, 1.0 - entry.reflectance, index);
+        packet.enter(lane, point.as_vec3(), &entry, index);
         *reflected = entry.reflectance;
     }
     (packet, reflected)
 }
 
-/// The same ray for the `f64` twin.
+/// The same ray for the `f64` twin, which follows polarisation if the packet does.
 pub fn twin_of(packet: &Packet, lane: usize) -> scalar::Ray {
+    let [q, u, v] = [packet.q, packet.u, packet.v].map(|part| f64::from(part[lane]));
+    let axis = DVec3::new(packet.ax[lane].into(), packet.ay[lane].into(), packet.az[lane].into());
+    let stokes = Stokes { i: packet.power[lane].into(), q, u, v, axis: axis.normalize() };
     scalar::Ray {
         point: packet.point(lane).as_dvec3(),
         direction: packet.direction(lane).as_dvec3().normalize(),
         power: packet.power[lane].into(),
         index: packet.index[lane].into(),
         absorption: 0.0,
-        stokes: None,
+        stokes: packet.polarised.then_some(stokes),
     }
 }
 

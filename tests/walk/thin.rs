@@ -26,7 +26,7 @@ fn grazing_light_stays_outside_or_is_balanced() {
         let direction = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, -cos);
         let entry = stone.enter(table, direction, DIAMOND);
         assert!(entry.direction.is_finite() && (entry.direction.length() - 1.0).abs() < 1e-6);
-        packet.set(lane, middle, entry.direction, 1.0 - entry.reflectance, DIAMOND);
+        packet.enter(lane, middle, &entry, DIAMOND);
         *reflected = entry.reflectance;
     }
     assert_eq!(reflected[0], 1.0);

@@ -1,6 +1,6 @@
 //! Scores along one parameter: lines with their error bands.
 
-use super::frame::{Frame, WIDTH};
+use super::frame::{Frame, HEIGHT, SMALL, WIDTH};
 use super::{BAND, escaped};
 use crate::report::raster::text_width;
 use std::fmt::Write;
@@ -12,6 +12,19 @@ pub struct Curve {
     pub name: String,
     /// x, and value with standard error; none where there is no value: the line is broken.
     pub points: Vec<(f64, Option<(f64, f64)>)>,
+}
+
+/// A value that was expected somewhere.
+#[derive(Debug, Clone, Copy)]
+pub struct Dot {
+    /// Where.
+    pub x: f64,
+    /// The value.
+    pub value: f64,
+    /// Half the length of its bar.
+    pub tolerance: f64,
+    /// Whether it is hollow: it was not met.
+    pub hollow: bool,
 }
 
 /// A plot of lines.
@@ -31,6 +44,10 @@ pub struct Curves {
     pub spans: Vec<(String, (f64, f64))>,
     /// Named places on x.
     pub marks: Vec<(String, f64)>,
+    /// Values that were expected, over the lines.
+    pub dots: Vec<Dot>,
+    /// Whether it is to be shown small: the drawing has less room, its text stays.
+    pub small: bool,
 }
 
 /// Colours that stay apart for the colour-blind. Source: M. Okabe, K. Ito, *Color Universal Design*
@@ -47,9 +64,17 @@ impl Curves {
         };
         let xs = reach(&mut points().map(|p| p.0));
         let shown = || points().filter_map(|p| p.1).filter(|(v, e)| v.is_finite() && e.is_finite());
-        let (lo, hi) = reach(&mut shown().flat_map(|(v, e)| [v - BAND * e, v + BAND * e]));
+        let (lo, hi) = reach(
+            &mut shown()
+                .flat_map(|(v, e)| [v - BAND * e, v + BAND * e])
+                .chain(self.dots.iter().flat_map(|d| [d.value - d.tolerance, d.value + d.tolerance])),
+        );
         let room = 0.05 * (hi - lo);
-        let frame = Frame::new(xs, (lo - room, hi + room), WIDTH - 28.0);
+        let size = if self.small { SMALL } else { (WIDTH, HEIGHT) };
+        // a small drawing has no corner that is surely free of lines: names stand above them
+        let names = self.curves.iter().filter(|c| self.small && !c.name.is_empty()).count() as f64;
+        let above = 0.09 * names / (1.0 - 0.09 * names).max(0.5) * (hi - lo);
+        let frame = Frame::new(size, xs, (lo - room, hi + room + above), 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
         let mut named_span = String::new();
@@ -81,6 +106,7 @@ impl Curves {
                 line(&frame, &run, colour, &mut out);
             }
         }
+        self.dots.iter().for_each(|d| dot(&frame, *d, &mut out));
         let named: Vec<(&Curve, &&str)> =
             self.curves.iter().zip(COLOURS.iter().cycle()).filter(|(c, _)| !c.name.is_empty()).collect();
         for (i, (curve, colour)) in named.iter().enumerate() {
@@ -127,6 +153,20 @@ impl Curves {
             );
         }
     }
+}
+
+/// An expected value with its bar.
+fn dot(frame: &Frame, d: Dot, out: &mut String) {
+    let (x, y) = (frame.x.at(d.x), frame.y.at(d.value));
+    let [low, high] = [d.value - d.tolerance, d.value + d.tolerance].map(|v| frame.y.at(v));
+    let fill = if d.hollow { "#fff" } else { COLOURS[1] };
+    let _ = writeln!(
+        out,
+        "<path d=\"M{:.2} {low:.2}h10m-5 0V{high:.2}m-5 0h10\" fill=\"none\" stroke=\"{1}\" stroke-width=\"1.4\"/>\
+         <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"{fill}\" stroke=\"{1}\" stroke-width=\"1.6\"/>",
+        x - 5.0,
+        COLOURS[1]
+    );
 }
 
 /// One unbroken line with its band, and dots if there are few.

@@ -9,9 +9,12 @@ pub const WIDTH: f64 = 800.0;
 /// See [`WIDTH`].
 pub const HEIGHT: f64 = 600.0;
 
+/// Width and height of a drawing that is to be shown small, with text as large as in others.
+pub const SMALL: (f64, f64) = (460.0, 345.0);
+
 /// Room above and below the plot.
 const TOP: f64 = 64.0;
-const BOTTOM: f64 = 528.0;
+const BELOW: f64 = 72.0;
 const LEFT: f64 = 84.0;
 
 /// Numbers along one direction of the drawing.
@@ -45,6 +48,8 @@ pub struct Frame {
     pub x: Scale,
     /// Up.
     pub y: Scale,
+    /// Width and height of the whole drawing.
+    size: (f64, f64),
 }
 
 /// A range that is not empty.
@@ -58,12 +63,16 @@ pub fn widened((from, to): (f64, f64)) -> (f64, f64) {
 }
 
 impl Frame {
-    /// A frame for these ranges; `right`: where the plot ends.
-    pub fn new(x: (f64, f64), y: (f64, f64), right: f64) -> Frame {
+    /// A frame for these ranges.
+    ///
+    /// - `size`: width and height of the drawing; `right`: room beside the plot
+    pub fn new(size: (f64, f64), x: (f64, f64), y: (f64, f64), right: f64) -> Frame {
+        let bottom = size.1 - BELOW;
         let ((x0, x1), (y0, y1)) = (widened(x), widened(y));
         Frame {
-            x: Scale { from: x0, to: x1, start: LEFT, length: right - LEFT },
-            y: Scale { from: y0, to: y1, start: BOTTOM, length: TOP - BOTTOM },
+            x: Scale { from: x0, to: x1, start: LEFT, length: size.0 - right - LEFT },
+            y: Scale { from: y0, to: y1, start: bottom, length: TOP - bottom },
+            size,
         }
     }
 
@@ -75,10 +84,11 @@ impl Frame {
     /// Begins a drawing: title and note above, a clip called `plot`.
     pub fn open(&self, title: &str, note: &str) -> String {
         let (x, y, w, h) = self.rectangle();
-        let size = ((WIDTH - x - 12.0) / text_width(note, false)).min(12.0);
+        let (width, height) = self.size;
+        let size = ((width - x - 12.0) / text_width(note, false)).min(12.0);
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-             font-family=\"{}\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+             font-family=\"{}\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{width}\" height=\"{height}\" \
              fill=\"#fff\"/>\n<clipPath id=\"plot\"><rect x=\"{x}\" y=\"{y}\" width=\"{w:.1}\" height=\"{h:.1}\"/>\
              </clipPath>\n<text x=\"{x}\" y=\"26\" font-size=\"18\" font-weight=\"bold\">{}</text>\n\
              <text x=\"{x}\" y=\"48\" font-size=\"{size:.1}\" fill=\"#555\">{}</text>\n",

@@ -1,6 +1,6 @@
 //! A score over two parameters: coloured bands, labelled contours, marks.
 
-use super::frame::{Frame, WIDTH, step, ticks};
+use super::frame::{Frame, HEIGHT, WIDTH, step, ticks};
 use super::surface::Surface;
 use super::{Axis, Drawing, escaped};
 use crate::report::raster::text_width;
@@ -34,7 +34,7 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
         .collect();
     let surface = if scattered { Surface::of_scattered(&points) } else { Surface::of_grid(&points) };
     let ends = surface.as_ref().map_or(((0.0, 1.0), (0.0, 1.0)), |s| (s.x, s.y));
-    let frame = Frame::new(ends.0, ends.1, RIGHT);
+    let frame = Frame::new((WIDTH, HEIGHT), ends.0, ends.1, WIDTH - RIGHT);
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
@@ -303,10 +303,12 @@ fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
         let anchor = if to_left { "end" } else { "start" };
         let _ = writeln!(
             out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"#fff\" stroke=\"#000\" stroke-width=\"1.2\"/>\
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\" fill=\"{}\" stroke=\"#000\" stroke-width=\"1.2\"/>\
              <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" font-weight=\"bold\" text-anchor=\"{anchor}\" fill=\"#fff\" \
              stroke=\"#000\" stroke-opacity=\"0.7\" stroke-width=\"3\" stroke-linejoin=\"round\" \
              paint-order=\"stroke\">{}</text>",
+            if mark.own { 6.5 } else { 4.0 },
+            if mark.own { "#e8352e" } else { "#fff" },
             if to_left { x - 9.0 } else { x + 9.0 },
             y + dy + 4.0,
             escaped(&mark.name)

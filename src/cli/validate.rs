@@ -1,0 +1,147 @@
+//! `cutlab validate`: published and derivable figures against what this program computes.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::words;
+use crate::report::validation::{self, count, expectation, written};
+use crate::store::replace;
+use crate::study::validate::{self, Lab, Outcome, Report, Verdict};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Where the table and the page go unless a folder is named.
+const FOLDER: &str = "reports";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab validate                       all figures, a minute; reports/validation.csv and .html
+  cutlab validate --only leakage        those whose subject or name says leakage, on the screen alone
+  CUTLAB_CORPUS=../corpus cutlab validate   with the figures that need real files
+
+A figure passes if ours lies within its tolerance and 3 standard errors of ours. Exit code 0 if no
+figure failed, 1 if some did: they stay in the table with what explains them. Figures that need files
+which are not there are skipped, and count as neither.")]
+pub struct Args {
+    /// A folder for validation.csv and validation.html; it is made [reports; none with --only]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Only figures computed with one whose subject or name has this in it
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+/// A figure, for `--json`.
+#[derive(Serialize)]
+struct Entry<'a> {
+    subject: &'a str,
+    figure: &'a str,
+    source: &'a str,
+    kind: String,
+    relation: &'a str,
+    expected: f64,
+    tolerance: Option<f64>,
+    unit: &'a str,
+    ours: Option<f64>,
+    ours_se: Option<f64>,
+    verdict: String,
+    why: &'a str,
+}
+
+/// Runs the trials and writes what they give.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let mut trials = validate::catalogue();
+    if let Some(part) = &args.only {
+        trials = validate::only(trials, part);
+        if trials.is_empty() {
+            return Err(Failure::input(format!(
+                "no figure has '{part}' in its name; cutlab validate lists them all"
+            )));
+        }
+    }
+    let lab = Lab { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
+    let bar = console.progress(trials.len(), "validating");
+    let run = |trial: validate::Trial| {
+        let report = trial.run(&lab);
+        bar.inc(1);
+        report
+    };
+    let reports: Vec<Report> = trials.into_iter().map(run).collect();
+    bar.finish_and_clear();
+    let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
+    if console.json {
+        console.print_json(&outcomes().map(entry).collect::<Vec<_>>())?;
+    } else {
+        console.print(&text(&reports))?;
+    }
+    let folder = args.output.clone().or_else(|| args.only.is_none().then(|| FOLDER.into()));
+    if let Some(folder) = folder {
+        let page = validation::html(&reports, args.seed, &words::typed());
+        let table = validate::csv(outcomes()).map_err(|e| Failure::input(e.to_string()))?;
+        for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
+            let path = folder.join(name);
+            replace::write(&path, bytes)?;
+            console.note(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(if count(&reports, Verdict::Failed) == 0 { Code::Done } else { Code::SomeFailed })
+}
+
+fn entry(o: &Outcome) -> Entry<'_> {
+    Entry {
+        subject: o.subject,
+        figure: &o.figure.name,
+        source: o.figure.source.name,
+        kind: o.figure.source.kind.to_string(),
+        relation: o.figure.expected.relation(),
+        expected: o.figure.expected.value(),
+        tolerance: o.figure.expected.tolerance(),
+        unit: o.figure.unit,
+        ours: o.ours.map(|e| e.value),
+        ours_se: o.ours.map(|e| e.error),
+        verdict: o.verdict.to_string(),
+        why: &o.why,
+    }
+}
+
+/// The table for people; under it what explains the figures that did not come out.
+fn text(reports: &[Report]) -> String {
+    let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
+    let mut lines = vec![["figure", "kind", "expected", "ours", "", "verdict", "source"].map(String::from)];
+    lines.extend(outcomes().map(|o| {
+        let ours = o.ours.map_or("–".into(), |e| written(e, o.figure.expected.tolerance()));
+        let f = &o.figure;
+        [
+            f.name.clone(),
+            f.source.kind.to_string(),
+            expectation(f),
+            ours,
+            f.unit.into(),
+            o.verdict.to_string(),
+            f.source.name.into(),
+        ]
+    }));
+    let width = |c: usize| lines.iter().map(|l| l[c].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 7] = std::array::from_fn(width);
+    let mut out = String::new();
+    for line in &lines {
+        let cells: Vec<String> =
+            line.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
+        out += cells.join("  ").trim_end();
+        out += "\n";
+    }
+    out += "\n";
+    for o in outcomes().filter(|o| o.verdict == Verdict::Failed && !o.why.is_empty()) {
+        out += &format!("{}: {}\n", o.figure.name, o.why);
+    }
+    let mut skipped: Vec<&str> =
+        outcomes().filter(|o| o.verdict == Verdict::Skipped).map(|o| o.why.as_str()).collect();
+    skipped.dedup();
+    skipped.iter().for_each(|why| out += &format!("skipped: {why}\n"));
+    let [passed, failed, skipped] =
+        [Verdict::Passed, Verdict::Failed, Verdict::Skipped].map(|v| count(reports, v));
+    out + &format!("{passed} passed, {failed} failed, {skipped} skipped\n{}\n", validation::rule())
+}

@@ -1,0 +1,168 @@
+//! Sheet: a row of scores in the making, experiment by experiment, each as far as the plan asks.
+
+use super::score::{Effort, Plan, Row};
+use crate::experiments::weigh::Effort as Work;
+use crate::experiments::{BATCHES, Experiment, ExperimentError, Traced};
+use crate::math::stats::{self, Estimate, Sum};
+use crate::metrics::{Metric, Reading};
+
+/// So many points of the hemisphere are as dear as one photon that finishes beams, which then outweigh it.
+const PHOTON_COST: u64 = 16;
+
+/// Points of the hemisphere, or as much of other experiments, before its error is looked at: enough for
+/// every batch to have seen something.
+const FIRST_SAMPLES: u64 = 1 << 13;
+
+/// By how much samples grow from one look at the error to the next.
+const LEAST_STEP: f64 = 1.1;
+const LARGEST_STEP: f64 = 16.0;
+
+/// A row that is being filled in.
+pub(super) struct Sheet<'a> {
+    pub row: &'a mut Row,
+    pub plan: &'a Plan,
+    /// Whether beams are used.
+    pub exact: bool,
+    /// Whether the stone is not convex.
+    pub dented: bool,
+}
+
+/// A column: its number, its metric's scale, and what it reads from a tally.
+type Column<F> = (usize, f64, F);
+
+impl Sheet<'_> {
+    /// The columns that read a tally.
+    ///
+    /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
+    fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
+        let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams && (m.dented || !self.dented);
+        let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
+        metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
+    }
+
+    /// Traces an experiment as far as the plan asks and fills in the columns that read it, if there
+    /// are any.
+    ///
+    /// - `of`, `by_beams`: as [`Sheet::columns`] has them
+    /// - `cost`: so many points of the hemisphere are as dear as one of this experiment
+    pub fn fill<E: Experiment, F: Fn(&E::Tally) -> f64>(
+        &mut self,
+        name: &'static str,
+        of: impl Fn(Reading) -> Option<F>,
+        by_beams: bool,
+        cost: u64,
+        make: impl FnOnce() -> Result<E, ExperimentError>,
+    ) -> Result<(), ExperimentError> {
+        let columns = self.columns(of, by_beams);
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let mut traced = Traced::new(make()?, self.plan.seed);
+        match self.plan.effort {
+            Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
+            Effort::Error(target) => {
+                let worst = |t: &Traced<E>| worst(&columns, |f| t.estimate(f));
+                let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
+                if let Some(error) = reach(&mut traced, target, first.max(1), cap, worst) {
+                    self.complain(name, target, error, traced.samples());
+                }
+            }
+        }
+        self.take(name, traced.samples(), &columns, |f| traced.estimate(f));
+        Ok(())
+    }
+
+    /// Fills in the columns that beams of one direction give, with photons for what is left over as
+    /// far as the plan asks.
+    pub fn finish<T: Sum, F: Fn(&T) -> f64>(
+        &mut self,
+        name: &'static str,
+        of: impl Fn(Reading) -> Option<F>,
+        tallies: impl Fn(&Work) -> Result<Vec<T>, ExperimentError>,
+    ) -> Result<(), ExperimentError> {
+        let columns = self.columns(of, true);
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let cap = self.plan.cap / PHOTON_COST;
+        let mut photons = match self.plan.effort {
+            Effort::Samples(samples) => samples / PHOTON_COST,
+            Effort::Error(_) => FIRST_SAMPLES / PHOTON_COST,
+        };
+        loop {
+            // fewer than two a batch would leave the remainder out
+            photons = photons.max(2 * BATCHES as u64);
+            let work = Work { photons: photons as usize, seed: self.plan.seed, ..Work::default() };
+            let found = tallies(&work)?;
+            let estimate = |f: &F| match &found[..] {
+                [only] => Estimate::exact(f(only)),
+                all => stats::jackknife(all, f),
+            };
+            let error = worst(&columns, estimate);
+            match self.plan.effort {
+                Effort::Error(target) if error > target && photons < cap => {
+                    photons = more(photons, error / target).min(cap);
+                    continue;
+                }
+                Effort::Error(target) if error > target => self.complain(name, target, error, photons),
+                _ => (),
+            }
+            self.take(name, photons, &columns, estimate);
+            return Ok(());
+        }
+    }
+
+    fn take<F>(
+        &mut self,
+        name: &'static str,
+        samples: u64,
+        columns: &[Column<F>],
+        estimate: impl Fn(&F) -> Estimate,
+    ) {
+        for (column, _, f) in columns {
+            let score = estimate(f);
+            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
+        }
+        self.row.samples.push((name, samples));
+    }
+
+    /// Notes an error that was not reached.
+    fn complain(&mut self, name: &str, target: f64, error: f64, samples: u64) {
+        let note =
+            format!("{name}: standard error {target} not reached: {error:.2e} after {samples} samples");
+        let before = self.row.error.take();
+        self.row.error = Some(before.map_or(note.clone(), |e| format!("{e}; {note}")));
+    }
+}
+
+/// The largest error of any column, measured against its scale.
+fn worst<F>(columns: &[Column<F>], estimate: impl Fn(&F) -> Estimate) -> f64 {
+    columns.iter().map(|(_, scale, f)| estimate(f).error / scale).fold(0.0, f64::max)
+}
+
+/// How many samples are likely to bring an error down that is `times` too large: the errors of evenly
+/// spread points fall with the root of the samples or faster, about as samples to the power of 2/3.
+fn more(samples: u64, times: f64) -> u64 {
+    (samples as f64 * times.powf(1.5).clamp(LEAST_STEP, LARGEST_STEP)) as u64
+}
+
+/// Traces until the error is below the target; the error if the cap comes first.
+fn reach<E: Experiment>(
+    traced: &mut Traced<E>,
+    target: f64,
+    first: u64,
+    cap: u64,
+    worst: impl Fn(&Traced<E>) -> f64,
+) -> Option<f64> {
+    traced.extend_to(first.min(cap));
+    loop {
+        let error = worst(traced);
+        if error <= target {
+            return None;
+        }
+        if traced.samples() >= cap {
+            return Some(error);
+        }
+        traced.extend_to(more(traced.samples(), error / target).min(cap));
+    }
+}
