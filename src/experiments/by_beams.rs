@@ -109,7 +109,7 @@ impl Watch<Scalar, 1> for Bright<'_> {
     }
 }
 
-/// What of the beam's tally the separation of the colours is taken from, in batches as [`view`]'s.
+/// What of the beam's tally the separation of the colours is taken from, in batches as [`view()`]'s.
 /// Angles one by one and thresholds are left out. Checked in `tests/beams.rs`.
 pub fn colours(
     beams: &Beams,

@@ -31,7 +31,7 @@ const RARER: f64 = 1.25;
 /// The mean change of a cell is wanted, and the change of a mean of n points is larger by their
 /// noise. So each cell has a random number of points 2^k: what doubling the points takes off the
 /// change is added up with the inverse of the probability that a cell has so many, and the sum has
-/// the change at 2^[`FINEST`] points as its expectation (C. Rhee and P. Glynn, *Operations Research*
+/// the change at 2^`FINEST` points as its expectation (C. Rhee and P. Glynn, *Operations Research*
 /// 63 (2015) 1026).
 #[derive(Debug, Clone)]
 pub struct Scintillation<'a> {

@@ -130,14 +130,15 @@ fn ratios((name, expected, source): (&'static str, [f64; 4], Source)) -> Trial {
 
 fn counts() -> Trial {
     const MAKEUP: Source = Source { kind: Kind::Derived, name: "33 + 24 facets, girdle and culet" };
-    const ROWS: [(&str, &[(&str, f64)], f64); 3] = [
+    type Given = &'static [(&'static str, f64)];
+    const ROWS: [(&str, Given, f64); 3] = [
         ("with a girdle of 96", &[], 153.0),
         ("with a girdle of 96 and a culet", &[("culet", 2.0)], 154.0),
         ("with a girdle of 16", &[("girdle-facets", 16.0)], 73.0),
     ];
     let figure = |(name, _, count)| Figure::near(format!("facets {name}"), MAKEUP, count, 0.0);
     Trial::new(SUBJECT, ROWS.map(figure).into(), |_| {
-        let count = |(_, given, _): (_, &[(&str, f64)], _)| Ok(brilliant(given)?.solid()?.faces.len() as f64);
+        let count = |(_, given, _): (_, Given, _)| Ok(brilliant(given)?.solid()?.faces.len() as f64);
         Ok(Found::exact(ROWS.into_iter().map(count).collect::<Result<Vec<_>, TrialError>>()?))
     })
 }
