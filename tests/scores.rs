@@ -11,6 +11,7 @@ use cutlab::cut::library;
 use cutlab::experiments::{Hemisphere, Medium, Traced, View, hemisphere, view};
 use cutlab::math::stats::Estimate;
 use cutlab::optics::Material;
+use cutlab::study::validate::returns::{BY_CROWN, BY_TABLE};
 use std::collections::BTreeMap;
 
 #[track_caller]
@@ -68,24 +69,8 @@ fn wlr_by_other_normalisations() {
 /// .2989, .2206 and .2800 (± .0003), as the lanes do. Hence ± .002.
 #[test]
 #[ignore = "seventeen stones, half a minute in release"]
-#[allow(clippy::approx_constant)] // .3010 is a light return here, not a logarithm
 fn wlr_by_crown_angle_and_table() {
-    let by_crown = [
-        (10.0, 0.2890),
-        (15.0, 0.2925),
-        (20.0, 0.2968),
-        (23.0, 0.3010),
-        (26.0, 0.2952),
-        (30.0, 0.2849),
-        (32.0, 0.2829),
-        (34.0, 0.2838),
-        (36.0, 0.2787),
-        (40.0, 0.2592),
-        (45.0, 0.2221),
-    ];
-    let by_table =
-        [(50.0, 0.2793), (53.0, 0.2814), (56.0, 0.2838), (60.0, 0.2814), (65.0, 0.2696), (70.0, 0.2628)];
-    let rows = by_crown.map(|r| ("crown-angle", r)).into_iter().chain(by_table.map(|r| ("table", r)));
+    let rows = BY_CROWN.map(|r| ("crown-angle", r)).into_iter().chain(BY_TABLE.map(|r| ("table", r)));
     for (key, (value, expected)) in rows {
         let [wlr] = scores(&design(&[(key, value)]), n2417(), ["wlr"], 1 << 19);
         assert_near(&format!("{key} {value}"), wlr, expected, 0.002);

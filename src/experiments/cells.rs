@@ -16,6 +16,11 @@ use glam::{DVec2, Vec3};
 /// apart by eye (J. Sasián et al., *Optical Engineering* 46 (2007) 093604).
 pub const SIDE: f64 = 0.01;
 
+/// Side of a cell of this stone, walking units.
+pub(super) fn side_for(stone: &Stone) -> f64 {
+    SIDE * stone.solid.width() / stone.unit
+}
+
 /// Half-angle of the observer under the dome, degrees (AGS; 20° gives its contrast map).
 pub const OBSERVER_DEG: f64 = 15.0;
 

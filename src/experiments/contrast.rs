@@ -1,7 +1,7 @@
 //! Contrast: two points of each cell of the face-up picture.
 
 use super::batches::Experiment;
-use super::cells::{self, Cell, Groups, SIDE, Sight};
+use super::cells::{self, Cell, Groups, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
 use super::{Aspect, ExperimentError, Medium, Optics};
@@ -69,7 +69,7 @@ impl<'a> Contrast<'a> {
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,
-            side: SIDE * stone.solid.width() / stone.unit,
+            side: cells::side_for(stone),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Scintillation: cells of the picture while the stone is rocked.
 
 use super::batches::Experiment;
-use super::cells::{self, Cell, Groups, SIDE, Sight};
+use super::cells::{self, Cell, Groups, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
 use super::{Aspect, ExperimentError, Medium, Optics};
@@ -90,7 +90,7 @@ impl<'a> Scintillation<'a> {
             optics: medium.optics(stone.unit, lines::D)?,
             sky,
             steps,
-            side: SIDE * stone.solid.width() / stone.unit,
+            side: cells::side_for(stone),
         })
     }
 }

@@ -10,7 +10,7 @@ mod fire;
 mod geometry;
 mod indices;
 mod lab;
-mod returns;
+pub mod returns;
 pub mod stones;
 
 pub use lab::{Lab, TrialError};

@@ -30,8 +30,9 @@ const SCATTER: &str = "the list scatters by more than its ±.001: it has .2838 f
     among the six. A plain Monte Carlo in f64, another tracer of ours with other sampling, gave .2989, .2206 \
     and .2800 (± .0003) at crowns 20 and 45 and table 60, as this one does";
 
+/// WLR by crown angle in degrees, of the reference stone else, cross-checked.
 #[allow(clippy::approx_constant)] // .3010 is a light return here, not a logarithm
-const BY_CROWN: [(f64, f64); 11] = [
+pub const BY_CROWN: [(f64, f64); 11] = [
     (10.0, 0.2890),
     (15.0, 0.2925),
     (20.0, 0.2968),
@@ -48,7 +49,8 @@ const BY_CROWN: [(f64, f64); 11] = [
 /// More crown angles, for the trends and the line.
 const OTHER_CROWNS: [f64; 13] = [0.0, 12.0, 17.0, 19.0, 21.0, 22.0, 24.0, 25.0, 28.0, 34.5, 35.0, 38.0, 42.0];
 
-const BY_TABLE: [(f64, f64); 6] =
+/// WLR by table in percent, of the reference stone else, cross-checked.
+pub const BY_TABLE: [(f64, f64); 6] =
     [(50.0, 0.2793), (53.0, 0.2814), (56.0, 0.2838), (60.0, 0.2814), (65.0, 0.2696), (70.0, 0.2628)];
 
 /// The trials of this subject.
