@@ -90,9 +90,14 @@ pub struct Shots {
 impl Shots {
     /// Sends photons through a scene until each class has as many as asked for.
     pub fn shoot(scene: &Scene, settings: &Settings) -> Shots {
+        Shots::go_on(scene, settings, [0, 0])
+    }
+
+    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
+    pub fn go_on(scene: &Scene, settings: &Settings, [caustic, indirect]: [u64; 2]) -> Shots {
         Shots {
-            caustic: emission::shoot(scene, Class::Caustic, settings),
-            indirect: emission::shoot(scene, Class::Indirect, settings),
+            caustic: emission::shoot(scene, Class::Caustic, settings, caustic),
+            indirect: emission::shoot(scene, Class::Indirect, settings, indirect),
         }
     }
 }

@@ -3,10 +3,12 @@
 pub mod animation;
 pub mod film;
 mod inside;
+pub mod progressive;
 pub mod tone;
 pub mod tracer;
 pub mod write;
 
 pub use film::{Film, Pass};
+pub use progressive::Progressive;
 pub use tone::{Curve, Tone};
 pub use tracer::{Maps, Settings, render};

@@ -73,28 +73,24 @@ impl Scene {
     /// Irradiance that comes straight from one light at a place, unoccluded rays only: as a colour
     /// for [`Light::at`].
     ///
-    /// - `strata`: the light is sampled at `strata`² jittered points
-    /// - `jitter`: gives pairs of uniforms
+    /// - `places`: pairs of uniforms, one for each shadow ray
     pub fn direct_irradiance(
         &self,
         light: &Light,
         point: Vec3,
         normal: Vec3,
-        strata: usize,
-        mut jitter: impl FnMut() -> [f32; 2],
+        places: impl IntoIterator<Item = [f32; 2]>,
     ) -> Vec3 {
-        let mut sum = Vec3::ZERO;
-        for i in 0..strata * strata {
-            let u = jitter();
-            let cell = [(i % strata) as f32, (i / strata) as f32];
-            let u = [(cell[0] + u[0]) / strata as f32, (cell[1] + u[1]) / strata as f32];
+        let (mut sum, mut count) = (Vec3::ZERO, 0);
+        for u in places {
+            count += 1;
             let Some(glimpse) = light.emitter.seen_from(point, normal, u) else { continue };
             let cos = normal.dot(glimpse.direction);
             if cos > 0.0 && !self.hidden(point, glimpse.direction, glimpse.distance * ALL_THE_WAY) {
                 sum += glimpse.radiance * cos;
             }
         }
-        sum / (strata * strata) as f32
+        sum / count.max(1) as f32
     }
 
     /// Whether a stone or a surface stands in the way of a shadow ray.

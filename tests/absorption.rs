@@ -236,8 +236,9 @@ fn pictures_show_the_colour_and_the_size() {
             Material::named(material).expect("in the catalogue").clone(),
         );
         let shots = Shots::shoot(&scene, &photons::Settings { photons: 2000, nearest: 50, seed: SEED });
-        let maps = Maps::new(&scene, &shots, 50);
-        let settings = render::Settings { width: 48, height: 48, rays: 4, tone: Tone::default(), seed: SEED };
+        let maps = Maps::new(&scene, shots, 50);
+        let settings =
+            render::Settings { width: 48, height: 48, rays: 16, round: 0, tone: Tone::default(), seed: SEED };
         let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
         // the middle of the picture, which the stone fills
         let middle = (18..30).flat_map(|y| (18..30).map(move |x| y * 48 + x));

@@ -2,13 +2,14 @@
 
 mod command;
 mod frames;
+mod rounds;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones;
 use crate::photons::{self, Shots, file};
 use crate::render::animation::Turn;
-use crate::render::{self, Curve, Film, Maps, Tone, tone};
+use crate::render::{self, Curve, Maps, Tone, tone};
 use crate::scene::{self, Cast, Pose, SCENES, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +20,8 @@ Examples:
   cutlab render octahedron --scene cornell --passes
   cutlab render tolkowsky --scene my-scene.toml -o picture.exr
   cutlab render stone.asc --material quartz --photon-map stone.map --frames 36 -o turn.gif
-  cutlab render --scene spot --turn stone --rock --frames 24 -o fire-%03d.png")]
+  cutlab render --scene spot --turn stone --rock --frames 24 -o fire-%03d.png
+  cutlab render --scene table --progressive --time 10min -o clean.exr")]
 pub struct Args {
     /// The stones, for the scene's places in order; without them the scene's own
     #[arg(value_name = "STONE")]
@@ -45,12 +47,14 @@ pub struct Args {
     /// Pixels down; the scene has a default
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
     height: Option<u32>,
-    /// Camera rays a pixel; square numbers spread best
-    #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    spp: u32,
+    /// Camera rays a pixel: 25, or 1 in each round of --progressive
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    spp: Option<u32>,
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    stops: rounds::Stops,
     /// Photons in each map
     #[arg(long, default_value_t = 100_000, value_parser = counted)]
     photons: usize,
@@ -90,6 +94,16 @@ pub struct Args {
 enum Exposure {
     Auto,
     Stops(f32),
+}
+
+impl Args {
+    fn rays(&self) -> u32 {
+        self.spp.unwrap_or(if self.stops.progressive { 1 } else { 25 })
+    }
+
+    fn photons(&self) -> photons::Settings {
+        photons::Settings { photons: self.photons, nearest: self.nearest, seed: self.seed }
+    }
 }
 
 fn exposure(text: &str) -> Result<Exposure, String> {
@@ -137,7 +151,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let (width, height) = size(args, &file);
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
     let tone = Tone { curve: args.tone, ..Tone::default() };
-    let settings = render::Settings { width, height, rays: args.spp, tone, seed: args.seed };
+    let settings = render::Settings { width, height, rays: args.rays(), round: 0, tone, seed: args.seed };
     let files = frames::take(args, &scene, settings, &target, console)?;
     if console.json {
         console.print_json(&files)?;
@@ -193,7 +207,7 @@ fn size(args: &Args, file: &SceneFile) -> (u32, u32) {
 
 /// The photon maps: from the file, or shot.
 fn maps(args: &Args, scene: &Scene, console: &Console) -> Result<Maps, Failure> {
-    let settings = photons::Settings { photons: args.photons, nearest: args.nearest, seed: args.seed };
+    let settings = args.photons();
     let sign = console.spinner("photons");
     let shots = match &args.photon_map {
         None => Shots::shoot(scene, &settings),
@@ -204,22 +218,24 @@ fn maps(args: &Args, scene: &Scene, console: &Console) -> Result<Maps, Failure> 
             shots
         }
     };
-    let maps = Maps::new(scene, &shots, settings.nearest);
+    let maps = Maps::new(scene, shots, settings.nearest);
     sign.finish_and_clear();
     Ok(maps)
 }
 
-/// The exposure asked for: from a small picture if it is to be found.
-fn stops(args: &Args, scene: &Scene, maps: &Maps, settings: &render::Settings) -> f32 {
-    /// Pixels across of the picture that the exposure is found from.
-    const ACROSS: u32 = 96;
+/// The exposure asked for, in stops; none if it is to be found from a picture.
+fn stops(args: &Args, scene: &Scene) -> Option<f32> {
     match args.exposure {
-        Exposure::Stops(stops) => scene.camera.stops + stops,
-        Exposure::Auto => {
-            let height = (ACROSS * settings.height).div_ceil(settings.width);
-            let small = render::Settings { width: ACROSS, height, rays: 4, ..*settings };
-            let film: Film = render::render(scene, &scene.camera, maps, &small, &|| ());
-            tone::auto_stops(&film)
-        }
+        Exposure::Stops(stops) => Some(scene.camera.stops + stops),
+        Exposure::Auto => None,
     }
+}
+
+/// The exposure found from a small picture.
+fn auto_stops(scene: &Scene, maps: &Maps, settings: &render::Settings) -> f32 {
+    /// Pixels across of the small picture.
+    const ACROSS: u32 = 96;
+    let height = (ACROSS * settings.height).div_ceil(settings.width);
+    let small = render::Settings { width: ACROSS, height, rays: 4, ..*settings };
+    tone::auto_stops(&render::render(scene, &scene.camera, maps, &small, &|| ()))
 }

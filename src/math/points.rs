@@ -2,6 +2,7 @@
 
 use crate::math::random::{Purpose, Stream};
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// The points `shift + i·step` modulo 1: a Kronecker sequence, whose shift is a pure function of
 /// seed, purpose and batch.
@@ -20,12 +21,23 @@ pub struct Points<const D: usize> {
 
 const TWO_64: f64 = 18_446_744_073_709_551_616.0;
 
+/// Most dimensions of a point.
+const MOST: usize = 16;
+
+/// The steps by dimension: those of the D-dimensional sequence are the first D of row D.
+static STEPS: LazyLock<[[u64; MOST]; MOST + 1]> = LazyLock::new(|| {
+    std::array::from_fn(|dimensions| {
+        let root = (0..64).fold(1.5f64, |x, _| (1.0 + x).powf(1.0 / (dimensions as f64 + 1.0)));
+        std::array::from_fn(|k| (root.powi(-(k as i32 + 1)) * TWO_64) as u64)
+    })
+});
+
 impl<const D: usize> Points<D> {
-    /// The points numbered `range` of a batch.
+    /// The points numbered `range` of a batch; at most 16 dimensions.
     pub fn new(seed: u64, purpose: Purpose, batch: u64, range: Range<u64>) -> Self {
+        const { assert!(D <= MOST) };
         let mut stream = Stream::new(seed, purpose, batch);
-        let root = (0..64).fold(1.5f64, |x, _| (1.0 + x).powf(1.0 / (D as f64 + 1.0)));
-        let step: [u64; D] = std::array::from_fn(|k| (root.powi(-(k as i32 + 1)) * TWO_64) as u64);
+        let step: [u64; D] = std::array::from_fn(|k| STEPS[D][k]);
         let at = step.map(|s| ((stream.unit64() * TWO_64) as u64).wrapping_add(s.wrapping_mul(range.start)));
         Self { at, step, left: range.end.saturating_sub(range.start) }
     }

@@ -37,6 +37,10 @@ pub enum Purpose {
     Dents = 13,
     /// Scattered points of a sweep, one stream.
     Scatter = 20,
+    /// Places and wavelengths of camera rays, one stream a pixel.
+    CameraRay = 21,
+    /// Places of lights that shadow rays look at, one stream a pixel and light.
+    ShadowRay = 22,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

@@ -107,9 +107,14 @@ pub fn matching(nm: f32) -> Vec3 {
 struct WavelengthDensity {
     /// cumulative[i]: share below table entry i
     cumulative: [f32; 71],
+    /// For each of [`STARTS`] equal parts of the unit interval, the table interval in which it begins.
+    start: [u8; STARTS],
     /// XYZ of the equal-energy spectrum over the range, before scaling to Y = 1
     white: Vec3,
 }
+
+/// Entries of the index into the cumulative density.
+const STARTS: usize = 256;
 
 static DENSITY: LazyLock<WavelengthDensity> = LazyLock::new(|| {
     let sum = |i: usize| MATCHING[i].iter().sum::<f32>();
@@ -121,15 +126,20 @@ static DENSITY: LazyLock<WavelengthDensity> = LazyLock::new(|| {
     }
     let total = cumulative[70];
     cumulative.iter_mut().for_each(|c| *c /= total);
-    WavelengthDensity { cumulative, white }
+    let first = |u: f32| cumulative[1..70].partition_point(|&c| c <= u) as u8;
+    let start = std::array::from_fn(|i| first(i as f32 / STARTS as f32));
+    WavelengthDensity { cumulative, start, white }
 });
 
 /// A wavelength drawn from the density, nm.
 ///
 /// - `u`: uniform in (0, 1); (band + v)/8 with v uniform draws from one band
 pub fn wavelength(u: f32) -> f32 {
-    let c = &DENSITY.cumulative;
-    let i = c.partition_point(|&x| x <= u).clamp(1, 70) - 1;
+    let WavelengthDensity { cumulative: c, start, .. } = &*DENSITY;
+    let mut i = usize::from(start[((u * STARTS as f32) as usize).min(STARTS - 1)]);
+    while i < 69 && c[i + 1] <= u {
+        i += 1;
+    }
     // within a table interval the density is linear; inverting it linearly in the integral keeps
     // the density piecewise constant, which `density` below states
     RANGE_NM.0 + STEP_NM * (i as f32 + (u - c[i]) / (c[i + 1] - c[i]))

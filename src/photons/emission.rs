@@ -66,30 +66,36 @@ impl Room<'_> {
 
 /// Shoots photons until `settings.photons` of a class are stored. If the scene has none or very few
 /// of them the result holds what was found.
-pub fn shoot(scene: &Scene, class: Class, settings: &Settings) -> Shot {
-    let target = settings.photons as u64;
+///
+/// - `from`: number of the first photon; shots that follow each other have none in common
+pub fn shoot(scene: &Scene, class: Class, settings: &Settings, from: u64) -> Shot {
+    let target = settings.photons;
     if scene.surfaces.iter().all(|s| matches!(s.finish, Finish::Mirror(_))) {
         return Shot::default(); // nothing to land on
     }
     let room = Room::new(scene, class, settings.seed);
-    let mut found: Vec<(u64, Photon)> = Vec::new();
+    let mut photons: Vec<Photon> = Vec::new();
     let mut emitted = 0;
-    loop {
+    let (patience, more_patience) = (PATIENCE * target as u64, PATIENCE * PATIENCE * target as u64);
+    'enough: loop {
+        let first = from + emitted;
         let batches: Vec<Vec<(u64, Photon)>> =
-            (0..ROUND).into_par_iter().map(|b| batch(&room, emitted + b * BATCH, BATCH)).collect();
-        emitted += ROUND * BATCH;
-        batches.into_iter().for_each(|b| found.extend(b));
-        let hopeless = found.is_empty() && emitted >= PATIENCE * target;
-        if found.len() as u64 >= target || hopeless || emitted >= PATIENCE * PATIENCE * target {
+            (0..ROUND).into_par_iter().map(|b| batch(&room, first + b * BATCH, BATCH)).collect();
+        for batch in batches {
+            let wanted = target - photons.len();
+            if let Some((last, _)) = wanted.checked_sub(1).and_then(|last| batch.get(last)) {
+                emitted = last + 1 - from;
+                photons.extend(batch[..wanted].iter().map(|(_, photon)| photon));
+                break 'enough;
+            }
+            emitted += BATCH;
+            photons.extend(batch.iter().map(|(_, photon)| photon));
+        }
+        if photons.is_empty() && emitted >= patience || emitted >= more_patience {
             break;
         }
     }
-    if found.len() > settings.photons {
-        found.truncate(settings.photons);
-        emitted = found.last().map_or(emitted, |(index, _)| index + 1);
-    }
-    let scale = 1.0 / emitted as f32;
-    let photons = found.into_iter().map(|(_, p)| Photon { power: p.power * scale, ..p }).collect();
+    photons.iter_mut().for_each(|photon| photon.power /= emitted as f32);
     Shot { photons, emitted }
 }
 

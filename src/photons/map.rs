@@ -7,115 +7,158 @@ use crate::optics::colour::BANDS;
 use crate::scene::Scene;
 use crate::scene::surface::Shape;
 use glam::Vec3;
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use kiddo::{Eytzinger, ImmutableKdTree, KdTree, SquaredEuclidean, VecOfArenas};
 use rayon::prelude::*;
 use std::f32::consts::PI;
 use std::num::NonZero;
 
+/// A photon in its tree's leaf: what an estimate needs, beside its place.
+#[derive(Debug, Clone, Copy, Default, PartialEq, PartialOrd)]
+struct Landed {
+    power: f32,
+    tint: [u8; BANDS],
+    /// Its number in the shot.
+    number: u32,
+}
+
+/// Photons of one surface.
+type Photons = KdTree<f32, Landed, Eytzinger, VecOfArenas<f32, Landed, 3, 32>, 3, 32>;
+
 /// Light of one class on one surface: places where the irradiance is known.
 struct Sheet {
     places: ImmutableKdTree<f32, 3>,
-    irradiance: Vec<Spectrum>,
+    known: Vec<Known>,
 }
 
-/// A photon map: the irradiance at every fourth photon, gathered from its nearest photons.
+/// What an estimate found at a place.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    irradiance: Spectrum,
+    /// Radius of the disc whose photons it gathered.
+    reach: f32,
+}
+
+/// A photon map: the irradiance at some of the photons, gathered from their nearest photons.
 ///
-/// Where photons are dense the places are too: within the disc of one estimate lie a fourth as many
-/// places as photons, so looking between them costs no detail that the estimate has.
+/// Where photons are dense the places are too: within the disc of one estimate lie
+/// [`PLACES_A_DISC`] of them, so looking between them costs no detail that the estimate has.
 /// Source: P. Christensen, *Faster Photon Map Global Illumination*, J. Graphics Tools 4(3), 1999.
 pub struct PhotonMap {
     sheets: Vec<Option<Sheet>>,
 }
 
-/// Every how many-th photon has its irradiance computed, Christensen's choice.
-const KNOWN_EVERY: usize = 4;
+/// Places with known irradiance in the disc of one estimate.
+const PLACES_A_DISC: usize = 32;
 
-/// Places between which a smooth look-up interpolates: enough to lie around the point.
-const AROUND: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(8);
+/// A smooth look-up interpolates between the places within this share of an estimate's radius:
+/// eight or so.
+const AROUND: f32 = 0.5;
 
 impl PhotonMap {
     /// Arranges photons for look-up.
     ///
     /// - `nearest`: photons that an estimate gathers
-    pub fn new(scene: &Scene, shot: &Shot, nearest: usize) -> PhotonMap {
-        let sheets = (0..scene.surfaces.len()).map(|s| Sheet::new(scene, s, shot, nearest)).collect();
-        PhotonMap { sheets }
+    pub fn new(scene: &Scene, shot: Shot, nearest: usize) -> PhotonMap {
+        let sheet = |s| Sheet::new(scene, s, &shot.photons, nearest);
+        PhotonMap { sheets: (0..scene.surfaces.len()).map(sheet).collect() }
     }
 
     /// Irradiance in each band at a place of a surface, interpolated between the known places
-    /// around it; for what the camera sees directly.
-    pub fn irradiance(&self, surface: usize, point: Vec3) -> Spectrum {
-        self.sheets[surface].as_ref().map_or([0.0; BANDS], |sheet| {
-            let found =
-                sheet.places.query(&point.to_array()).nearest_n::<SquaredEuclidean<f32>>(AROUND).execute();
-            let reach = found.last().map_or(0.0, |f| f.distance.sqrt()).max(f32::MIN_POSITIVE);
-            let mut sum = [0.0; BANDS];
-            let mut total = 0.0;
-            for f in &found {
-                // falls to 0 at the farthest place, so that the sum has no steps
-                let weight = (1.0 - f.distance.sqrt() / reach).powi(2).max(1e-6);
-                total += weight;
-                (0..BANDS).for_each(|b| sum[b] += weight * sheet.irradiance[f.item as usize][b]);
-            }
-            sum.map(|s| s / total)
-        })
+    /// around it; for what the camera sees directly. Also the radius of the estimate: within a small
+    /// part of it the irradiance is the same.
+    pub fn irradiance(&self, surface: usize, point: Vec3) -> (Spectrum, f32) {
+        let Some(sheet) = &self.sheets[surface] else { return ([0.0; BANDS], f32::INFINITY) };
+        let nearest = sheet.nearest(point);
+        let around = AROUND * nearest.reach;
+        let mut sum = nearest.irradiance.map(|e| e * f32::MIN_POSITIVE);
+        let mut total = f32::MIN_POSITIVE;
+        let at = point.to_array();
+        let places = sheet.places.query(&at).within::<SquaredEuclidean<f32>>(around * around);
+        places.unsorted().visit(|f| {
+            // falls to 0 at the edge, so that the sum has no steps
+            let weight = (1.0 - f.distance.sqrt() / around).powi(2);
+            total += weight;
+            (0..BANDS).for_each(|b| sum[b] += weight * sheet.known[f.item as usize].irradiance[b]);
+        });
+        (sum.map(|s| s / total), nearest.reach)
     }
 
     /// Irradiance at the nearest known place: for what is seen through the stone.
     pub fn irradiance_nearby(&self, surface: usize, point: Vec3) -> &Spectrum {
         static NONE: Spectrum = [0.0; BANDS];
-        self.sheets[surface].as_ref().map_or(&NONE, |sheet| {
-            let found =
-                sheet.places.query(&point.to_array()).nearest_one::<SquaredEuclidean<f32>>().execute();
-            &sheet.irradiance[found.item as usize]
-        })
+        self.sheets[surface].as_ref().map_or(&NONE, |sheet| &sheet.nearest(point).irradiance)
     }
 }
 
 impl Sheet {
-    fn new(scene: &Scene, surface: usize, shot: &Shot, nearest: usize) -> Option<Sheet> {
-        let photons: Vec<Photon> =
-            shot.photons.iter().filter(|p| usize::from(p.surface) == surface).copied().collect();
-        if photons.is_empty() {
-            return None;
-        }
-        let points: Vec<[f32; 3]> = photons.iter().map(|p| p.point.to_array()).collect();
-        let tree = ImmutableKdTree::new_from_slice(&points).ok()?;
-        let places: Vec<[f32; 3]> = points.iter().step_by(KNOWN_EVERY).copied().collect();
-        let irradiance = places
-            .par_iter()
-            .map(|p| gather(scene, surface, &tree, &photons, nearest, Vec3::from_array(*p)))
-            .collect();
-        Some(Sheet { places: ImmutableKdTree::new_from_slice(&places).ok()?, irradiance })
+    fn nearest(&self, point: Vec3) -> &Known {
+        let found = self.places.query(&point.to_array()).nearest_one::<SquaredEuclidean<f32>>().execute();
+        &self.known[found.item as usize]
+    }
+
+    /// - `all`: photons of all surfaces
+    fn new(scene: &Scene, surface: usize, all: &[Photon], nearest: usize) -> Option<Sheet> {
+        let here = |n: &u32| usize::from(all[*n as usize].surface) == surface;
+        let numbers: Vec<u32> = (0..all.len() as u32).filter(here).collect();
+        let photons = Photons::new_from_source(
+            &numbers,
+            |n, axis| all[*n as usize].point[axis],
+            |_, n| Landed { power: all[*n as usize].power, tint: all[*n as usize].tint, number: *n },
+        );
+        let photons = photons.ok().filter(|_| numbers.len() > 1)?;
+        // the order of a shot is that of emission, so every n-th photon is as good as another
+        let every = (nearest.min(numbers.len()) / PLACES_A_DISC).max(1);
+        let at: Vec<u32> = numbers.into_iter().step_by(every).collect();
+        let points: Vec<[f32; 3]> = at.iter().map(|n| all[*n as usize].point.to_array()).collect();
+        let places = ImmutableKdTree::new_from_slice(&points).ok()?;
+        let disc =
+            Disc { scene, surface, photons: &photons, places: &places, across: nearest.div_ceil(every) };
+        let known = points.par_iter().zip(&at).map(|(p, n)| disc.gather(Vec3::from_array(*p), *n)).collect();
+        Some(Sheet { places, known })
     }
 }
 
-/// Jensen's estimate with an Epanechnikov kernel, which integrates to one over its disc; the part
-/// of the disc beyond the surface's edge is taken out of the integral.
-///
-/// E_b = Σ Φ_i K(d_i/r) / (π r² · m), K(x) = 2 (1 − x²), m the kernel's share on the surface.
-fn gather(
-    scene: &Scene,
+/// What an estimate looks into.
+struct Disc<'a> {
+    scene: &'a Scene,
     surface: usize,
-    tree: &ImmutableKdTree<f32, 3>,
-    photons: &[Photon],
-    nearest: usize,
-    point: Vec3,
-) -> Spectrum {
-    let mut sum = [0.0; BANDS];
-    let Some(k) = NonZero::new(nearest.min(photons.len())) else { return sum };
-    let found = tree.query(&point.to_array()).nearest_n::<SquaredEuclidean<f32>>(k).unsorted().execute();
-    let radius2 = found.iter().map(|f| f.distance).fold(0.0, f32::max);
-    if radius2 <= 0.0 {
-        return sum;
+    photons: &'a Photons,
+    places: &'a ImmutableKdTree<f32, 3>,
+    /// Places that the disc of an estimate reaches across.
+    across: usize,
+}
+
+impl Disc<'_> {
+    /// Jensen's estimate with an Epanechnikov kernel, which integrates to one over its disc; the
+    /// part of the disc beyond the surface's edge is taken out of the integral.
+    ///
+    /// E_b = Σ Φ_i K(d_i/r) / (π r² · m), K(x) = 2 (1 − x²), m the kernel's share on the surface.
+    ///
+    /// The radius is that of the `across`-th nearest place, where the kernel is 0: each place stands
+    /// for some of the photons, so the disc holds about as many as are asked for, and they need
+    /// not be sorted by distance. Neither counts the photon that lies at the point itself: the
+    /// others are as many there as anywhere (Slivnyak), so the estimate has no bias where the
+    /// light is even.
+    fn gather(&self, point: Vec3, own: u32) -> Known {
+        let mut sum = [0.0; BANDS];
+        let own_and_others = NonZero::<usize>::MIN.saturating_add(self.across);
+        let at = point.to_array();
+        let found =
+            self.places.query(&at).nearest_n::<SquaredEuclidean<f32>>(own_and_others).unsorted().execute();
+        let radius2 = found.iter().map(|f| f.distance).fold(0.0, f32::max);
+        if radius2 <= 0.0 {
+            return Known { irradiance: sum, reach: 0.0 };
+        }
+        self.photons.query(&at).within::<SquaredEuclidean<f32>>(radius2).unsorted().visit(|f| {
+            if f.item.number != own {
+                let weight = f.item.power * 2.0 / 255.0 * (1.0 - f.distance / radius2);
+                (0..BANDS).for_each(|b| sum[b] += weight * f32::from(f.item.tint[b]));
+            }
+        });
+        let reach = radius2.sqrt();
+        let share = kernel_share(self.scene, self.surface, point, reach);
+        Known { irradiance: sum.map(|s| s / (PI * radius2 * share)), reach }
     }
-    for f in &found {
-        let photon = &photons[f.item as usize];
-        let weight = photon.power * 2.0 / 255.0 * (1.0 - f.distance / radius2);
-        (0..BANDS).for_each(|b| sum[b] += weight * f32::from(photon.tint[b]));
-    }
-    let share = kernel_share(scene, surface, point, radius2.sqrt());
-    sum.map(|s| s / (PI * radius2 * share))
 }
 
 /// Share of the kernel's integral that lies on the surface, by a fixed spiral of points of equal

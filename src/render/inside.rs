@@ -167,7 +167,7 @@ fn see_afar(
         .scene
         .lights
         .iter()
-        .map(|light| light.at(view.scene.direct_irradiance(light, at, normal, 1, || jitter), nm))
+        .map(|light| light.at(view.scene.direct_irradiance(light, at, normal, [jitter]), nm))
         .sum();
     let caustic = view.maps.caustic.irradiance_nearby(s, at)[band];
     let indirect = view.maps.indirect.irradiance_nearby(s, at)[band];

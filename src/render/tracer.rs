@@ -3,10 +3,11 @@
 use super::film::{Film, PASSES, Pass, Pixel, Thing};
 use super::inside;
 use super::tone::Tone;
+use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::optics::colour::{self, BANDS};
-use crate::photons::Shots;
 use crate::photons::map::PhotonMap;
+use crate::photons::{Shots, Spectrum};
 use crate::scene::{Camera, Finish, Light, Scene};
 use crate::transport::{Arrival, Event};
 use glam::{Mat3, Vec3};
@@ -21,17 +22,23 @@ pub struct Settings {
     pub height: u32,
     /// Camera rays a pixel.
     pub rays: u32,
+    /// Which of several pictures with the same seed this is: their mean is one of all their rays.
+    pub round: u32,
     /// How light becomes a picture.
     pub tone: Tone,
     /// The user's seed.
     pub seed: u64,
 }
 
-/// Shadow rays to each light that a pixel of a surface seen directly takes at least, over all its
-/// camera rays: a penumbra of 2 % noise.
-const SHADOW_RAYS: u32 = 200;
-/// Largest side of the grid of shadow rays of one camera ray.
-const SHADOW_STRATA: usize = 5;
+/// Shadow rays to each light that a pixel of a surface seen directly takes over all its camera
+/// rays: evenly spread over the light, a penumbra of 2 % noise.
+const SHADOW_RAYS: u32 = 64;
+/// Most shadow rays to each light of one camera ray.
+const SHADOW_RAYS_EACH: u32 = 9;
+
+/// An estimate of the maps holds within this share of its disc's radius: the camera rays of a pixel
+/// that lie closer together have one between them.
+const HOLDS: f32 = 0.1;
 
 /// Mirrors in a row, after which a camera ray sees black.
 pub(super) const MIRRORS: u32 = 64;
@@ -48,10 +55,10 @@ impl Maps {
     /// Arranges both classes of photons for look-up.
     ///
     /// - `nearest`: photons that an estimate gathers
-    pub fn new(scene: &Scene, shots: &Shots, nearest: usize) -> Maps {
+    pub fn new(scene: &Scene, shots: Shots, nearest: usize) -> Maps {
         Maps {
-            caustic: PhotonMap::new(scene, &shots.caustic, nearest),
-            indirect: PhotonMap::new(scene, &shots.indirect, nearest),
+            caustic: PhotonMap::new(scene, shots.caustic, nearest),
+            indirect: PhotonMap::new(scene, shots.indirect, nearest),
         }
     }
 }
@@ -146,16 +153,50 @@ pub(super) struct Entering {
     pub share: [f32; BANDS],
 }
 
+/// What the camera rays of a pixel have in common.
+struct Shared {
+    stream: Stream,
+    /// Places of each light that shadow rays look at next.
+    shadows: Vec<Points<2>>,
+    /// The last look into the maps.
+    seen: Option<Seen>,
+    entering: Vec<Entering>,
+}
+
+/// Irradiance that the maps gave at a place, and how far around it that holds.
+struct Seen {
+    surface: usize,
+    at: Vec3,
+    holds: f32,
+    caustic: Spectrum,
+    indirect: Spectrum,
+}
+
 impl View<'_> {
     fn pixel(&self, x: u32, y: u32) -> Pixel {
-        let number = u64::from(y) * u64::from(self.settings.width) + u64::from(x);
-        let mut stream = Stream::new(self.settings.seed, Purpose::Pixel, number);
+        let Settings { width, round, seed, .. } = *self.settings;
         let rays = self.settings.rays.max(1);
-        let mut entering = Vec::new();
-        let mut sights: Vec<Sight> =
-            (0..rays).map(|ray| self.look([x, y], ray, &mut stream, &mut entering)).collect();
-        if !entering.is_empty() {
-            inside::look_into_stones(self, &entering, &mut sights, &mut stream);
+        let number = u64::from(y) * u64::from(width) + u64::from(x);
+        let numbers = |each: u32| {
+            let all = u64::from(rays * each);
+            u64::from(round) * all..(u64::from(round) + 1) * all
+        };
+        let lights = self.scene.lights.len() as u64;
+        let shadow = |light| {
+            Points::new(seed, Purpose::ShadowRay, number * lights + light, numbers(self.shadow_rays()))
+        };
+        let mut shared = Shared {
+            stream: Stream::new(seed, Purpose::Pixel, number | u64::from(round) << 32),
+            shadows: (0..lights).map(shadow).collect(),
+            seen: None,
+            entering: Vec::new(),
+        };
+        let mut sights: Vec<Sight> = Points::new(seed, Purpose::CameraRay, number, numbers(1))
+            .enumerate()
+            .map(|(ray, place)| self.look([x, y], ray, place.map(|p| p as f32), &mut shared))
+            .collect();
+        if !shared.entering.is_empty() {
+            inside::look_into_stones(self, &shared.entering, &mut sights, &mut shared.stream);
         }
         let mut pixel = Pixel::default();
         for sight in &sights {
@@ -166,14 +207,19 @@ impl View<'_> {
         pixel
     }
 
+    /// Shadow rays to each light of one camera ray.
+    fn shadow_rays(&self) -> u32 {
+        SHADOW_RAYS.div_ceil(self.settings.rays.max(1)).min(SHADOW_RAYS_EACH)
+    }
+
     /// One camera ray up to the first thing that is no mirror; at a stone it is noted for later.
-    fn look(&self, [x, y]: [u32; 2], ray: u32, stream: &mut Stream, entering: &mut Vec<Entering>) -> Sight {
-        let rays = self.settings.rays.max(1);
-        let offset = stratified(ray, rays, stream.pair()).map(tent);
-        let u = (x as f32 + 0.5 + offset[0]) / self.settings.width as f32;
-        let v = (y as f32 + 0.5 + offset[1]) / self.settings.height as f32;
-        let shift = stream.unit();
-        let nm = std::array::from_fn(|b| colour::wavelength((b as f32 + shift) / BANDS as f32));
+    ///
+    /// - `number`: of the ray in its pixel; `place`: its point of the cube of place and wavelength
+    fn look(&self, [x, y]: [u32; 2], number: usize, place: [f32; 3], shared: &mut Shared) -> Sight {
+        let [across, down, hue] = place;
+        let u = (x as f32 + 0.5 + tent(across)) / self.settings.width as f32;
+        let v = (y as f32 + 0.5 + tent(down)) / self.settings.height as f32;
+        let nm = std::array::from_fn(|b| colour::wavelength((b as f32 + hue) / BANDS as f32));
         let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES] };
         let mut share = [1.0; BANDS];
         let (mut origin, mut direction) = self.camera.ray(u, v);
@@ -192,12 +238,12 @@ impl View<'_> {
                     }
                     Finish::Diffuse(reflectance) => {
                         (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
-                        self.see_surface(s, point, normal, &share, &mut sight, stream);
+                        self.see_surface(s, point, normal, &share, &mut sight, shared);
                         break;
                     }
                 },
                 Event::Stone(stone, arrival) => {
-                    entering.push(Entering { sight: ray as usize, stone, arrival, share });
+                    shared.entering.push(Entering { sight: number, stone, arrival, share });
                     break;
                 }
             }
@@ -215,38 +261,33 @@ impl View<'_> {
         normal: Vec3,
         share: &[f32; BANDS],
         sight: &mut Sight,
-        stream: &mut Stream,
+        shared: &mut Shared,
     ) {
-        let per_ray = SHADOW_RAYS.div_ceil(self.settings.rays.max(1));
-        let strata = ((per_ray as f32).sqrt().ceil() as usize).min(SHADOW_STRATA);
-        let lit: Vec<(&Light, Vec3)> = self
-            .scene
-            .lights
-            .iter()
-            .map(|light| {
-                let jitter = || stream.pair();
-                (light, self.scene.direct_irradiance(light, point, normal, strata, jitter))
+        let each = self.shadow_rays() as usize;
+        let lights = self.scene.lights.iter().zip(&mut shared.shadows);
+        let lit: Vec<(&Light, Vec3)> = lights
+            .map(|(light, places)| {
+                let places = places.take(each).map(|place| place.map(|p| p as f32));
+                (light, self.scene.direct_irradiance(light, point, normal, places))
             })
             .collect();
-        let caustic = self.maps.caustic.irradiance(s, point);
-        let indirect = self.maps.indirect.irradiance(s, point);
+        let near = |seen: &Seen| seen.surface == s && seen.at.distance(point) < seen.holds;
+        let seen = shared.seen.take().filter(near).unwrap_or_else(|| self.see_maps(s, point));
         for b in 0..BANDS {
             let reflected = share[b] / std::f32::consts::PI;
             let direct: f32 = lit.iter().map(|(light, colour)| light.at(*colour, sight.nm[b])).sum();
             sight.add(Pass::Direct, b, reflected * direct);
-            sight.add(Pass::Caustic, b, reflected * caustic[b]);
-            sight.add(Pass::Indirect, b, reflected * indirect[b]);
+            sight.add(Pass::Caustic, b, reflected * seen.caustic[b]);
+            sight.add(Pass::Indirect, b, reflected * seen.indirect[b]);
         }
+        shared.seen = Some(seen);
     }
-}
 
-/// Two uniforms within the `number`-th of `of` cells of the unit square.
-fn stratified(number: u32, of: u32, u: [f32; 2]) -> [f32; 2] {
-    let columns = (of as f32).sqrt().ceil() as u32;
-    if columns * columns != of {
-        return u; // not a square number: plain random places
+    fn see_maps(&self, surface: usize, at: Vec3) -> Seen {
+        let (caustic, one) = self.maps.caustic.irradiance(surface, at);
+        let (indirect, other) = self.maps.indirect.irradiance(surface, at);
+        Seen { surface, at, holds: HOLDS * one.min(other), caustic, indirect }
     }
-    [((number % columns) as f32 + u[0]) / columns as f32, ((number / columns) as f32 + u[1]) / columns as f32]
 }
 
 /// A number in (−1, 1) with the density of a tent: the reconstruction filter, sampled by weight so

@@ -23,6 +23,15 @@ pub enum EncodeError {
     Exr(#[from] exr::error::Error),
 }
 
+/// How a picture was made, for its metadata.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Made<'a> {
+    /// The command.
+    pub command: &'a str,
+    /// The rounds of a progressive picture: how far it came.
+    pub rounds: Option<u32>,
+}
+
 /// Bits a channel of a PNG.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bits {
@@ -48,20 +57,20 @@ pub fn bytes(shown: &[Vec3]) -> Vec<u8> {
 
 /// A PNG of what [`shown`] gave.
 ///
-/// - `command`: what made it, for the metadata; none for a picture that is a part of something
+/// - `made`: for the metadata; none for a picture that is a part of something
 pub fn png(
     shown: &[Vec3],
     width: u32,
     height: u32,
     bits: Bits,
-    command: Option<&str>,
+    made: Option<Made>,
 ) -> Result<Vec<u8>, EncodeError> {
     match bits {
-        Bits::Eight => encode(&bytes(shown), width, height, png::BitDepth::Eight, command),
+        Bits::Eight => encode(&bytes(shown), width, height, png::BitDepth::Eight, made),
         Bits::Sixteen => {
             let sixteen = |x: f32| ((colour::srgb_encode(x) * 65535.0).round() as u16).to_be_bytes();
             let data: Vec<u8> = shown.iter().flat_map(|p| p.to_array().map(sixteen)).flatten().collect();
-            encode(&data, width, height, png::BitDepth::Sixteen, command)
+            encode(&data, width, height, png::BitDepth::Sixteen, made)
         }
     }
 }
@@ -76,7 +85,7 @@ fn encode(
     width: u32,
     height: u32,
     depth: png::BitDepth,
-    command: Option<&str>,
+    made: Option<Made>,
 ) -> Result<Vec<u8>, EncodeError> {
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, width, height);
@@ -84,9 +93,12 @@ fn encode(
     encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    if let Some(command) = command {
+    if let Some(made) = made {
         // iTXt: a STONE's name may hold any letter
-        encoder.add_itxt_chunk("Command".into(), command.into())?;
+        encoder.add_itxt_chunk("Command".into(), made.command.into())?;
+        if let Some(rounds) = made.rounds {
+            encoder.add_itxt_chunk("Rounds".into(), rounds.to_string())?;
+        }
     }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(data)?;
@@ -102,7 +114,7 @@ fn text(text: &str) -> Text {
 
 /// An OpenEXR file: the picture and its passes, linear and unclamped; depth, facet and normal of
 /// the middle of each pixel.
-pub fn exr(film: &Film, things: &[Thing], command: &str) -> Result<Vec<u8>, EncodeError> {
+pub fn exr(film: &Film, things: &[Thing], made: Made) -> Result<Vec<u8>, EncodeError> {
     let floats = |values: Vec<f32>| FlatSamples::F32(values);
     let mut channels: Vec<AnyChannel<FlatSamples>> = Vec::new();
     let mut colour = |prefix: &str, values: &[Vec3]| {
@@ -123,7 +135,9 @@ pub fn exr(film: &Film, things: &[Thing], command: &str) -> Result<Vec<u8>, Enco
     let facets = FlatSamples::U32(things.iter().map(|t| t.facet).collect());
     channels.push(AnyChannel::new(text("facet.id"), facets));
     channels.push(AnyChannel::new(text("Z"), floats(things.iter().map(|t| t.depth).collect())));
-    let attributes = LayerAttributes { comments: Some(text(command)), ..LayerAttributes::default() };
+    let rounds = made.rounds.map_or_else(String::new, |n| format!("\nrounds: {n}"));
+    let comments = Some(text(&format!("{}{rounds}", made.command)));
+    let attributes = LayerAttributes { comments, ..LayerAttributes::default() };
     let size = (film.width as usize, film.height as usize);
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
     let mut out = std::io::Cursor::new(Vec::new());

@@ -182,10 +182,10 @@ pub(super) fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> R
     let scene = table?.build(&cast, width as f32 / height as f32)?;
     let seed = request.seed;
     let shots = Shots::shoot(&scene, &photons::Settings { photons, nearest, seed });
-    let maps = Maps::new(&scene, &shots, nearest);
+    let maps = Maps::new(&scene, shots, nearest);
     step("picture");
     let tone = Tone { stops: scene.camera.stops, ..Tone::default() };
-    let settings = render::Settings { width, height, rays, tone, seed };
+    let settings = render::Settings { width, height, rays, round: 0, tone, seed };
     let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
     Ok(write::png(&write::shown(&film, None, &tone), width, height, write::Bits::Eight, None)?)
 }

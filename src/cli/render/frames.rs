@@ -1,11 +1,11 @@
 //! One picture or the frames of an animation, to files. An animation that was interrupted goes on
 //! at the first frame that is missing.
 
-use super::{Args, command, maps, stops};
+use super::{Args, auto_stops, command, maps, rounds, stops};
 use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
 use crate::render::animation::{self, Turn};
-use crate::render::write::{self, Bits};
+use crate::render::write::{self, Bits, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, tracer};
 use crate::scene::Scene;
 use crate::store::replace;
@@ -100,14 +100,17 @@ pub fn take(
 ) -> Result<Vec<PathBuf>, Failure> {
     let command = command::normalised();
     let Some(frames) = args.frames else {
-        let maps = maps(args, scene, console)?;
-        settings.tone.stops = stops(args, scene, &maps, &settings);
-        let film = picture(scene, &maps, &settings, console);
-        return write_picture(args, scene, &film, &settings, &target.path, target.kind, &command);
+        let mut maps = None;
+        settings.tone.stops = exposure(args, scene, &mut maps, &settings, console)?;
+        let mut file =
+            File { args, target: &target.path, kind: target.kind, command: &command, written: vec![] };
+        picture(scene, maps, &settings, &mut file, console)?;
+        return Ok(file.written);
     };
     // where only the camera moves, the light stands still
     let still = args.turn == Turn::Camera;
-    let mut kept: Option<(Maps, f32)> = None;
+    let mut kept: Option<Maps> = None;
+    let mut stops = None;
     let mut files = Vec::new();
     let mut pictures = Vec::new();
     let in_one_file = matches!(target.kind, Kind::Gif | Kind::Apng);
@@ -117,23 +120,18 @@ pub fn take(
         let bytes = match there {
             Some(bytes) => bytes,
             None => {
+                // the exposure is that of the scene at rest, for every frame alike
+                if stops.is_none() {
+                    stops = Some(exposure(args, scene, &mut kept, &settings, console)?);
+                }
+                settings.tone.stops = stops.unwrap_or_default();
                 let moved = animation::at(scene, args.turn, args.rock, frame, frames);
-                let (maps, stops) = match kept.take() {
-                    Some((maps, stops)) if still => (maps, stops),
-                    found => {
-                        // the exposure is that of the scene at rest, for every frame alike
-                        let at_rest = if still { scene } else { &moved };
-                        let maps = maps(args, at_rest, console)?;
-                        let stops =
-                            found.map_or_else(|| stops(args, at_rest, &maps, &settings), |(_, stops)| stops);
-                        (maps, stops)
-                    }
-                };
-                settings.tone.stops = stops;
-                let film = picture(&moved, &maps, &settings, console);
-                let kind = Kind::Png;
-                files.extend(write_picture(args, &moved, &film, &settings, &path, kind, &command)?);
-                kept = Some((maps, stops));
+                let maps = if still { kept.take() } else { None };
+                let mut file =
+                    File { args, target: &path, kind: Kind::Png, command: &command, written: Vec::new() };
+                let (film, maps) = picture(&moved, maps, &settings, &mut file, console)?;
+                kept = maps;
+                files.extend(file.written);
                 write::bytes(&write::shown(&film, None, &settings.tone))
             }
         };
@@ -156,40 +154,86 @@ pub fn take(
     Ok(vec![target.path.clone()])
 }
 
-fn picture(scene: &Scene, maps: &Maps, settings: &Settings, console: &Console) -> Film {
-    let bar = console.progress(settings.height as usize, "rendering");
-    let film = render::render(scene, &scene.camera, maps, settings, &|| bar.inc(1));
-    bar.finish_and_clear();
-    film
+/// Stops of exposure. To find them from a picture takes maps, which are then kept.
+fn exposure(
+    args: &Args,
+    at_rest: &Scene,
+    kept: &mut Option<Maps>,
+    settings: &Settings,
+    console: &Console,
+) -> Result<f32, Failure> {
+    if let Some(stops) = stops(args, at_rest) {
+        return Ok(stops);
+    }
+    let maps = maps(args, at_rest, console)?;
+    Ok(auto_stops(at_rest, kept.insert(maps), settings))
 }
 
-/// Writes a picture and, if asked for, its passes.
-fn write_picture(
-    args: &Args,
+/// Takes and writes one picture. Returns the maps for the next, unless each round had its own.
+fn picture(
     scene: &Scene,
-    film: &Film,
+    kept: Option<Maps>,
     settings: &Settings,
-    path: &Path,
+    file: &mut File,
+    console: &Console,
+) -> Result<(Film, Option<Maps>), Failure> {
+    let args = file.args;
+    if args.stops.progressive {
+        let to_a_file = file.target != Path::new("-");
+        let mut keep =
+            |film: &Film, n| if to_a_file { file.write(scene, film, settings, Some(n)) } else { Ok(()) };
+        let (film, rounds) = rounds::take(args, scene, settings, console, &mut keep)?;
+        file.write(scene, &film, settings, Some(rounds))?;
+        return Ok((film, None));
+    }
+    let maps = kept.map_or_else(|| maps(args, scene, console), Ok)?;
+    let bar = console.progress(settings.height as usize, "rendering");
+    let film = render::render(scene, &scene.camera, &maps, settings, &|| bar.inc(1));
+    bar.finish_and_clear();
+    file.write(scene, &film, settings, None)?;
+    Ok((film, Some(maps)))
+}
+
+/// Where a picture goes, and its passes.
+struct File<'a> {
+    args: &'a Args,
+    target: &'a Path,
     kind: Kind,
-    command: &str,
-) -> Result<Vec<PathBuf>, Failure> {
-    let bad = |e: write::EncodeError| Failure::input(e.to_string());
-    if kind == Kind::Exr {
-        let things = tracer::things(scene, &scene.camera, film.width, film.height);
-        replace::write(path, &write::exr(film, &things, command).map_err(bad)?)?;
-        return Ok(vec![path.into()]);
+    command: &'a str,
+    written: Vec<PathBuf>,
+}
+
+impl File<'_> {
+    /// Writes a picture and, if asked for, its passes.
+    ///
+    /// - `rounds`: of which it is the mean
+    fn write(
+        &mut self,
+        scene: &Scene,
+        film: &Film,
+        settings: &Settings,
+        rounds: Option<u32>,
+    ) -> Result<(), Failure> {
+        let bad = |e: write::EncodeError| Failure::input(e.to_string());
+        let made = Made { command: self.command, rounds };
+        self.written.clear();
+        if self.kind == Kind::Exr {
+            let things = tracer::things(scene, &scene.camera, film.width, film.height);
+            replace::write(self.target, &write::exr(film, &things, made).map_err(bad)?)?;
+            self.written.push(self.target.into());
+            return Ok(());
+        }
+        let bits = if self.args.bits == "16" { Bits::Sixteen } else { Bits::Eight };
+        let passes = Pass::ALL.iter().filter(|_| self.args.passes).map(|(pass, name)| (Some(*pass), *name));
+        for (pass, name) in passes.chain([(None, "")]) {
+            let path = if pass.is_some() { beside(self.target, name) } else { self.target.to_owned() };
+            let shown = write::shown(film, pass, &settings.tone);
+            let png = write::png(&shown, film.width, film.height, bits, Some(made)).map_err(bad)?;
+            replace::write(&path, &png)?;
+            self.written.push(path);
+        }
+        Ok(())
     }
-    let bits = if args.bits == "16" { Bits::Sixteen } else { Bits::Eight };
-    let passes = Pass::ALL.iter().filter(|_| args.passes).map(|(pass, name)| (Some(*pass), *name));
-    let mut files = Vec::new();
-    for (pass, name) in passes.chain([(None, "")]) {
-        let path = if pass.is_some() { beside(path, name) } else { path.to_owned() };
-        let shown = write::shown(film, pass, &settings.tone);
-        let png = write::png(&shown, film.width, film.height, bits, Some(command)).map_err(bad)?;
-        replace::write(&path, &png)?;
-        files.push(path);
-    }
-    Ok(files)
 }
 
 /// `turn.png` for the caustic pass: `turn-caustic.png`.

@@ -1,0 +1,141 @@
+//! Progressive photon mapping: picture after picture with photons of their own and ever smaller
+//! estimates, whose mean has less and less noise and blur.
+//!
+//! Every round shoots as many photons as the one before but gathers fewer of them, k_{i+1} =
+//! k_i (i + α)/(i + 1) with α = 2/3: the disc of an estimate shrinks to nothing while the mean over
+//! rounds sees ever more photons, so that noise and bias both vanish. Memory holds one round.
+//! Source: C. Knaus and M. Zwicker, *Progressive photon mapping: a probabilistic approach*, ACM
+//! Trans. Graphics 30(3), 2011. Checked in `tests/progressive.rs`.
+
+use super::film::{Film, PASSES, Pixel};
+use super::tracer::{self, Maps, Settings};
+use crate::photons::{self, Shots};
+use crate::scene::{Camera, Scene};
+use glam::Vec3;
+
+/// How fast the estimates shrink: noise and blur then fall alike.
+const ALPHA: f64 = 2.0 / 3.0;
+/// No estimate gathers fewer photons; from there on the rounds shoot more of them instead.
+const FEWEST: f64 = 8.0;
+/// Most photons of a round.
+const MOST_PHOTONS: f64 = 5e7;
+/// Side of the square of pixels whose noise is measured.
+const BLOCK: usize = 4;
+/// Luminance of linear sRGB.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// The mean of the rounds so far.
+pub struct Progressive<'a> {
+    scene: &'a Scene,
+    camera: &'a Camera,
+    settings: Settings,
+    photons: photons::Settings,
+    /// Photons of both classes emitted so far.
+    emitted: [u64; 2],
+    mean: Film,
+    /// For each block of pixels: mean luminance and the sum of its squared deviations.
+    blocks: Vec<(f64, f64)>,
+}
+
+impl<'a> Progressive<'a> {
+    /// A picture of which nothing has been taken yet.
+    ///
+    /// - `settings.rays`: camera rays a pixel and round; `settings.round` is counted here
+    /// - `photons`: those of the first round
+    pub fn new(scene: &'a Scene, camera: &'a Camera, settings: Settings, photons: photons::Settings) -> Self {
+        let Settings { width, height, .. } = settings;
+        let pixels = vec![Pixel::default(); width as usize * height as usize];
+        let blocks = (width as usize).div_ceil(BLOCK) * (height as usize).div_ceil(BLOCK);
+        Progressive {
+            scene,
+            camera,
+            settings: Settings { round: 0, ..settings },
+            photons,
+            emitted: [0, 0],
+            mean: Film { width, height, pixels },
+            blocks: vec![(0.0, 0.0); blocks],
+        }
+    }
+
+    /// Rounds taken.
+    pub fn rounds(&self) -> u32 {
+        self.settings.round
+    }
+
+    /// The picture so far.
+    pub fn film(&self) -> &Film {
+        &self.mean
+    }
+
+    /// Takes one more round.
+    ///
+    /// - `row_done`: called after each row, from any thread
+    pub fn round(&mut self, row_done: &(dyn Fn() + Sync)) {
+        let photons = of_round(self.photons, self.rounds());
+        let shots = Shots::go_on(self.scene, &photons, self.emitted);
+        self.emitted[0] += shots.caustic.emitted;
+        self.emitted[1] += shots.indirect.emitted;
+        let maps = Maps::new(self.scene, shots, photons.nearest);
+        let film = tracer::render(self.scene, self.camera, &maps, &self.settings, row_done);
+        self.settings.round += 1;
+        let n = self.settings.round;
+        for (mean, new) in self.mean.pixels.iter_mut().zip(&film.pixels) {
+            (0..PASSES).for_each(|p| mean.light[p] += (new.light[p] - mean.light[p]) / n as f32);
+            mean.shown += (new.shown - mean.shown) / n as f32;
+        }
+        for ((mean, spread), new) in self.blocks.iter_mut().zip(blocks(&film)) {
+            let off = new - *mean;
+            *mean += off / f64::from(n);
+            *spread += off * (new - *mean);
+        }
+    }
+
+    /// Noise of the picture so far: the root mean square of the standard errors of 4×4 pixels'
+    /// luminance, over the mean luminance. Infinite after one round.
+    pub fn noise(&self) -> f64 {
+        let n = f64::from(self.rounds());
+        let variance: f64 = self.blocks.iter().map(|(_, spread)| spread / (n - 1.0) / n).sum();
+        let mean: f64 = self.blocks.iter().map(|(mean, _)| mean).sum();
+        let count = self.blocks.len() as f64;
+        if n > 1.0 && mean > 0.0 { (variance / count).sqrt() / (mean / count) } else { f64::INFINITY }
+    }
+}
+
+/// Photons, and how many of them an estimate gathers, in a round.
+fn of_round(first: photons::Settings, round: u32) -> photons::Settings {
+    let shrunk: f64 = (1..=round).map(|i| (f64::from(i) - 1.0 + ALPHA) / f64::from(i)).product();
+    let nearest = first.nearest as f64 * shrunk;
+    let fewest = FEWEST.min(first.nearest as f64);
+    let photons = (first.photons as f64 * (fewest / nearest).max(1.0)).min(MOST_PHOTONS);
+    photons::Settings { photons: photons as usize, nearest: nearest.max(fewest).round() as usize, ..first }
+}
+
+/// Mean luminance of every block of pixels.
+fn blocks(film: &Film) -> Vec<f64> {
+    let across = (film.width as usize).div_ceil(BLOCK);
+    let mut sums = vec![(0.0, 0.0); across * (film.height as usize).div_ceil(BLOCK)];
+    for (i, linear) in film.linear(None).into_iter().enumerate() {
+        let (x, y) = (i % film.width as usize, i / film.width as usize);
+        let (sum, count) = &mut sums[y / BLOCK * across + x / BLOCK];
+        *sum += f64::from(linear.dot(LUMINANCE));
+        *count += 1.0;
+    }
+    sums.into_iter().map(|(sum, count)| sum / count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn estimates_shrink_as_the_cube_root_and_photons_grow_when_they_cannot() {
+        let first = photons::Settings { photons: 1000, nearest: 500, seed: 1 };
+        assert_eq!(of_round(first, 0), first);
+        // Γ(i + 2/3)/(Γ(2/3) i!) → i^(−1/3)/Γ(2/3), Γ(2/3) = 1.3541
+        let thousandth = of_round(first, 1000);
+        assert_eq!((thousandth.nearest, thousandth.photons), (37, 1000));
+        let few = of_round(photons::Settings { nearest: 16, ..first }, 1000);
+        assert_eq!(few.nearest, 8);
+        assert!((few.photons as f64 / (1000.0 * 8.0 / (16.0 * 0.1 / 1.3541)) - 1.0).abs() < 1e-2);
+    }
+}
