@@ -70,7 +70,7 @@ fn an_interrupted_animation_goes_on_at_the_missing_frame() {
     for (name, magic) in [("a.gif", &b"GIF89a"[..]), ("a.png", &b"\x89PNG"[..])] {
         cutlab(folder.path(), &format!("{render} -o {name}")).expect("renders");
         assert!(std::fs::read(at(name)).expect("was written").starts_with(magic));
-        assert!(!at(&format!("{name}.frames")).exists());
+        assert!(!at(&format!(".{name}.frames")).exists());
     }
     let refused = cutlab(folder.path(), &format!("{render} -o a.exr")).expect_err("no animation");
     assert!(refused.contains(".gif") && refused.lines().count() == 1, "{refused}");

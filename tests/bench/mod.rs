@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
@@ -74,6 +75,24 @@ impl Bench {
             entries.map(|e| e.expect("can be listed").file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
+    }
+
+    /// Every file in the folder and its folders, hidden ones too, with what it holds.
+    pub fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        fn gather(folder: &Path, top: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+            for entry in std::fs::read_dir(folder).expect("can be listed") {
+                let path = entry.expect("can be listed").path();
+                if path.is_dir() {
+                    gather(&path, top, files);
+                } else {
+                    let bytes = std::fs::read(&path).expect("can be read");
+                    files.insert(path.strip_prefix(top).expect("is inside").to_owned(), bytes);
+                }
+            }
+        }
+        let mut files = BTreeMap::new();
+        gather(self.0.path(), self.0.path(), &mut files);
+        files
     }
 
     pub fn exists(&self, name: &str) -> bool {

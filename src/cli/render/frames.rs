@@ -1,14 +1,18 @@
 //! One picture or the frames of an animation, to files. An animation that was interrupted goes on
 //! at the first frame that is missing.
+//!
+//! A frame says in its `Command` what it was made by and from; one process at a time makes an animation.
 
 use super::{Args, command, maps, stops};
 use crate::cli::console::Console;
-use crate::cli::outcome::Failure;
+use crate::cli::outcome::{self, Failure};
+use crate::photons::file;
 use crate::render::animation::{self, Turn};
 use crate::render::write::{self, Bits};
 use crate::render::{self, Film, Maps, Pass, Settings, tracer};
 use crate::scene::Scene;
-use crate::store::replace;
+use crate::store::lock;
+use crate::store::replace::{self, WriteError};
 use std::path::{Path, PathBuf};
 
 /// What is written.
@@ -66,9 +70,23 @@ impl Target {
 
     /// Frames of an animation in one file wait here until all are there.
     fn folder(&self) -> PathBuf {
-        let mut name = self.path.file_name().unwrap_or_default().to_os_string();
-        name.push(".frames");
-        self.path.with_file_name(name)
+        lock::hidden(&self.path, "frames")
+    }
+
+    /// Whether the animation is one file.
+    fn is_one_file(&self) -> bool {
+        matches!(self.kind, Kind::Gif | Kind::Apng)
+    }
+
+    /// What frame number `number` shows, if it is there with all that belongs to it.
+    fn finished(&self, number: u32, passes: bool, command: &str) -> Option<Vec<u8>> {
+        let path = self.frame(number);
+        let shown = |path: &Path| animation::finished_frame(&std::fs::read(path).ok()?, command);
+        let mut others = Pass::ALL.iter().filter(|_| passes);
+        if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
+            return None;
+        }
+        shown(&path)
     }
 
     fn frame(&self, number: u32) -> PathBuf {
@@ -105,16 +123,24 @@ pub fn take(
         let film = picture(scene, &maps, &settings, console);
         return write_picture(args, scene, &film, &settings, &target.path, target.kind, &command);
     };
+    outcome::goes_on();
+    let fail = |cause| WriteError { path: target.path.clone(), cause };
+    let locked = lock::hidden(&target.path, "lock");
+    let waiting = || {
+        let path = target.path.display();
+        console.note(&format!("another cutlab is making {path}: waiting for it to end"));
+    };
+    let _lock = lock::take(&locked, &waiting).map_err(fail)?;
+    // frames of another version, or of files that have changed since, are of no use
+    let command = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
     // where only the camera moves, the light stands still
     let still = args.turn == Turn::Camera;
     let mut kept: Option<(Maps, f32)> = None;
     let mut files = Vec::new();
     let mut pictures = Vec::new();
-    let in_one_file = matches!(target.kind, Kind::Gif | Kind::Apng);
     for frame in 0..frames {
         let path = target.frame(frame);
-        let there = std::fs::read(&path).ok().and_then(|png| animation::finished_frame(&png, &command));
-        let bytes = match there {
+        let bytes = match target.finished(frame, args.passes, &command) {
             Some(bytes) => bytes,
             None => {
                 let moved = animation::at(scene, args.turn, args.rock, frame, frames);
@@ -131,17 +157,17 @@ pub fn take(
                 };
                 settings.tone.stops = stops;
                 let film = picture(&moved, &maps, &settings, console);
-                let kind = Kind::Png;
-                files.extend(write_picture(args, &moved, &film, &settings, &path, kind, &command)?);
+                files.extend(write_picture(args, &moved, &film, &settings, &path, target.kind, &command)?);
                 kept = Some((maps, stops));
                 write::bytes(&write::shown(&film, None, &settings.tone))
             }
         };
-        if in_one_file {
+        if target.is_one_file() {
             pictures.push(bytes);
         }
     }
-    if !in_one_file {
+    if !target.is_one_file() {
+        std::fs::remove_file(&locked).map_err(fail)?;
         return Ok(files);
     }
     let (width, height) = (settings.width, settings.height);
@@ -150,9 +176,7 @@ pub fn take(
         _ => animation::apng(&pictures, width, height, &command),
     };
     replace::write(&target.path, &bytes.map_err(|e| Failure::input(e.to_string()))?)?;
-    (0..frames).for_each(|f| drop(std::fs::remove_file(target.frame(f))));
-    // it stays if someone else has put something there
-    let _ = std::fs::remove_dir(target.folder());
+    std::fs::remove_dir_all(target.folder()).and_then(|()| std::fs::remove_file(&locked)).map_err(fail)?;
     Ok(vec![target.path.clone()])
 }
 
@@ -179,7 +203,8 @@ fn write_picture(
         replace::write(path, &write::exr(film, &things, command).map_err(bad)?)?;
         return Ok(vec![path.into()]);
     }
-    let bits = if args.bits == "16" { Bits::Sixteen } else { Bits::Eight };
+    let one_file = matches!(kind, Kind::Gif | Kind::Apng); // of eight bits, and so are its frames
+    let bits = if args.bits == "16" && !one_file { Bits::Sixteen } else { Bits::Eight };
     let passes = Pass::ALL.iter().filter(|_| args.passes).map(|(pass, name)| (Some(*pass), *name));
     let mut files = Vec::new();
     for (pass, name) in passes.chain([(None, "")]) {
