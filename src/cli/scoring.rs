@@ -179,18 +179,24 @@ impl Inputs {
         Inputs { identity: identity.hex(), files }
     }
 
-    /// The row of `stone`, unless its file was replaced since the table was begun: the row is then not
+    /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
     /// one of this table.
     pub fn checked(&self, stone: &str, scored: (Row, Outcome)) -> (Row, Outcome) {
-        let replaced = self.files.get(stone).is_some_and(|held| held.is_replaced(Held::by(Path::new(stone))));
         let (mut row, outcome) = scored;
-        if !replaced {
+        let Some(held) = self.files.get(stone) else { return (row, outcome) };
+        let now = Held::by(Path::new(stone));
+        let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
+        if now == *held || read_in_time {
             return (row, outcome);
         }
+        let (what, outcome) = match now.is_readable() {
+            true => ("was replaced", Outcome::Bad),
+            false => ("has vanished", Outcome::Unreadable),
+        };
         row.scores.fill(None);
         row.samples.clear();
-        row.error = Some("the file was replaced while the table was made: start again".into());
-        (row, Outcome::Bad)
+        row.error = Some(format!("the file {what} since the table was begun: start again"));
+        (row, outcome)
     }
 }
 

@@ -23,9 +23,9 @@ impl Held {
         Held(read.is_ok().then(|| Sha256::digest(&content).into()))
     }
 
-    /// Whether the file holds something else `now`; one that has vanished does not.
-    pub fn is_replaced(self, now: Held) -> bool {
-        now.0.is_some() && now != self
+    /// Whether the file could be read.
+    pub fn is_readable(self) -> bool {
+        self.0.is_some()
     }
 }
 

@@ -22,7 +22,7 @@ impl Bench {
         self.0.path().join(name)
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cutlab"));
         command.args(arguments).current_dir(self.0.path());
         command
@@ -62,6 +62,26 @@ impl Bench {
         let _ = child.kill();
         child.wait().expect("ends");
         at_work
+    }
+
+    /// Runs a command to its end; the most memory that it had at a time, in kB.
+    #[cfg(target_os = "linux")]
+    pub fn peak_kb(&self, arguments: &[&str]) -> u64 {
+        let mut child = self.start(arguments);
+        let status = format!("/proc/{}/status", child.id());
+        let mut peak = 0;
+        let code = loop {
+            if let Some(code) = child.try_wait().expect("can be asked") {
+                break code;
+            }
+            let text = std::fs::read_to_string(&status).unwrap_or_default();
+            let line = text.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+            let kb = line.and_then(|l| l.trim().trim_end_matches(" kB").parse().ok());
+            peak = kb.unwrap_or(0u64).max(peak);
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        assert!(code.success(), "{arguments:?}");
+        peak
     }
 
     pub fn read(&self, name: &str) -> Vec<u8> {
