@@ -4,7 +4,8 @@ use crate::stones::*;
 use cutlab::math::random::{Purpose, Stream};
 use cutlab::walk::{Isa, LANES, Stone, scalar};
 
-const PACKETS: usize = 400;
+/// Few where Miri walks them, a thousand times slower.
+const PACKETS: usize = if cfg!(miri) { 1 } else { 400 };
 
 /// Power that each packet's rays send upward, on one instruction set.
 fn upward(isa: Isa) -> Vec<f64> {
