@@ -47,7 +47,7 @@ fn take<E: Experiment, F: Fn(&E::Tally) -> f64>(
     traced.extend_to(samples);
     for metric in METRICS {
         let Some(of) = of(metric.reading) else { continue };
-        let batches = traced.tallies().iter().map(|t| of(t)).collect();
+        let batches = traced.tallies().iter().map(&of).collect();
         scores.push((metric.name.into(), traced.estimate(of), batches));
     }
 }

@@ -3,7 +3,7 @@
 mod plan;
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::outcome::{self, Code, Failure};
 use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Format, FormatError, stone};
@@ -63,6 +63,9 @@ const PASSED_OVER: &str = "passed over";
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let to_output = args.output == Path::new("-");
     let (jobs, format) = plan(args, to_output)?;
+    if !to_output {
+        outcome::goes_on();
+    }
     let mut results = stones::each(&jobs, console, "importing", |job| import(job, args, format, console));
     let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
         Ok(row) => row.clone(),

@@ -79,14 +79,16 @@ impl Target {
     }
 
     /// What frame number `number` shows, if it is there with all that belongs to it.
-    fn finished(&self, number: u32, passes: bool, command: &str) -> Option<Vec<u8>> {
+    ///
+    /// - `pixels`: how many it must have
+    fn finished(&self, number: u32, passes: bool, command: &str, pixels: u32) -> Option<Vec<u8>> {
         let path = self.frame(number);
         let shown = |path: &Path| animation::finished_frame(&std::fs::read(path).ok()?, command);
         let mut others = Pass::ALL.iter().filter(|_| passes);
         if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
             return None;
         }
-        shown(&path)
+        shown(&path).filter(|rgb| !self.is_one_file() || rgb.len() == 3 * pixels as usize)
     }
 
     fn frame(&self, number: u32) -> PathBuf {
@@ -140,7 +142,7 @@ pub fn take(
     let mut pictures = Vec::new();
     for frame in 0..frames {
         let path = target.frame(frame);
-        let bytes = match target.finished(frame, args.passes, &command) {
+        let bytes = match target.finished(frame, args.passes, &command, settings.width * settings.height) {
             Some(bytes) => bytes,
             None => {
                 let moved = animation::at(scene, args.turn, args.rock, frame, frames);
