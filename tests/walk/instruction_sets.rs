@@ -107,7 +107,7 @@ fn every_kernel_keeps_the_light_of_a_cube() {
             assert_eq!(stone.next_facets(&packet).facet.iter().filter(|f| **f < 6).count(), LANES);
             let mut out = 0.0;
             let lost = stone.walk(&mut packet, 0.1, |m, _| out += m.power.iter().sum::<f32>());
-            let kept = out + lost as f32;
+            let kept = out + lost;
             assert!(kept <= entered + 1e-4, "{}: {entered} in, {kept} out", isa.name());
             assert_eq!((kept - entered).abs() < 1e-4, !absorbing, "{}: {entered} {kept}", isa.name());
         }
