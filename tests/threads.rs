@@ -19,10 +19,15 @@ fn run(line: &str, threads: &str) -> (Option<i32>, Vec<u8>, BTreeMap<PathBuf, Ve
 }
 
 fn same_on_any_number_of_threads(lines: &[&str]) {
+    same_on(&["2", "5"], lines);
+}
+
+/// The command lines do on so many threads what they do on one.
+fn same_on(numbers: &[&str], lines: &[&str]) {
     for line in lines {
         let one = run(line, "1");
         let made = one.2.len();
-        for threads in ["2", "5"] {
+        for threads in numbers {
             let several = run(line, threads);
             assert_eq!((several.0, several.2.len()), (one.0, made), "{line}");
             assert!(several.1 == one.1, "{line}: {threads} threads say something else");
@@ -89,11 +94,7 @@ fn pictures() {
 }
 
 #[test]
-#[ignore = "two minutes: run by hand"]
+#[ignore = "most of a minute: .ci/run runs it"]
 fn a_report() {
-    if std::env::var_os("CUTLAB_LONG").is_none() {
-        println!("skipped: it takes two minutes, and CUTLAB_LONG is not set");
-        return;
-    }
-    same_on_any_number_of_threads(&["report tolkowsky -o out"]);
+    same_on(&["5"], &["report octahedron -o out"]);
 }
