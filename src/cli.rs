@@ -91,10 +91,10 @@ impl Command {
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
-/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs`.
+/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs` and `tests/endings.rs`.
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
-    let _ = ctrlc::set_handler(|| std::process::exit(outcome::INTERRUPTED));
+    let _ = ctrlc::set_handler(|| outcome::interrupted());
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return outcome::usage(&error, &Cli::command()),

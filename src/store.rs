@@ -1,4 +1,5 @@
 //! The only place that writes files.
 
+pub mod lock;
 pub mod progress;
 pub mod replace;

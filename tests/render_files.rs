@@ -70,10 +70,55 @@ fn an_interrupted_animation_goes_on_at_the_missing_frame() {
     for (name, magic) in [("a.gif", &b"GIF89a"[..]), ("a.png", &b"\x89PNG"[..])] {
         cutlab(folder.path(), &format!("{render} -o {name}")).expect("renders");
         assert!(std::fs::read(at(name)).expect("was written").starts_with(magic));
-        assert!(!at(&format!("{name}.frames")).exists());
+        assert!(!at(&format!(".{name}.frames")).exists());
     }
     let refused = cutlab(folder.path(), &format!("{render} -o a.exr")).expect_err("no animation");
     assert!(refused.contains(".gif") && refused.lines().count() == 1, "{refused}");
+}
+
+#[test]
+fn frames_of_another_stone_or_without_their_passes_are_made_anew() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name);
+    let read = |name: &str| std::fs::read(at(name)).expect("was written");
+    let render = "render -q x.toml --frames 2 --width 32 --height 24 --spp 1 --photons 500 --nearest 20";
+    cutlab(folder.path(), "generate -q cube -o x.toml").expect("generates");
+    cutlab(folder.path(), &format!("{render} -o f%d.png")).expect("renders");
+    let of_cube = read("f0.png");
+    cutlab(folder.path(), &format!("{render} -o f%d.png --passes")).expect("renders");
+    assert_eq!(read("f0.png"), of_cube);
+    assert!(at("f0-direct.png").exists() && at("f1-stone.png").exists(), "asked for later");
+    cutlab(folder.path(), "generate -q octahedron -o x.toml").expect("generates");
+    cutlab(folder.path(), &format!("{render} -o f%d.png")).expect("renders");
+    cutlab(folder.path(), &format!("{render} -o g%d.png")).expect("renders");
+    assert!(read("f0.png") != of_cube, "the file has another stone now");
+    assert_eq!((read("f0.png"), read("f1.png")), (read("g0.png"), read("g1.png")));
+}
+
+/// Frames of a GIF wait as pictures of eight bits, whatever `--bits` says: one that was read back is
+/// the one that was made.
+#[test]
+fn an_interrupted_gif_ends_in_the_same_bytes_with_any_bits() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name);
+    let render = format!("{SMALL} --frames 6 --turn stone --bits 16 -o a.gif");
+    cutlab(folder.path(), &render).expect("renders");
+    let whole = std::fs::read(at("a.gif")).expect("was written");
+    std::fs::remove_file(at("a.gif")).expect("is there");
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_cutlab"))
+        .args(render.split(' '))
+        .current_dir(folder.path())
+        .spawn()
+        .expect("the program starts");
+    while !at(".a.gif.frames/001.png").exists() && child.try_wait().expect("can be asked").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    child.kill().expect("is killed");
+    child.wait().expect("ends");
+    assert!(!at("a.gif").exists() && at(".a.gif.frames/001.png").exists());
+    cutlab(folder.path(), &render).expect("renders");
+    assert_eq!(std::fs::read(at("a.gif")).expect("was written"), whole);
+    assert!(!at(".a.gif.frames").exists());
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::formats::{self, FormatError, stone};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every file below `folder`, in the order of their names. Links to folders are not followed: they
-/// may lead round in a circle.
+/// Every file below `folder`, in the order of their names, but for hidden ones: they are someone's
+/// notes, or a file in the making. Links to folders are not followed: they may lead round in a circle.
 ///
 /// - `skipped`: a folder, in canonical form, that is not searched
 pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
@@ -17,6 +17,7 @@ pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Fail
         .map(|e| e.map(|e| e.path()))
         .collect::<Result<_, _>>()
         .map_err(fail)?;
+    entries.retain(|path| !path.file_name().is_some_and(|n| n.as_encoded_bytes().starts_with(b".")));
     entries.sort();
     let mut found = Vec::new();
     for path in entries {

@@ -3,7 +3,7 @@
 mod plan;
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::outcome::{self, Code, Failure};
 use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Format, FormatError, stone};
@@ -19,7 +19,7 @@ Examples:
   cutlab import designs -o meshes --to glb     a folder with all that is in it, as glb into meshes/
 
 Files of a folder that are of no known format are passed over. Nothing is overwritten without
---force. A closed mesh with dents or in several parts is written as a mesh, and said to be one.")]
+--force; what an interrupted import has written is left as it is. A closed mesh with dents or in several parts is written as a mesh, and said to be one.")]
 pub struct Args {
     /// Designs, meshes, and folders of them; the content decides the format of each
     #[arg(required = true, value_name = "FILE|DIR")]
@@ -56,12 +56,16 @@ struct Row {
 }
 
 const WRITTEN: &str = "written";
+const THERE: &str = "there already";
 const PASSED_OVER: &str = "passed over";
 
 /// Reads every file and writes it again.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let to_output = args.output == Path::new("-");
     let (jobs, format) = plan(args, to_output)?;
+    if !to_output {
+        outcome::goes_on();
+    }
     let mut results = stones::each(&jobs, console, "importing", |job| import(job, args, format, console));
     let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
         Ok(row) => row.clone(),
@@ -79,7 +83,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         rows.iter().filter_map(|r| r.error.as_ref()).for_each(|e| console.complain(e));
         if to_output {
             console.note(&table(&rows));
-        } else if rows.iter().any(|r| r.outcome == WRITTEN) {
+        } else if rows.iter().any(|r| [WRITTEN, THERE].contains(&r.outcome)) {
             console.print(&table(&rows))?;
         }
     }
@@ -115,11 +119,7 @@ fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Fai
 
 fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<Row, Failure> {
     let file = job.stone.clone();
-    let exists = || Failure::exists(&file, &job.target);
     let to_output = job.target == Path::new("-");
-    if !args.force && !to_output && job.target.symlink_metadata().is_ok() {
-        return Err(exists());
-    }
     let (bytes, read) = match stone::open(&job.stone) {
         Err(FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. })
             if job.by_chance =>
@@ -158,8 +158,12 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
         console.print_bytes(&bytes)?;
     } else if args.force {
         replace::write(&job.target, &bytes)?;
-    } else if !replace::create(&job.target, &bytes)? {
-        return Err(exists());
+    } else if job.target.symlink_metadata().is_ok() || !replace::create(&job.target, &bytes)? {
+        // an import that was interrupted, started again
+        if std::fs::read(&job.target).ok() != Some(bytes) {
+            return Err(Failure::exists(&file, &job.target));
+        }
+        return Ok(Row { file, outcome: THERE, ..read });
     }
     Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
 }
@@ -180,7 +184,7 @@ fn table(rows: &[Row]) -> String {
     let (file, format, facets) = (width(0), width(1), width(2));
     let line = |r: &[String; 4]| format!("{:file$}  {:format$}  {:>facets$}  {}\n", r[0], r[1], r[2], r[3]);
     let mut text: String = [&heads].into_iter().chain(&listed).map(line).collect();
-    let counts: Vec<String> = [WRITTEN, "failed", PASSED_OVER]
+    let counts: Vec<String> = [WRITTEN, THERE, "failed", PASSED_OVER]
         .iter()
         .map(|outcome| (rows.iter().filter(|r| r.outcome == *outcome).count(), outcome))
         .filter(|(n, _)| *n > 0)

@@ -8,12 +8,31 @@ use crate::solid::Body;
 use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Exit code after an interrupt from the keyboard: 128 + SIGINT, as shells have it.
-pub const INTERRUPTED: i32 = 130;
+/// Exit code after an interrupt (from the keyboard, SIGTERM, SIGHUP): 128 + SIGINT, as shells have it.
+const INTERRUPTED: i32 = 130;
+
+/// Whether this command, started again, goes on where it was.
+static GOES_ON: AtomicBool = AtomicBool::new(false);
+
+/// From here on the command keeps what it has done: an interrupt says so.
+pub fn goes_on() {
+    GOES_ON.store(true, Ordering::Relaxed);
+}
+
+/// Ends after an interrupt, with one line.
+pub fn interrupted() -> ! {
+    if std::io::stderr().is_terminal() {
+        let _ = writeln!(std::io::stderr()); // below the progress bar
+    }
+    let on = GOES_ON.load(Ordering::Relaxed);
+    complain(if on { "interrupted; the same command goes on where it was" } else { "interrupted" });
+    std::process::exit(INTERRUPTED)
+}
 
 /// Exit codes, as the README lists them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +132,8 @@ impl Failure {
 
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Failure {
-        if error.cause.kind() == std::io::ErrorKind::BrokenPipe {
+        let gone = error.cause.kind() == std::io::ErrorKind::BrokenPipe;
+        if gone || error.path == Path::new("-") {
             return Failure::output(&error.cause);
         }
         Failure::new(Code::Io, error.to_string())

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
-use super::scoring::{self, Scoring};
+use super::scoring::{self, Inputs, Scoring};
 use super::stones::DEFAULT_STONE;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
@@ -59,8 +59,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let columns = table::columns(&leading, &plan.metrics);
     let tilts = args.tilt.map_or(1, |t| t.count);
+    let inputs = Inputs::of(&command, specs.iter().map(String::as_str));
     let study = Study {
-        identity: scoring::identity(&command, specs.iter().map(String::as_str)),
+        identity: inputs.identity.clone(),
         command,
         plan: &plan,
         total: specs.len() as u64 * tilts,
@@ -68,7 +69,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         line: &|i, form| {
             let spec = &specs[(i / tilts) as usize];
             let tilt = args.tilt.map(|t| Tilt { degrees: t.value(i % tilts), azimuth: args.tilt_axis });
-            let (row, outcome) = args.scoring.score(spec, tilt, &plan);
+            let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan));
             let mut leading = table::stone_cells(&row);
             leading.extend(tilt.map(|t| Cell::number(t.degrees)));
             Ok(Line {

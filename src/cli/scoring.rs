@@ -8,8 +8,9 @@ use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
 use crate::optics::dispersion::lines;
 use crate::study::batch::Outcome;
-use crate::study::identity::Identity;
+use crate::study::identity::{Held, Identity};
 use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 #[derive(Debug, Clone, clap::Args)]
@@ -153,18 +154,50 @@ impl Scoring {
     }
 }
 
-/// What a table of these stones is a function of.
-///
-/// - `command`: with every setting spelled out
-pub fn identity<'a>(command: &str, stones: impl Iterator<Item = &'a str>) -> String {
-    let mut identity = Identity::of(command);
-    for stone in stones {
-        identity.add(stone);
-        if let Some(file) = folders::file_of(stone) {
-            identity.add_file(file);
+/// What a table is a function of.
+pub struct Inputs {
+    /// In one word.
+    pub identity: String,
+    /// The stones that are files, with what they held when the table was begun.
+    files: BTreeMap<String, Held>,
+}
+
+impl Inputs {
+    /// Those of a table of these stones.
+    ///
+    /// - `command`: with every setting spelled out
+    pub fn of<'a>(command: &str, stones: impl Iterator<Item = &'a str>) -> Inputs {
+        let (mut identity, mut files) = (Identity::of(command), BTreeMap::new());
+        for stone in stones {
+            identity.add(stone);
+            if let Some(file) = folders::file_of(stone) {
+                let held = Held::by(file);
+                identity.add_file(&held);
+                files.insert(stone.to_owned(), held);
+            }
         }
+        Inputs { identity: identity.hex(), files }
     }
-    identity.hex()
+
+    /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
+    /// one of this table.
+    pub fn checked(&self, stone: &str, scored: (Row, Outcome)) -> (Row, Outcome) {
+        let (mut row, outcome) = scored;
+        let Some(held) = self.files.get(stone) else { return (row, outcome) };
+        let now = Held::by(Path::new(stone));
+        let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
+        if now == *held || read_in_time {
+            return (row, outcome);
+        }
+        let (what, outcome) = match now.is_readable() {
+            true => ("was replaced", Outcome::Bad),
+            false => ("has vanished", Outcome::Unreadable),
+        };
+        row.scores.fill(None);
+        row.samples.clear();
+        row.error = Some(format!("the file {what} since the table was begun: start again"));
+        (row, outcome)
+    }
 }
 
 /// Refuses an output that is one of the inputs.

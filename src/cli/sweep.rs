@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
-use super::scoring::{self, Scoring};
+use super::scoring::{Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
@@ -67,8 +67,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
     let total = sweep.count().ok_or_else(|| Failure::input("the grid has too many points to count"))?;
+    let inputs = Inputs::of(&command, [args.stone.as_str()].into_iter());
     let study = Study {
-        identity: scoring::identity(&command, [args.stone.as_str()].into_iter()),
+        identity: inputs.identity.clone(),
         command,
         plan: &plan,
         total,
@@ -76,7 +77,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         line: &|i, form| {
             let point = sweep.point(i);
             let (spec, scoring) = at(args, &point);
-            let (row, outcome) = scoring.score(&spec, None, &plan);
+            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
             let mut leading: Vec<Cell> = point.iter().map(|x| Cell::number(*x)).collect();
             leading.push(row.facets.into());
             Ok(Line {
@@ -151,7 +152,7 @@ fn check(args: &Args) -> Result<(), Failure> {
             first.display()
         )));
     }
-    if args.table.shard.of > 1 || tables::is_stream(&args.table.output) {
+    if args.table.shard.of > 1 || replace::is_stream(&args.table.output) {
         return Err(Failure::input("--plot needs the whole table in a file: give -o FILE, without --shard"));
     }
     match args.plot.iter().find(|p| picture(p).is_none()) {

@@ -1,7 +1,7 @@
 //! Long tables on the command line: progress, what is written where, how it ends.
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::outcome::{self, Code, Failure};
 use crate::store::progress::Remark;
 use crate::store::replace;
 use crate::study::batch::{Batch, BatchError, Event, Line, Summary};
@@ -9,7 +9,7 @@ use crate::study::meta::Meta;
 use crate::study::score::{Plan, Row};
 use crate::study::shard::Shard;
 use crate::study::table::{Form, TableError};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The options of a table.
 #[derive(Debug, Clone, clap::Args)]
@@ -45,18 +45,13 @@ pub struct Study<'a> {
 /// Draws what belongs to a finished table, of the bytes given, and names the files it wrote.
 pub type Plot<'a> = &'a dyn Fn(&[u8], Form) -> Result<Vec<PathBuf>, Failure>;
 
-/// Whether `output` is a file to be made whole, or something to be written to as it comes.
-pub fn is_stream(output: &Path) -> bool {
-    output == Path::new("-") || output.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
-}
-
 impl Study<'_> {
     /// Makes the table and writes it.
     ///
     /// - `plot`: called with the table's bytes when all rows are there, before it is put in place;
     ///   it may write more files and give their names
     pub fn run(&self, table: &Table, console: &Console, plot: Option<Plot>) -> Result<Code, Failure> {
-        let stream = is_stream(&table.output);
+        let stream = replace::is_stream(&table.output);
         let form = if stream && console.json { Form::Json } else { Form::of(&table.output)? };
         let bar = console.progress(0, self.what);
         let tell = |event: Event| match event {
@@ -94,10 +89,11 @@ impl Study<'_> {
             tell: &tell,
         };
         if stream {
-            let summary = self.to_stream(&batch, &table.output)?;
+            let summary = batch.write(&table.output)?;
             bar.finish_and_clear();
             return Ok(code(&summary));
         }
+        outcome::goes_on();
         let mut finished = batch.finish(&table.output)?;
         bar.finish_and_clear();
         let mut written = match plot {
@@ -114,15 +110,6 @@ impl Study<'_> {
         let failed = if summary.failed > 0 { format!(", {} failed", summary.failed) } else { String::new() };
         console.note(&format!("wrote {}: {} rows{failed}", names.join(", "), summary.rows));
         Ok(code(&summary))
-    }
-
-    fn to_stream(&self, batch: &Batch, output: &Path) -> Result<Summary, Failure> {
-        if output == Path::new("-") {
-            return Ok(batch.write(&mut std::io::stdout())?);
-        }
-        let opened = std::fs::OpenOptions::new().write(true).open(output);
-        let mut out = opened.map_err(|cause| replace::WriteError { path: output.to_owned(), cause })?;
-        Ok(batch.write(&mut out)?)
     }
 
     fn meta(&self, shard: Shard, summary: &Summary, crc32: u32) -> Meta {

@@ -131,6 +131,12 @@ fn substance(placed: &PlacedStone) -> String {
     format!("{} ({laws:08x}{})", material.name, if material.is_clear() { "" } else { &radius })
 }
 
+/// Checksum of everything that a picture of the scene shows: stones, surroundings, camera.
+pub fn checksum(scene: &Scene) -> u32 {
+    let stones = listed(scene, |p| format!("{:08x} {} {}", stone_checksum(p), substance(p), p.polarised));
+    crc32fast::hash(format!("{stones} {:08x} {:?}", surroundings_checksum(scene), scene.camera).as_bytes())
+}
+
 /// Checksum of surfaces and lights.
 fn surroundings_checksum(scene: &Scene) -> u32 {
     crc32fast::hash(format!("{:?} {:?} {:?}", scene.surfaces, scene.lights, scene.depth).as_bytes())

@@ -3,9 +3,10 @@
 //! The file is an append-only list of records, each with its checksum, headed by the identity of
 //! the work. One process at a time has it, by a lock that ends with the process.
 
+use super::lock;
 use super::replace::WriteError;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::File;
 use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -60,8 +61,7 @@ enum Content {
 impl Progress {
     /// Where the progress of an output is kept: `.NAME.progress` beside it.
     pub fn beside(output: &Path) -> PathBuf {
-        let name = output.file_name().unwrap_or_default().to_string_lossy();
-        output.with_file_name(format!(".{name}.progress"))
+        lock::hidden(output, "progress")
     }
 
     /// Opens the progress of the work called `identity`, or begins it; waits while another process
@@ -71,25 +71,9 @@ impl Progress {
     /// this work. Checked in `tests/progress.rs`.
     pub fn open(path: &Path, identity: &str, tell: &dyn Fn(Remark)) -> Result<Progress, WriteError> {
         let fail = |cause| WriteError { path: path.to_owned(), cause };
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(fail)?;
-        }
         let head = format!("{MAGIC} {identity}");
         loop {
-            let mut file = OpenOptions::new()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .open(path)
-                .map_err(fail)?;
-            if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-                tell(Remark::Waiting);
-                file.lock().map_err(fail)?;
-            } // a file system without locks has none to wait for
-            if !still_at(&file, path) {
-                continue; // its owner finished and took it away
-            }
+            let mut file = lock::take(path, &|| tell(Remark::Waiting)).map_err(fail)?;
             match content(&mut file, &head).map_err(fail)? {
                 Content::Good { start, end, done } => {
                     file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(fail)?;
@@ -175,22 +159,6 @@ fn checksum(key: &str, payload: &[u8]) -> u32 {
     sum.update(b"\n");
     sum.update(payload);
     sum.finalize()
-}
-
-/// Whether `path` still leads to this very file.
-fn still_at(file: &File, path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let place = |m: std::io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
-        let here = place(file.metadata());
-        here.is_some() && here == place(std::fs::metadata(path))
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        path.exists()
-    }
 }
 
 /// One record as it stands in the file.

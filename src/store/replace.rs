@@ -1,7 +1,10 @@
 //! Whole-file replace: a reader sees the old file or the complete new one, never a part.
 
+use super::lock;
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use tempfile::TempPath;
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -13,75 +16,100 @@ pub struct WriteError {
     pub cause: std::io::Error,
 }
 
-/// Writes `bytes` to `path`: a temporary file beside it, flushed to disk, then renamed over it.
-///
-/// Missing parent folders are made. `-` writes to standard output. On any error an existing file
-/// at `path` is left as it was. Checked below and in `tests/cli.rs`.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let fail = |cause| WriteError { path: path.to_owned(), cause };
-    if path == Path::new("-") {
-        let mut out = std::io::stdout().lock();
-        return out.write_all(bytes).and_then(|()| out.flush()).map_err(fail);
-    }
-    beside(path, bytes).map_err(fail)?.persist(path).map_err(|e| fail(e.error))?;
-    Ok(())
+/// Whether `path` is something to be written to as it comes: standard output (`-`), a pipe, a device.
+pub fn is_stream(path: &Path) -> bool {
+    path == Path::new("-") || path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// As [`write()`], but never over a file that exists: whether it was written.
+/// Opens what [`is_stream`].
+pub fn open_stream(path: &Path) -> Result<Box<dyn Write + Send>, WriteError> {
+    if path == Path::new("-") {
+        return Ok(Box::new(std::io::stdout()));
+    }
+    let opened = std::fs::OpenOptions::new().write(true).open(path);
+    Ok(Box::new(opened.map_err(|cause| WriteError { path: path.to_owned(), cause })?))
+}
+
+/// Writes `bytes` to `path`: into a hidden file beside it, flushed to disk, then renamed over it.
+///
+/// Missing parent folders are made, links are followed. What [`is_stream`] is written to as it is. On
+/// any error an existing file at `path` is left as it was. Checked below, in `tests/cli.rs` and, by
+/// killing it, in `tests/kills.rs`.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let fail = |cause| WriteError { path: path.to_owned(), cause };
+    if is_stream(path) {
+        let mut out = open_stream(path)?;
+        return out.write_all(bytes).and_then(|()| out.flush()).map_err(fail);
+    }
+    stream(path, |out| out.write_all(bytes).map_err(fail))
+}
+
+/// As [`write()`], but never over anything that exists: whether it was written.
 pub fn create(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
     let fail = |cause| WriteError { path: path.to_owned(), cause };
-    match beside(path, bytes).map_err(fail)?.persist_noclobber(path) {
-        Ok(_) => Ok(true),
+    let partial = Partial::filled(path, |out| out.write_all(bytes).map_err(fail))?;
+    match partial.name.persist_noclobber(path) {
+        Ok(()) => Ok(true),
         Err(e) if e.error.kind() == std::io::ErrorKind::AlreadyExists => Ok(false),
         Err(e) => Err(fail(e.error)),
     }
 }
 
 /// As [`write()`], for what is made bit by bit and too large for memory: `fill` writes it.
-///
-/// It grows in `.NAME.partial` beside `path`: whoever calls this must be the only one who does for
-/// this path ([`super::progress`] has the lock); what a kill leaves there the next start replaces.
 pub fn stream(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    let fail = |cause| WriteError { path: path.to_owned(), cause };
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let partial = path.with_file_name(format!(".{name}.partial"));
-    let written = || {
-        let mut out = std::io::BufWriter::new(std::fs::File::create(&partial).map_err(fail)?);
-        fill(&mut out)?;
-        let file = out.into_inner().map_err(|e| fail(e.into_error()))?;
-        file.sync_all().and_then(|()| std::fs::rename(&partial, path)).map_err(fail)
-    };
-    written().inspect_err(|_| {
-        let _ = std::fs::remove_file(&partial);
-    })
+    let target = if path.is_symlink() { path.canonicalize() } else { Ok(path.to_owned()) };
+    let target = target.map_err(|cause| WriteError { path: path.to_owned(), cause })?;
+    let partial = Partial::filled(&target, fill)?;
+    partial.name.persist(&target).map_err(|e| WriteError { path: path.to_owned(), cause: e.error })
 }
 
-/// A complete temporary file in the folder of `path`, on disk.
-fn beside(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(p) if p != Path::new("") => p,
-        _ => Path::new("."),
-    };
-    std::fs::create_dir_all(folder)?;
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".cutlab-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666)); // the umask still applies
+/// `.NAME.partial` in the folder of a file to be, complete and on disk. It is locked: of several
+/// processes that write the same file each waits for the one before. What a kill left there is
+/// thrown away by the next.
+struct Partial {
+    /// Removes the file when dropped.
+    name: TempPath,
+    /// Holds the lock until the file is in its place.
+    _file: File,
+}
+
+impl Partial {
+    fn filled(
+        path: &Path,
+        fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    ) -> Result<Partial, WriteError> {
+        let fail = |cause| WriteError { path: path.to_owned(), cause };
+        let at = lock::hidden(path, "partial");
+        let file = loop {
+            let file = lock::take(&at, &|| ()).map_err(fail)?;
+            if file.metadata().map_err(fail)?.len() == 0 {
+                break file;
+            }
+            std::fs::remove_file(&at).map_err(fail)?;
+        };
+        let name = TempPath::try_from_path(at).map_err(fail)?;
+        let mut out = std::io::BufWriter::new(file);
+        fill(&mut out)?;
+        let file = out.into_inner().map_err(|e| fail(e.into_error()))?;
+        file.sync_all().map_err(fail)?;
+        Ok(Partial { name, _file: file })
     }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    Ok(file)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).expect("lists");
+        let mut names: Vec<String> =
+            entries.map(|e| e.expect("lists").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
 
     #[test]
     fn replaces_whole_files_and_leaves_nothing_beside_them() {
@@ -92,14 +120,48 @@ mod tests {
         assert_eq!(std::fs::read(&path).expect("reads"), b"two");
         assert!(!create(&path, b"three").expect("looks"));
         assert_eq!(std::fs::read(&path).expect("reads"), b"two");
-        let beside = std::fs::read_dir(path.parent().expect("a parent")).expect("lists").count();
-        assert_eq!(beside, 1);
+        assert_eq!(names(&dir.path().join("new/folder")), ["file.txt"]);
+    }
+
+    #[test]
+    fn what_a_kill_left_is_thrown_away() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let (path, left) = (dir.path().join("file.txt"), dir.path().join(".file.txt.partial"));
+        std::fs::write(&left, "half of another thing").expect("writes");
+        write(&path, b"one").expect("writes");
+        assert_eq!((std::fs::read(&path).expect("reads"), left.exists()), (b"one".to_vec(), false));
+        // killed between a link and the removal of its other name: the file is not touched by it
+        std::fs::hard_link(&path, &left).expect("links");
+        let failed = stream(&path, |_| {
+            Err(WriteError { path: path.clone(), cause: std::io::ErrorKind::Other.into() })
+        });
+        assert!(failed.is_err());
+        assert_eq!((std::fs::read(&path).expect("reads"), left.exists()), (b"one".to_vec(), false));
     }
 
     #[test]
     fn a_folder_in_the_way_is_an_error_that_names_it() {
         let dir = tempfile::tempdir().expect("a temporary folder");
-        let error = write(dir.path(), b"x").expect_err("a folder cannot be replaced by a file");
-        assert!(error.to_string().contains(&dir.path().display().to_string()));
+        let path = dir.path().join("folder");
+        std::fs::create_dir(&path).expect("makes");
+        let error = write(&path, b"x").expect_err("a folder cannot be replaced by a file");
+        assert!(error.to_string().contains(&path.display().to_string()));
+        assert_eq!(names(dir.path()), ["folder"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_devices_stay_devices() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let (real, link) = (dir.path().join("real.txt"), dir.path().join("link.txt"));
+        std::fs::write(&real, "old").expect("writes");
+        std::os::unix::fs::symlink(&real, &link).expect("links");
+        write(&link, b"new").expect("writes");
+        assert!(link.is_symlink() && std::fs::read(&real).expect("reads") == b"new");
+        assert!(!create(&link, b"newer").expect("looks"));
+        let null = dir.path().join("null");
+        std::os::unix::fs::symlink("/dev/null", &null).expect("links");
+        write(&null, b"lost").expect("writes");
+        assert!(null.is_symlink() && is_stream(&null));
     }
 }

@@ -170,9 +170,11 @@ pub struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Writes the table to `out`, row after row as they are done, in their order.
-    pub fn write(&self, out: &mut (dyn Write + Send)) -> Result<Summary, BatchError> {
-        let fail = |cause| WriteError { path: "-".into(), cause };
+    /// Writes the table to a stream ([`replace::is_stream`]), row after row as they are done, in their
+    /// order.
+    pub fn write(&self, output: &Path) -> Result<Summary, BatchError> {
+        let fail = |cause| WriteError { path: output.to_owned(), cause };
+        let mut out = replace::open_stream(output)?;
         let rows = self.shard.rows(self.total);
         (self.tell)(Event::Begins { done: 0, rows });
         let mut put = |bytes: &[u8]| out.write_all(bytes).map_err(fail);

@@ -11,6 +11,24 @@ use std::path::Path;
 #[derive(Clone)]
 pub struct Identity(Sha256);
 
+/// A digest of what a file holds; none if it cannot be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Held(Option<[u8; 32]>);
+
+impl Held {
+    /// What the file at `path` holds now.
+    pub fn by(path: &Path) -> Held {
+        let mut content = Vec::new();
+        let read = File::open(path).and_then(|f| f.take(MOST_BYTES + 1).read_to_end(&mut content));
+        Held(read.is_ok().then(|| Sha256::digest(&content).into()))
+    }
+
+    /// Whether the file could be read.
+    pub fn is_readable(self) -> bool {
+        self.0.is_some()
+    }
+}
+
 impl Identity {
     /// The identity of what `command`, with all its settings spelled out, makes with this version.
     pub fn of(command: &str) -> Identity {
@@ -26,12 +44,9 @@ impl Identity {
         self.0.update(text);
     }
 
-    /// Adds a file's content; a file that cannot be read counts as none.
-    pub fn add_file(&mut self, path: &Path) {
-        let mut content = Vec::new();
-        let read = File::open(path).and_then(|f| f.take(MOST_BYTES + 1).read_to_end(&mut content));
-        self.0.update(read.map_or(u64::MAX, |n| n as u64).to_le_bytes());
-        self.0.update(content);
+    /// Adds what a file holds.
+    pub fn add_file(&mut self, held: &Held) {
+        self.0.update(held.0.unwrap_or_default());
     }
 
     /// Thirty-two hexadecimal digits.

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
@@ -21,7 +22,7 @@ impl Bench {
         self.0.path().join(name)
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cutlab"));
         command.args(arguments).current_dir(self.0.path());
         command
@@ -63,6 +64,26 @@ impl Bench {
         at_work
     }
 
+    /// Runs a command to its end; the most memory that it had at a time, in kB.
+    #[cfg(target_os = "linux")]
+    pub fn peak_kb(&self, arguments: &[&str]) -> u64 {
+        let mut child = self.start(arguments);
+        let status = format!("/proc/{}/status", child.id());
+        let mut peak = 0;
+        let code = loop {
+            if let Some(code) = child.try_wait().expect("can be asked") {
+                break code;
+            }
+            let text = std::fs::read_to_string(&status).unwrap_or_default();
+            let line = text.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+            let kb = line.and_then(|l| l.trim().trim_end_matches(" kB").parse().ok());
+            peak = kb.unwrap_or(0u64).max(peak);
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        assert!(code.success(), "{arguments:?}");
+        peak
+    }
+
     pub fn read(&self, name: &str) -> Vec<u8> {
         std::fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
@@ -74,6 +95,24 @@ impl Bench {
             entries.map(|e| e.expect("can be listed").file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
+    }
+
+    /// Every file in the folder and its folders, hidden ones too, with what it holds.
+    pub fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        fn gather(folder: &Path, top: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+            for entry in std::fs::read_dir(folder).expect("can be listed") {
+                let path = entry.expect("can be listed").path();
+                if path.is_dir() {
+                    gather(&path, top, files);
+                } else {
+                    let bytes = std::fs::read(&path).expect("can be read");
+                    files.insert(path.strip_prefix(top).expect("is inside").to_owned(), bytes);
+                }
+            }
+        }
+        let mut files = BTreeMap::new();
+        gather(self.0.path(), self.0.path(), &mut files);
+        files
     }
 
     pub fn exists(&self, name: &str) -> bool {

@@ -2,7 +2,9 @@
 
 use crate::stones::*;
 use cutlab::math::random::{Purpose, Stream};
+use cutlab::walk::beams::{Beams, Exit, Lit, Scalar, Until, Watch};
 use cutlab::walk::{Isa, LANES, Stone, scalar};
+use glam::{DVec3, Vec3};
 
 const PACKETS: usize = 400;
 
@@ -83,4 +85,35 @@ fn all_agree_facet_by_facet() {
     }
     println!("{differ} of {asked} facets differ");
     assert!(asked > 50_000 && differ * 10_000 < asked * stones.len(), "{differ} of {asked}");
+}
+
+struct Unwatched;
+
+impl<L> Watch<L, 1> for Unwatched {
+    fn exit(&mut self, _: &Exit<L, 1>) {}
+}
+
+/// Every kernel on every set, with no more work than Miri can do (`tools/sanitize`): light is kept.
+#[test]
+fn every_kernel_keeps_the_light_of_a_cube() {
+    for isa in Isa::all() {
+        println!("{}", isa.name());
+        let stone = Stone::with_isa(cube(), isa);
+        for (polarised, absorbing) in [(true, false), (false, false), (true, true), (false, true)] {
+            let mut s = Stream::new(SEED, Purpose::Test, 502);
+            let (mut packet, _) = entering(&stone, &mut s, 1.5);
+            (packet.polarised, packet.absorbing, packet.absorption) = (polarised, absorbing, [0.1; LANES]);
+            let entered: f32 = packet.power.iter().sum();
+            assert_eq!(stone.next_facets(&packet).facet.iter().filter(|f| **f < 6).count(), LANES);
+            let mut out = 0.0;
+            let lost = stone.walk(&mut packet, 0.1, |m, _| out += m.power.iter().sum::<f32>());
+            let kept = out + lost;
+            assert!(kept <= entered + 1e-4, "{}: {entered} in, {kept} out", isa.name());
+            assert_eq!((kept - entered).abs() < 1e-4, !absorbing, "{}: {entered} {kept}", isa.name());
+        }
+        assert!(stone.hit(Vec3::new(0.1, 0.2, 3.0), Vec3::NEG_Z).is_some());
+        let lit = Lit { direction: DVec3::new(0.1, 0.2, -0.9).normalize(), indices: [1.5] };
+        let totals = Beams::new(&stone).follow(&lit, Scalar(1.0), Until::power(1e-2), &mut Unwatched);
+        assert!((totals.sum() - 1.0).abs() < 1e-9, "{}: {totals:?}", isa.name());
+    }
 }

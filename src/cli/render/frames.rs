@@ -1,14 +1,18 @@
 //! One picture or the frames of an animation, to files. An animation that was interrupted goes on
 //! at the first frame that is missing.
+//!
+//! A frame says in its `Command` what it was made by and from; one process at a time makes an animation.
 
 use super::{Args, auto_stops, command, maps, rounds, stops};
 use crate::cli::console::Console;
-use crate::cli::outcome::Failure;
+use crate::cli::outcome::{self, Failure};
+use crate::photons::file;
 use crate::render::animation::{self, Turn};
 use crate::render::write::{self, Bits, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, tracer};
 use crate::scene::Scene;
-use crate::store::replace;
+use crate::store::lock;
+use crate::store::replace::{self, WriteError};
 use std::path::{Path, PathBuf};
 
 /// What is written.
@@ -66,9 +70,25 @@ impl Target {
 
     /// Frames of an animation in one file wait here until all are there.
     fn folder(&self) -> PathBuf {
-        let mut name = self.path.file_name().unwrap_or_default().to_os_string();
-        name.push(".frames");
-        self.path.with_file_name(name)
+        lock::hidden(&self.path, "frames")
+    }
+
+    /// Whether the animation is one file.
+    fn is_one_file(&self) -> bool {
+        matches!(self.kind, Kind::Gif | Kind::Apng)
+    }
+
+    /// What frame number `number` shows, if it is there with all that belongs to it.
+    ///
+    /// - `pixels`: how many it must have
+    fn finished(&self, number: u32, passes: bool, command: &str, pixels: u32) -> Option<Vec<u8>> {
+        let path = self.frame(number);
+        let shown = |path: &Path| animation::finished_frame(&std::fs::read(path).ok()?, command);
+        let mut others = Pass::ALL.iter().filter(|_| passes);
+        if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
+            return None;
+        }
+        shown(&path).filter(|rgb| !self.is_one_file() || rgb.len() == 3 * pixels as usize)
     }
 
     fn frame(&self, number: u32) -> PathBuf {
@@ -107,17 +127,25 @@ pub fn take(
         picture(scene, maps, &settings, &mut file, console)?;
         return Ok(file.written);
     };
+    outcome::goes_on();
+    let fail = |cause| WriteError { path: target.path.clone(), cause };
+    let locked = lock::hidden(&target.path, "lock");
+    let waiting = || {
+        let path = target.path.display();
+        console.note(&format!("another cutlab is making {path}: waiting for it to end"));
+    };
+    let _lock = lock::take(&locked, &waiting).map_err(fail)?;
+    // frames of another version, or of files that have changed since, are of no use
+    let command = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
     // where only the camera moves, the light stands still
     let still = args.turn == Turn::Camera;
     let mut kept: Option<Maps> = None;
     let mut stops = None;
     let mut files = Vec::new();
     let mut pictures = Vec::new();
-    let in_one_file = matches!(target.kind, Kind::Gif | Kind::Apng);
     for frame in 0..frames {
         let path = target.frame(frame);
-        let there = std::fs::read(&path).ok().and_then(|png| animation::finished_frame(&png, &command));
-        let bytes = match there {
+        let bytes = match target.finished(frame, args.passes, &command, settings.width * settings.height) {
             Some(bytes) => bytes,
             None => {
                 // the exposure is that of the scene at rest, for every frame alike
@@ -128,18 +156,19 @@ pub fn take(
                 let moved = animation::at(scene, args.turn, args.rock, frame, frames);
                 let maps = if still { kept.take() } else { None };
                 let mut file =
-                    File { args, target: &path, kind: Kind::Png, command: &command, written: Vec::new() };
+                    File { args, target: &path, kind: target.kind, command: &command, written: Vec::new() };
                 let (film, maps) = picture(&moved, maps, &settings, &mut file, console)?;
                 kept = maps;
                 files.extend(file.written);
                 write::bytes(&write::shown(&film, None, &settings.tone))
             }
         };
-        if in_one_file {
+        if target.is_one_file() {
             pictures.push(bytes);
         }
     }
-    if !in_one_file {
+    if !target.is_one_file() {
+        std::fs::remove_file(&locked).map_err(fail)?;
         return Ok(files);
     }
     let (width, height) = (settings.width, settings.height);
@@ -148,9 +177,7 @@ pub fn take(
         _ => animation::apng(&pictures, width, height, &command),
     };
     replace::write(&target.path, &bytes.map_err(|e| Failure::input(e.to_string()))?)?;
-    (0..frames).for_each(|f| drop(std::fs::remove_file(target.frame(f))));
-    // it stays if someone else has put something there
-    let _ = std::fs::remove_dir(target.folder());
+    std::fs::remove_dir_all(target.folder()).and_then(|()| std::fs::remove_file(&locked)).map_err(fail)?;
     Ok(vec![target.path.clone()])
 }
 
@@ -179,7 +206,8 @@ fn picture(
 ) -> Result<(Film, Option<Maps>), Failure> {
     let args = file.args;
     if args.stops.progressive {
-        let to_a_file = file.target != Path::new("-");
+        // a frame that is there counts as finished
+        let to_a_file = matches!(file.kind, Kind::Png | Kind::Exr) && file.target != Path::new("-");
         let mut keep =
             |film: &Film, n| if to_a_file { file.write(scene, film, settings, Some(n)) } else { Ok(()) };
         let (film, rounds) = rounds::take(args, scene, settings, console, &mut keep)?;
@@ -223,7 +251,8 @@ impl File<'_> {
             self.written.push(self.target.into());
             return Ok(());
         }
-        let bits = if self.args.bits == "16" { Bits::Sixteen } else { Bits::Eight };
+        let one_file = matches!(self.kind, Kind::Gif | Kind::Apng); // of eight bits, and so are its frames
+        let bits = if self.args.bits == "16" && !one_file { Bits::Sixteen } else { Bits::Eight };
         let passes = Pass::ALL.iter().filter(|_| self.args.passes).map(|(pass, name)| (Some(*pass), *name));
         for (pass, name) in passes.chain([(None, "")]) {
             let path = if pass.is_some() { beside(self.target, name) } else { self.target.to_owned() };

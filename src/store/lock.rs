@@ -1,0 +1,71 @@
+//! One process at a time: a file that belongs to whoever has its lock.
+
+use std::ffi::OsString;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// No name of a hidden file is longer in bytes: file systems take 255.
+const LONGEST: usize = 200;
+
+/// `.NAME.ending` beside `path`; a name too long for that stands there as its checksum.
+pub fn hidden(path: &Path, ending: &str) -> PathBuf {
+    let name = path.file_name().unwrap_or_default();
+    let mut hidden = OsString::from(".");
+    if name.len() > LONGEST {
+        hidden.push(format!("{:08x}", crc32fast::hash(name.as_encoded_bytes())));
+    } else {
+        hidden.push(name);
+    }
+    hidden.push(format!(".{ending}"));
+    path.with_file_name(hidden)
+}
+
+/// Opens the file at `path`, making it and its folders if they are not there, and takes its lock,
+/// which ends with the process or when the file is dropped.
+///
+/// - `waiting`: called if another process has it, before this one waits
+///
+/// A file system without locks has none to wait for. Checked in `tests/progress.rs`.
+pub fn take(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    loop {
+        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
+        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            waiting();
+            file.lock()?;
+        }
+        if still_at(&file, path) {
+            return Ok(file);
+        } // its owner has finished and taken it away
+    }
+}
+
+/// Whether `path` still leads to this very file.
+fn still_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let place = |m: std::io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
+        let here = place(file.metadata());
+        here.is_some() && here == place(std::fs::metadata(path))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        path.exists()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hidden_names_are_told_apart_and_fit() {
+        assert_eq!(hidden(Path::new("a/t.csv"), "progress"), Path::new("a/.t.csv.progress"));
+        let long = |c: &str| hidden(Path::new(&c.repeat(250)), "partial");
+        assert!(long("x") != long("y") && long("x").as_os_str().len() < 30);
+    }
+}
