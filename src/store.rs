@@ -1,4 +1,5 @@
-//! The only place that writes files.
+//! What is on disk: the only place that writes files, and how much of one is read.
 
+pub mod limits;
 pub mod progress;
 pub mod replace;

@@ -1,14 +1,26 @@
 //! The fuzz targets of `tools/fuzz/` as bounded property tests, and what fuzzing has found.
 
+#[path = "hostile/damage.rs"]
+mod damage;
+#[path = "hostile/degenerate.rs"]
+mod degenerate;
+#[path = "hostile/includes.rs"]
+mod includes;
+#[path = "hostile/limits.rs"]
+mod limits;
+#[path = "hostile/maps.rs"]
+mod maps;
 #[path = "../tools/fuzz/targets.rs"]
 mod targets;
 
 use cutlab::formats::{self, FORMATS, stone};
+use cutlab::scene::SCENES;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Output};
 use std::sync::LazyLock;
 
 /// For each format that is written, its number and an octahedron in it; then every small good file.
@@ -34,6 +46,12 @@ fn config() -> ProptestConfig {
     ProptestConfig { cases: given.cases.max(600), failure_persistence: None, rng_seed, ..given }
 }
 
+/// Runs the program in `folder`.
+fn cutlab(folder: &Path, arguments: &str) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cutlab"));
+    command.args(arguments.split(' ')).current_dir(folder).output().expect("the program starts")
+}
+
 #[test]
 fn an_stl_shorter_than_its_header_is_refused() {
     let stl = FORMATS.iter().position(|f| f.name == "stl").expect("in the catalogue");
@@ -51,7 +69,7 @@ proptest! {
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {
         let (format, bytes) = &SAMPLES[sample.index(SAMPLES.len())];
-        let mut data = vec![if forced { *format } else { u8::MAX }];
+        let mut data = vec![if forced { *format } else { targets::FOUND }];
         data.extend(bytes);
         for (at, junk) in damage {
             let at = 1 + at.index(bytes.len());
@@ -61,6 +79,29 @@ proptest! {
             data.truncate(1 + end.index(bytes.len()));
         }
         targets::readers(&data);
+    }
+
+    #[test]
+    fn damaged_scenes_are_set_up_or_refused(
+        scene in 0..SCENES.len(),
+        damage in vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let mut data = SCENES[scene].1.as_bytes().to_vec();
+        for (at, junk) in damage {
+            let at = at.index(data.len());
+            data[at] = junk;
+        }
+        targets::scenes(&data);
+    }
+
+    #[test]
+    fn any_photon_map_is_read_or_refused(how in any::<u8>(), data in vec(any::<u8>(), 0..400)) {
+        targets::maps(&[&[how][..], &data].concat());
+    }
+
+    #[test]
+    fn any_table_is_read_or_refused(how in any::<u8>(), data in vec(any::<u8>(), 0..400)) {
+        targets::tables(&[&[how][..], &data].concat());
     }
 
     #[test]

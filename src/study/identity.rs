@@ -1,6 +1,7 @@
 //! What a table is a function of, in one short word.
 
-use crate::formats::MOST_BYTES;
+use crate::formats;
+use crate::store::limits;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -26,12 +27,16 @@ impl Identity {
         self.0.update(text);
     }
 
-    /// Adds a file's content; a file that cannot be read counts as none.
+    /// Adds a file's content; a file that cannot be read counts as none. Of one that may include others,
+    /// also what it comes to with them. Checked in `tests/score_batches.rs`.
     pub fn add_file(&mut self, path: &Path) {
         let mut content = Vec::new();
-        let read = File::open(path).and_then(|f| f.take(MOST_BYTES + 1).read_to_end(&mut content));
+        let read = File::open(path).and_then(|f| f.take(limits::FILE.most() + 1).read_to_end(&mut content));
         self.0.update(read.map_or(u64::MAX, |n| n as u64).to_le_bytes());
-        self.0.update(content);
+        self.0.update(&content);
+        if formats::may_include(&path.display().to_string(), &content) {
+            self.add(&format!("{:?}", formats::read(path)));
+        }
     }
 
     /// Thirty-two hexadecimal digits.
