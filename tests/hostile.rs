@@ -15,10 +15,12 @@ mod targets;
 
 use cutlab::formats::{self, FORMATS, stone};
 use cutlab::scene::SCENES;
+use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
@@ -56,6 +58,18 @@ fn cutlab(folder: &Path, arguments: &str) -> Output {
 fn an_stl_shorter_than_its_header_is_refused() {
     let stl = FORMATS.iter().position(|f| f.name == "stl").expect("in the catalogue");
     targets::readers(&[stl as u8, b's', b'o', b'l', b'i', b'd']);
+}
+
+/// Found by damaging an EXR: a channel of −3e38 made an infinite brightness of the others.
+#[test]
+fn a_panorama_of_extreme_pixels_gives_finite_light() {
+    for extreme in [f32::MAX, f32::MIN, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, f32::MIN_POSITIVE] {
+        let mut sky = Rgb32FImage::from_pixel(8, 4, Rgb([1.0, 0.5, 0.2]));
+        (0..3).for_each(|channel| sky.get_pixel_mut(channel, 1)[channel as usize] = extreme);
+        let mut bytes = Cursor::new(Vec::new());
+        DynamicImage::from(sky).write_to(&mut bytes, ImageFormat::OpenExr).expect("can be written");
+        targets::panoramas(bytes.get_ref());
+    }
 }
 
 proptest! {

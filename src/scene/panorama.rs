@@ -13,6 +13,11 @@ use std::path::Path;
 /// Brighter pixels are taken as this bright: the sun is 1e5 times the sky, and sums stay finite.
 const BRIGHTEST: f32 = 1e12;
 
+/// A channel of a pixel, which a file may give as anything: negative outside the gamut, or no number.
+fn bounded(x: f32) -> f32 {
+    if x.is_nan() { 0.0 } else { x.clamp(-BRIGHTEST, BRIGHTEST) }
+}
+
 /// A panorama ready for look-up and for drawing directions by brightness.
 pub struct Panorama {
     width: usize,
@@ -57,12 +62,8 @@ impl Panorama {
         limits::PIXELS.check(count).map_err(|e| e.to_string())?;
         limits::PIXELS_PER_BYTE.check(count / bytes.len() as u64).map_err(|e| e.to_string())?;
         let picture = DynamicImage::from_decoder(decoder).map_err(one_line)?.into_rgb32f();
-        let pixels: Vec<Vec3> = picture
-            .pixels()
-            .map(|p| {
-                rgb::mixture(Vec3::from_array(p.0).map(|x| if x.is_nan() { 0.0 } else { x.min(BRIGHTEST) }))
-            })
-            .collect();
+        let pixels: Vec<Vec3> =
+            picture.pixels().map(|p| rgb::mixture(Vec3::from_array(p.0.map(bounded)))).collect();
         if pixels.iter().all(|p| *p == Vec3::ZERO) {
             return Err("it is black".into());
         }
@@ -70,10 +71,10 @@ impl Panorama {
     }
 
     fn new(width: usize, height: usize, pixels: Vec<Vec3>, checksum: u32) -> Panorama {
-        let solid_angle = |i: usize| {
-            let row = |y: usize| f64::from((PI * y as f32 / height as f32).cos());
-            (row(i / width) - row(i / width + 1)) * f64::from(TAU) / width as f64
-        };
+        // cos a − cos b by the sine of half their difference: near the zenith `f32` has no digits for it
+        let step = std::f64::consts::PI / height as f64;
+        let row = |y: usize| 2.0 * (step * (y as f64 + 0.5)).sin() * (step / 2.0).sin();
+        let solid_angle = |i: usize| row(i / width) * f64::from(TAU) / width as f64;
         let mut sum = 0.0;
         let mut cumulative: Vec<f64> = (0..pixels.len())
             .map(|i| {

@@ -219,7 +219,8 @@ pub fn panoramas(data: &[u8]) {
             assert!(sky.mean().is_finite() && sky.mean() >= 0.0, "mean {}", sky.mean());
             for u in [[0.0, 0.0], [0.3, 0.7], [0.999_999, 0.5]] {
                 let (direction, _) = sky.draw(u);
-                assert!(direction.is_finite() && sky.colour(direction).is_finite());
+                let colour = sky.colour(direction);
+                assert!(direction.is_finite() && colour.is_finite(), "{sky:?}, {u:?}: {direction} {colour}");
             }
         }
         Err(problem) => is_one_line(&problem),
