@@ -112,13 +112,13 @@ fn files_with_any_byte_changed_are_refused_or_stones() {
     samples().iter().for_each(|s| s.corrupted(|byte| vec![byte ^ 0x10]));
 }
 
-/// Fifteen values for each byte; about 20 s.
+/// Eleven values for each byte; 40 s of one core.
 #[test]
 #[ignore = "takes long"]
 fn files_with_any_byte_changed_in_many_ways_are_refused_or_stones() {
     let values = |byte: u8| {
         let bits = (0..8).map(|bit| byte ^ 1 << bit);
-        bits.chain([0, 0xff, 0x7f, b'0', b'-', b'\n', b'"']).filter(|v| *v != byte).collect()
+        bits.chain([0, 0xff, b'-']).filter(|v| *v != byte).collect()
     };
     samples().iter().for_each(|s| s.corrupted(values));
 }

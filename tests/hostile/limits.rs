@@ -187,6 +187,21 @@ fn designs_that_would_take_for_ever_are_refused() {
     ]);
 }
 
+/// A file of 200 bytes that says three thousand facets: its stone and symmetry were once found in a time
+/// that grew with the third power of them.
+#[test]
+fn thousands_of_facets_are_shown_in_seconds() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let tier =
+        |angle: i32| format!("[[tier]]\nangle = {angle}\ndistance = 1\nindices = [0]\nrepeat = 1000\n");
+    fs::write(folder.path().join("many.toml"), [90, -40, 30].map(tier).concat()).expect("written");
+    let start = Instant::now();
+    let out = within_memory(folder.path(), "show many.toml");
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(String::from_utf8_lossy(&out.stdout).contains("3000"));
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}
+
 #[test]
 fn panoramas_cannot_claim_to_be_large() {
     let folder = tempfile::tempdir().expect("a temporary folder");
