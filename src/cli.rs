@@ -23,6 +23,7 @@ mod tables;
 mod validate;
 mod words;
 
+use crate::store::limits;
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
@@ -42,7 +43,8 @@ const AFTER_HELP: &str = "\
 STONE is a name from `cutlab list cuts`, a name with parameters
 (round-brilliant:crown-angle=35,pavilion-angle=41), or a file.
 Exit codes: 0 done, 1 some stones (or figures of validate) failed, 2 usage or no input was good,
-3 could not read or write, 130 interrupted.";
+3 could not read or write, 130 interrupted.
+Environment: CUTLAB_LIMIT=4 raises every limit on what is read four times (all: cutlab list limits).";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -95,6 +97,11 @@ impl Command {
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
     let _ = ctrlc::set_handler(|| outcome::interrupted());
+    if let Some(factor) = std::env::var_os(limits::VARIABLE)
+        && let Err(problem) = limits::raise(&factor.to_string_lossy())
+    {
+        return Failure::input(problem).report();
+    }
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return outcome::usage(&error, &Cli::command()),

@@ -36,15 +36,9 @@ pub use surface::Surface;
 use crate::cut::{Design, Unit};
 use crate::solid::Body;
 use crate::solid::polyhedron::Fate;
-use crate::solid::recover::MOST_FACETS;
-use crate::store::replace;
+use crate::store::{limits, replace};
 use std::collections::BTreeSet;
-use std::io::Read;
 use std::path::Path;
-
-/// Largest file that is read: a hundred times the largest mesh of a convex stone. What a reader
-/// allots is bounded by the bytes it was given, and by the most polygons and facets of a stone.
-pub const MOST_BYTES: u64 = 32 << 20;
 
 /// Makes a file's bytes.
 #[derive(Debug, Clone, Copy)]
@@ -115,20 +109,16 @@ pub struct Imported {
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
 pub fn read(path: &Path) -> Result<Imported, FormatError> {
     let name = path.display().to_string();
-    let bytes = bytes_of(path, MOST_BYTES)?;
+    let bytes = bytes_of(path)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
 }
 
-/// The bytes of a file, if they are not more than `most`.
-fn bytes_of(path: &Path, most: u64) -> Result<Vec<u8>, FormatError> {
+/// The bytes of a file, if they are not more than [`limits::FILE`]. What a reader allots is bounded by
+/// the bytes it was given and by the other [`limits`].
+fn bytes_of(path: &Path) -> Result<Vec<u8>, FormatError> {
     let file = || path.display().to_string();
-    let fail = |cause| FormatError::Read { file: file(), cause };
-    let mut bytes = Vec::new();
-    std::fs::File::open(path).map_err(fail)?.take(most + 1).read_to_end(&mut bytes).map_err(fail)?;
-    if bytes.len() as u64 > most {
-        return Err(FormatError::TooLarge { file: file(), limit: most });
-    }
-    Ok(bytes)
+    let bytes = limits::FILE.read(path).map_err(|cause| FormatError::Read { file: file(), cause })?;
+    bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
 }
 
 /// Reads a file from memory.
@@ -156,12 +146,17 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imp
     Ok(Imported { design, format: format.name, warnings })
 }
 
+/// Whether a file of this content may name others, which then belong to the stone.
+pub fn may_include(name: &str, bytes: &[u8]) -> bool {
+    let source = Source { name, bytes, folder: None };
+    [&glb::GLB, &glb::GLTF, &perfect_diamond::SCENE].iter().any(|f| (f.sniff)(&source) > 0)
+}
+
 /// Checks that the planes bound a solid; remarks on planes that bound nothing of it.
 fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
     let facets = design.facets().count();
-    if facets > MOST_FACETS {
-        return Err(FormatError::TooManyFacets { file: file.into(), facets, most: MOST_FACETS });
-    }
+    let many = |cause| FormatError::Limit { place: file.into(), cause };
+    limits::FACETS.check(facets).map_err(many)?;
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
     let count = |wanted: fn(&Fate) -> bool| solid.fates.iter().filter(|f| wanted(f)).count();
     let mut remarks = Vec::new();

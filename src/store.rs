@@ -1,5 +1,6 @@
-//! The only place that writes files.
+//! What is on disk: the only place that writes files, and how much of one is read.
 
+pub mod limits;
 pub mod lock;
 pub mod progress;
 pub mod replace;

@@ -310,14 +310,14 @@ fn what_would_fill_the_memory_or_the_day_is_refused() {
     let spaces: String = (0..20_000).map(|i| format!("<a xmlns:a{i}='u{i}'>")).collect();
     for (text, said) in [
         (nested, "opened but never closed"),
-        (wide, "nodes limit"),
-        (format!("<GemCutStudio{many}>"), "line 1: expected fewer attributes"),
-        (format!("<GemCutStudio>{spaces}"), "fewer namespaces"),
-        (wheel, "10001 facets, more than the 10000 that are read"),
-        (faces, "500001 faces: more than 500000 are not read"),
-        (corners, "line 4: expected at most 4000000 corners of all faces, found 'f 1 2 3"),
+        (wide, "x: more than 500000 XML elements and texts"),
+        (format!("<GemCutStudio{many}>"), "line 1: more than 100 attributes of an XML element"),
+        (format!("<GemCutStudio>{spaces}"), "more than 100 attributes of an XML element, or namespaces"),
+        (wheel, "line 3: more than 10000 facets"),
+        (faces, "more than 500000 faces of a mesh"),
+        (corners, "line 4: more than 4000000 corners of all faces"),
         (continued, "line 3: expected a corner from 1 to 1 as in 3, 3/1 or 3//2, found '2'"),
-        (toml, "is larger than 4194304 bytes"),
+        (toml, "more than 4194304 bytes in a TOML design"),
         (gltf, "expected a tree of nodes, found a node twice"),
     ] {
         let error = formats::read_bytes("x", text.as_bytes(), None).map(|i| i.format).expect_err(said);

@@ -11,6 +11,7 @@ use crate::optics::materials::MATERIALS;
 use crate::optics::{Illuminant, Material, colour};
 use crate::scene::lights::LIGHTS;
 use crate::scene::{SCENES, preset};
+use crate::store::limits;
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
@@ -35,6 +36,8 @@ enum Kind {
     Scenes,
     /// Kinds of light for scene files
     Lights,
+    /// How much a file may hold, CUTLAB_LIMIT in the environment counted in
+    Limits,
 }
 
 #[derive(Serialize)]
@@ -65,6 +68,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let about = preset(name).and_then(Result::ok).map_or_else(String::new, |s| s.about().into());
             (name.to_string(), about)
         })),
+        Kind::Limits => entries(limits::ALL.iter().map(|l| (l.most().to_string(), l.of.to_string()))),
         Kind::Lights => entries(LIGHTS.iter().map(|k| (k.name.to_string(), k.about.to_string()))),
     };
     if console.json {

@@ -30,6 +30,7 @@ use super::families::{self, CutError};
 use super::meet::{Bench, Cut, MeetError, Rule};
 use super::stretch::{LENGTH_TO_WIDTH, drawn_out};
 use crate::solid::Plane;
+use crate::store::limits;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -210,7 +211,10 @@ impl Document {
         let gear = self.gear.map_or(Gear::default(), |g| Gear { teeth: g.teeth, offset: g.offset });
         let mut bench = Bench::new(gear);
         for (i, entry) in self.tier.iter().enumerate() {
-            bench.add(entry.tier(i + 1, gear, &bench)?, entry.guide);
+            let tier = entry.tier(i + 1, gear, &bench)?;
+            let name = tier.name.clone();
+            let many = |cause| DocumentError::Meet { number: i + 1, name, cause };
+            bench.add(tier, entry.guide).map_err(many)?;
         }
         let design = Design {
             name: self.name.clone(),
@@ -257,17 +261,13 @@ impl Document {
     }
 }
 
-/// More facets than this in a tier are a mistake in the file, not a stone.
-const MOST_FACETS: usize = 10_000;
-
 impl TierEntry {
     fn tier(&self, number: usize, gear: Gear, bench: &Bench) -> Result<Tier, DocumentError> {
         let fail = |problem: String| DocumentError::Tier { number, name: self.name.clone(), problem };
         let mut facets = Vec::new();
         let mut angle_deg = self.angle;
-        if self.indices.len().saturating_mul(self.repeat.unwrap_or(1) as usize) > MOST_FACETS {
-            return Err(fail(format!("indices and repeat give more than {MOST_FACETS} facets")));
-        }
+        let count = self.indices.len().saturating_mul(self.repeat.unwrap_or(1) as usize);
+        limits::FACETS.check(count).map_err(|e| fail(e.to_string()))?;
         if [self.angle, self.girdle, self.width, self.table].iter().flatten().any(|x| !x.is_finite()) {
             return Err(fail("angle, girdle, width and table must be numbers".into()));
         }

@@ -6,10 +6,16 @@
 //! grammar in [`super::document`]. Lengths are in the design's own unit, W is the width of
 //! [`super::proportions::wheel_size`] over the girdle cut so far.
 
+mod error;
+
+pub use error::MeetError;
+
 use super::design::{Facet, Gear, Tier, Zone, facet_normal};
 use super::proportions::{flat_extent, wheel_size};
-use crate::solid::{Plane, Polyhedron, SolidError};
+use crate::solid::{Plane, Polyhedron};
+use crate::store::limits;
 use glam::{DMat3, DVec3};
+use std::cell::Cell;
 
 /// What fixes a tier's distance.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,95 +50,6 @@ pub struct Cut<'a> {
     pub rule: Rule,
 }
 
-/// Why a tier cannot be placed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MeetError {
-    /// A rule names a facet that no earlier tier has.
-    #[error("no facet before it is called '{facet}' (write TIER@INDEX or TIER NUMBER; there is {})", .known.join(", "))]
-    UnknownFacet {
-        /// What was named.
-        facet: String,
-        /// The tiers there are.
-        known: Vec<String>,
-    },
-    /// A tier's name where one of its facets is meant.
-    #[error("'{tier}' has {count} facets: say which, as {tier}@INDEX or {tier} NUMBER")]
-    WhichFacet {
-        /// The tier.
-        tier: String,
-        /// How many facets it has.
-        count: usize,
-    },
-    /// Fewer than three facets.
-    #[error("'{corner}' names {count} facets: a corner needs three (a guide can be one of them)")]
-    TooFew {
-        /// The corner as written.
-        corner: String,
-        /// How many facets it names.
-        count: usize,
-    },
-    /// Planes that have no point in common, or more than one.
-    #[error("'{corner}' is no corner: these planes do not meet in one point{}", miss(*.apart))]
-    NoCorner {
-        /// The corner as written.
-        corner: String,
-        /// How far the planes pass each other by, if they cross at all.
-        apart: f64,
-    },
-    /// The corner is not on the stone.
-    #[error("'{corner}' is no corner of the stone: {by} cuts it away, {depth:.6} deep")]
-    CutAway {
-        /// The corner as written.
-        corner: String,
-        /// The facet that cuts it away.
-        by: String,
-        /// How far beyond that facet the corner lies.
-        depth: f64,
-    },
-    /// A tier without angle and without two corners.
-    #[error("needs an angle, or two corners that fix it")]
-    NoAngle,
-    /// Angle and two corners at once.
-    #[error("has an angle and two corners: one of the three must go")]
-    TooMuch,
-    /// Two corners that no facet at this index can both hold.
-    #[error(
-        "no facet at index {index} passes through both corners: they lie one above the other or across it"
-    )]
-    NoPlane {
-        /// The tier's first index.
-        index: f64,
-    },
-    /// `width` on a tier that is not vertical, `table` on one that is not horizontal.
-    #[error("'{rule}' is for {needed} tiers; this one stands at {angle_deg}°")]
-    WrongAngle {
-        /// The rule's word.
-        rule: &'static str,
-        /// Which tiers it is for.
-        needed: &'static str,
-        /// The tier's angle.
-        angle_deg: f64,
-    },
-    /// A rule that speaks of W before the girdle is cut.
-    #[error("the stone has no girdle yet, so it has no width: cut the girdle before this tier")]
-    NoGirdle,
-    /// A table larger than any that the crown allows.
-    #[error("a table of {asked:.4} W cannot be cut: the stone there is at most {most:.4} W wide")]
-    TableTooLarge {
-        /// What was asked for, as a fraction of W.
-        asked: f64,
-        /// The most there is.
-        most: f64,
-    },
-    /// The tiers before it leave the stone open where it must be closed.
-    #[error("the tiers before it do not close the stone: {0}")]
-    Open(#[from] SolidError),
-}
-
-fn miss(distance: f64) -> String {
-    if distance.is_finite() { format!(", they miss it by {distance:.3e}") } else { String::new() }
-}
-
 /// Planes count as meeting, and a corner as lying on the stone, within this part of the stone's
 /// size: far above the rounding of a dozen chained meets, far below what can be cut.
 const MEET: f64 = 1e-9;
@@ -144,6 +61,8 @@ pub struct Bench {
     /// The tiers cut so far.
     pub tiers: Vec<Tier>,
     guides: Vec<Tier>,
+    /// What placing tiers has cost so far, see [`limits::SOLVING`].
+    steps: Cell<u64>,
 }
 
 impl Bench {
@@ -175,7 +94,7 @@ impl Bench {
                     .iter()
                     .map(|&i| Plane { normal: facet_normal(self.gear, angle, i), distance: 1.0 })
                     .collect();
-                Ok((angle, width / width_within(&walls)?))
+                Ok((angle, width / self.width_within(&walls)?))
             }
             Rule::Table(share) => {
                 let angle = cut.angle_deg.ok_or(MeetError::NoAngle)?;
@@ -192,8 +111,26 @@ impl Bench {
     }
 
     /// Puts a tier on the stone, or among the guides.
-    pub fn add(&mut self, tier: Tier, guide: bool) {
-        if guide { self.guides.push(tier) } else { self.tiers.push(tier) }
+    pub fn add(&mut self, tier: Tier, guide: bool) -> Result<(), MeetError> {
+        if guide {
+            self.guides.push(tier)
+        } else {
+            self.tiers.push(tier)
+        }
+        let all = self.tiers.iter().chain(&self.guides).map(|t| t.facets.len());
+        Ok(limits::FACETS.check(all.sum::<usize>())?)
+    }
+
+    /// Counts what is about to be done.
+    fn spend(&self, steps: usize) -> Result<(), MeetError> {
+        self.steps.set(self.steps.get().saturating_add(steps as u64));
+        Ok(limits::SOLVING.check(self.steps.get())?)
+    }
+
+    /// The solid of planes.
+    fn carved(&self, planes: &[Plane]) -> Result<Polyhedron, MeetError> {
+        self.spend(planes.len().pow(2))?;
+        Ok(Polyhedron::from_planes(planes)?)
     }
 
     fn facets(&self) -> impl Iterator<Item = &Facet> {
@@ -212,7 +149,7 @@ impl Bench {
     fn width(&self) -> Result<f64, MeetError> {
         let walls: Vec<Plane> =
             self.planes().into_iter().filter(|p| Zone::of(p.normal) == Zone::Girdle).collect();
-        if walls.is_empty() { Err(MeetError::NoGirdle) } else { width_within(&walls) }
+        if walls.is_empty() { Err(MeetError::NoGirdle) } else { self.width_within(&walls) }
     }
 
     fn through(
@@ -239,6 +176,14 @@ impl Bench {
         let normal = facet_normal(self.gear, angle, index);
         let lift = if girdle == 0.0 { 0.0 } else { girdle * self.width()? };
         Ok((angle, normal.dot(point + DVec3::Z * lift * angle.signum())))
+    }
+
+    /// W of the outline between vertical planes.
+    fn width_within(&self, walls: &[Plane]) -> Result<f64, MeetError> {
+        let mut planes = walls.to_vec();
+        planes
+            .extend([DVec3::Z, -DVec3::Z].map(|normal| Plane { normal, distance: walls[0].distance.abs() }));
+        Ok(wheel_size(&self.carved(&planes)?.outline()).0)
     }
 
     /// The corner written `FACET & FACET & FACET …`.
@@ -276,6 +221,7 @@ impl Bench {
     /// The plane called `TIER@INDEX`, `TIER NUMBER`, by a facet's own name, or `TIER` if it has one.
     fn named(&self, name: &str) -> Result<Plane, MeetError> {
         let tiers = || self.tiers.iter().chain(&self.guides);
+        self.spend(tiers().map(|t| 1 + t.facets.len()).sum())?;
         if let Some((tier, index)) = name.rsplit_once('@').and_then(|(t, i)| Some((t, i.parse().ok()?))) {
             let index: f64 = index;
             let teeth = self.gear.teeth.abs();
@@ -313,7 +259,7 @@ impl Bench {
         let mut planes = self.planes();
         // the far side may still be uncut
         planes.push(Plane { normal: -normal, distance: 100.0 * self.size() });
-        let stone = Polyhedron::from_planes(&planes)?;
+        let stone = self.carved(&planes)?;
         let heights = stone.vertices.iter().map(|v| v.dot(normal));
         let mut high = heights.fold(f64::NEG_INFINITY, f64::max);
         let girdle = (0..stone.faces.len()).filter(|&f| Zone::of(stone.area_vector(f)) == Zone::Girdle);
@@ -325,7 +271,7 @@ impl Bench {
         let excess = |distance: f64| -> Result<f64, MeetError> {
             let mut cut = planes.clone();
             cut.push(Plane { normal, distance });
-            let solid = Polyhedron::from_planes(&cut)?;
+            let solid = self.carved(&cut)?;
             let face = solid.faces.iter().position(|f| f.plane == cut.len() - 1);
             Ok(face.map_or(0.0, |f| flat_extent(&solid, f, &outline)) / width - share)
         };
@@ -354,13 +300,6 @@ impl Bench {
         }
         Ok(0.5 * (low + high))
     }
-}
-
-/// W of the outline between vertical planes.
-fn width_within(walls: &[Plane]) -> Result<f64, MeetError> {
-    let mut planes = walls.to_vec();
-    planes.extend([DVec3::Z, -DVec3::Z].map(|normal| Plane { normal, distance: walls[0].distance.abs() }));
-    Ok(wheel_size(&Polyhedron::from_planes(&planes)?.outline()).0)
 }
 
 /// The point common to the three planes among `planes` that cross most squarely.

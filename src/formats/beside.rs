@@ -1,7 +1,7 @@
 //! Files that a file refers to: only from its own folder or below, and only so large.
 
 use super::source::Source;
-use super::{FormatError, MOST_BYTES, bytes_of};
+use super::{FormatError, bytes_of};
 use std::path::{Component, Path};
 
 /// The bytes of the file called `reference` in the source's folder; none if the reference leads
@@ -20,6 +20,6 @@ pub fn fetch(source: &Source, reference: &str) -> Option<Result<Vec<u8>, FormatE
     match (folder.canonicalize(), path.canonicalize()) {
         (Ok(folder), Ok(real)) if !real.starts_with(&folder) => None,
         (_, Err(cause)) => Some(Err(FormatError::Read { file: path.display().to_string(), cause })),
-        _ => Some(bytes_of(&path, MOST_BYTES)),
+        _ => Some(bytes_of(&path)),
     }
 }

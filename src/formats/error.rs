@@ -3,6 +3,7 @@
 use crate::cut::document::DocumentError;
 use crate::solid::recover::RecoverError;
 use crate::solid::{Body, SolidError};
+use crate::store::limits::Exceeded;
 use crate::store::replace::WriteError;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
@@ -17,13 +18,21 @@ pub enum FormatError {
         /// What the operating system said.
         cause: std::io::Error,
     },
-    /// A file beyond [`super::MOST_BYTES`].
-    #[error("{file} is larger than {limit} bytes, more than any stone needs; it was not read")]
+    /// A file of more bytes than are read.
+    #[error("{file}: {cause}")]
     TooLarge {
         /// The file.
         file: String,
-        /// The limit, in bytes.
-        limit: u64,
+        /// The limit.
+        cause: Exceeded,
+    },
+    /// More of something than is read.
+    #[error("{place}: {cause}")]
+    Limit {
+        /// The file, and the line if there is one.
+        place: String,
+        /// The limit.
+        cause: Exceeded,
     },
     /// A text file that breaks off or says something else than its format allows.
     #[error("{file}, line {line}: expected {expected}, found {found}")]
@@ -100,16 +109,6 @@ pub enum FormatError {
         file: String,
         /// What is wrong with them.
         cause: SolidError,
-    },
-    /// More facets than any stone has.
-    #[error("{file}: {facets} facets, more than the {most} that are read")]
-    TooManyFacets {
-        /// The file.
-        file: String,
-        /// How many it has.
-        facets: usize,
-        /// The limit.
-        most: usize,
     },
     /// A design file or a library cut with a wrong tier, parameter or value.
     #[error("{file}: {cause}")]

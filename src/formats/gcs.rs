@@ -12,7 +12,7 @@ use super::{Format, Reading, Writer};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::Plane;
-use crate::solid::recover::MOST_FACETS;
+use crate::store::limits;
 use glam::DVec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -26,16 +26,6 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Design(write)),
 };
 
-/// Largest file: as much as the most facets need. A parsed one takes several times that.
-const MOST_BYTES: u64 = 16 << 20;
-
-/// Most elements and texts: what a file of [`MOST_BYTES`] holds of vertices.
-const MOST_NODES: u32 = 500_000;
-
-/// Most attributes of an element and most namespaces, several times what the program writes: the
-/// time that the XML reader takes grows with the square of either.
-const MOST_ATTRIBUTES: usize = 100;
-
 /// A stored depth that differs by more than this, in parts of the corners' distance from the
 /// origin, from the corners' own is worth a remark.
 const DEPTH_OFF: f64 = 1e-3;
@@ -46,18 +36,22 @@ pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"]
 pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    if source.bytes.len() as u64 > MOST_BYTES {
-        return Err(FormatError::TooLarge { file: source.name.into(), limit: MOST_BYTES });
-    }
+    source.of_at_most(&limits::XML)?;
     let text = source.text();
     let text = text.trim_start();
     few_attributes(source, text)?;
-    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|cause| FormatError::Line {
-        file: source.name.into(),
-        line: cause.pos().row as usize,
-        expected: "Gem Cut Studio's XML".into(),
-        found: one_line(&cause.to_string()),
+    let nodes_limit = u32::try_from(limits::XML_NODES.most()).unwrap_or(u32::MAX);
+    let options = ParsingOptions { nodes_limit, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|cause| match cause {
+        roxmltree::Error::NodesLimitReached => {
+            FormatError::Limit { place: source.name.into(), cause: limits::XML_NODES.exceeded() }
+        }
+        cause => FormatError::Line {
+            file: source.name.into(),
+            line: cause.pos().row as usize,
+            expected: "Gem Cut Studio's XML".into(),
+            found: one_line(&cause.to_string()),
+        },
     })?;
     let file = File { source, document: &document };
     let root = document.root_element();
@@ -74,9 +68,7 @@ fn few_attributes(source: &Source, text: &str) -> Result<(), FormatError> {
     for tag in text.split('<') {
         namespaces += tag.matches("xmlns").count();
         let attributes = if tag.starts_with(['!', '?']) { 0 } else { tag.matches('=').count() };
-        if attributes.max(namespaces) > MOST_ATTRIBUTES {
-            return Err(source.at_line(line, "fewer attributes of an element, fewer namespaces", tag));
-        }
+        source.within_at(line, &limits::XML_ATTRIBUTES, attributes.max(namespaces))?;
         line += tag.matches('\n').count();
     }
     Ok(())
@@ -149,10 +141,7 @@ impl File<'_> {
         for node in root.children().filter(|n| n.has_tag_name("tier")) {
             let tier = self.tier(node, design.gear, &mut warnings)?;
             count += tier.facets.len();
-            if count > MOST_FACETS {
-                let (file, facets) = (self.source.name.into(), count);
-                return Err(FormatError::TooManyFacets { file, facets, most: MOST_FACETS });
-            }
+            self.source.within(&limits::FACETS, count)?;
             if !tier.facets.is_empty() {
                 design.tiers.push(tier);
             }

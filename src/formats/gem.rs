@@ -12,7 +12,7 @@ use super::windows_1252::decoded;
 use super::{Format, Reading, Writer};
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::Plane;
-use crate::solid::recover::MOST_FACETS;
+use crate::store::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -155,10 +155,7 @@ impl<'s> Bytes<'s> {
         let mut facets = Vec::new();
         while let Some(facet) = self.facet()? {
             facets.push(facet);
-            if facets.len() > MOST_FACETS {
-                let (file, facets) = (self.source.name.into(), facets.len());
-                return Err(FormatError::TooManyFacets { file, facets, most: MOST_FACETS });
-            }
+            self.source.within(&limits::FACETS, facets.len())?;
         }
         let symmetry = (self.int("the symmetry's order")?, self.int("whether it is mirrored")?);
         let at = self.at;

@@ -9,8 +9,8 @@ use super::source::{Source, lines, number};
 use super::{Format, Reading, Writer};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
-use crate::solid::recover::MOST_FACETS;
 use crate::solid::{Plane, SolidError};
+use crate::store::limits;
 
 /// GemCad text designs, of every version in circulation.
 pub static FORMAT: Format = Format {
@@ -227,10 +227,7 @@ impl File {
                     number(word).ok_or_else(|| source.at_line(at, "an index, 'n NAME' or 'G'", word))?;
                 tier.indices.push((index, String::new()));
                 self.facet_count += 1;
-                if self.facet_count > MOST_FACETS {
-                    let (file, facets) = (source.name.into(), self.facet_count);
-                    return Err(FormatError::TooManyFacets { file, facets, most: MOST_FACETS });
-                }
+                source.within_at(at, &limits::FACETS, self.facet_count)?;
             }
             rest = after.trim_start();
         }

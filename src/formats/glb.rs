@@ -7,7 +7,8 @@ use super::error::{FormatError, shown};
 use super::shell::{STATED_IN_F32, design_of_mesh};
 use super::source::Source;
 use super::{Format, Reading, Writer, beside, glb_write};
-use crate::solid::recover::{MOST_POLYGONS, Polygon};
+use crate::solid::recover::Polygon;
+use crate::store::limits;
 use ::gltf::accessor::sparse::IndexType;
 use ::gltf::accessor::{DataType, Dimensions};
 use ::gltf::buffer::View;
@@ -39,9 +40,6 @@ pub static GLTF: Format = Format {
     read,
     write: Some(Writer::Mesh(glb_write::write_text)),
 };
-
-/// Deepest nesting of nodes; a real file has a dozen.
-const DEEPEST: usize = 64;
 
 fn sniff(source: &Source) -> u8 {
     let start = source.beginning();
@@ -94,11 +92,14 @@ pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>, usi
         left_out: 0,
         seen: vec![false; gltf.nodes().len()],
     };
+    let mut read = 0;
     for buffer in gltf.buffers() {
         let bytes = match buffer.source() {
             buffer::Source::Bin => blob.take().unwrap_or_default(),
             buffer::Source::Uri(uri) => reader.fetch(uri)?,
         };
+        read += bytes.len();
+        source.within(&limits::FILE, read)?;
         reader.buffers.push(bytes);
     }
     let upright = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
@@ -110,8 +111,13 @@ pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>, usi
             gltf.nodes().filter(|n| !children.contains(&n.index())).collect()
         }
     };
-    for node in roots {
-        reader.node(&node, upright, 0)?;
+    // in the file's order; a stack of our own, so that no nesting is too deep
+    let mut next: Vec<(Node, DMat4)> = roots.into_iter().rev().map(|node| (node, upright)).collect();
+    while let Some((node, above)) = next.pop() {
+        let world = reader.node(&node, above)?;
+        let first = next.len();
+        next.extend(node.children().map(|child| (child, world)));
+        next[first..].reverse();
     }
     Ok((reader.vertices, reader.polygons, reader.left_out))
 }
@@ -163,21 +169,17 @@ impl Reader<'_> {
             .ok_or_else(|| self.bad("a buffer in the file's own folder", shown(uri)))?
     }
 
-    fn node(&mut self, node: &Node, above: DMat4, depth: usize) -> Result<(), FormatError> {
-        let again = self.seen.get_mut(node.index()).is_none_or(|seen| std::mem::replace(seen, true));
-        if again || depth > DEEPEST {
-            let found = if again { "a node twice".into() } else { format!("more than {DEEPEST} levels") };
-            return Err(self.bad("a tree of nodes", found));
+    /// The meshes of one node, and the frame of its children.
+    fn node(&mut self, node: &Node, above: DMat4) -> Result<DMat4, FormatError> {
+        if self.seen.get_mut(node.index()).is_none_or(|seen| std::mem::replace(seen, true)) {
+            return Err(self.bad("a tree of nodes", "a node twice"));
         }
         let matrix = node.transform().matrix().map(|column| column.map(f64::from));
         let world = above * DMat4::from_cols_array_2d(&matrix);
         for primitive in node.mesh().iter().flat_map(|m| m.primitives()) {
             self.primitive(&primitive, world)?;
         }
-        for child in node.children() {
-            self.node(&child, world, depth + 1)?;
-        }
-        Ok(())
+        Ok(world)
     }
 
     fn primitive(&mut self, primitive: &Primitive, world: DMat4) -> Result<(), FormatError> {
@@ -216,9 +218,8 @@ impl Reader<'_> {
             Mode::Triangles => order.len() / 3,
             _ => order.len().saturating_sub(2),
         };
-        if self.polygons.len() + triangles > MOST_POLYGONS || first + points.len() > 3 * MOST_POLYGONS {
-            return Err(self.bad(&format!("at most {MOST_POLYGONS} triangles"), "more"));
-        }
+        self.source.within(&limits::POLYGONS, self.polygons.len() + triangles)?;
+        self.source.within(&limits::CORNERS, first + points.len())?;
         let extras = primitive.extras().as_ref().and_then(|e| serde_json::from_str(e.get()).ok());
         let FacetExtras { facet, normal } = extras.unwrap_or_default();
         let name: Arc<str> = facet.into();
@@ -235,9 +236,7 @@ impl Reader<'_> {
     /// The bytes of every element, one after the other, with what a sparse accessor replaces.
     fn elements(&self, accessor: &Accessor) -> Result<Vec<u8>, FormatError> {
         let (size, count) = (accessor.size(), accessor.count());
-        if count > 3 * MOST_POLYGONS {
-            return Err(self.bad(&format!("at most {MOST_POLYGONS} triangles"), "more"));
-        }
+        self.source.within(&limits::CORNERS, count)?;
         let sparse = accessor.sparse();
         let mut all = match (accessor.view(), &sparse) {
             (Some(view), _) => self.packed(&view, accessor.offset(), size, count)?,

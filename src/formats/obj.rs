@@ -6,11 +6,12 @@
 //! followed.
 
 use super::error::FormatError;
-use super::shell::{MOST_CORNERS, STATED_IN_F64, design_of_mesh, few_enough};
+use super::shell::{STATED_IN_F64, design_of_mesh};
 use super::source::{Source, lines, number};
 use super::{Format, Reading, Surface, Writer};
 use crate::cut::Unit;
 use crate::solid::recover::Polygon;
+use crate::store::limits;
 use glam::DVec3;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -135,14 +136,11 @@ fn checked(source: &Source) -> Result<Checked, FormatError> {
                 }
                 faces.push('\n');
                 out.stated.push(stated);
-                few_enough(source, out.stated.len())?;
+                source.within_at(at, &limits::POLYGONS, out.stated.len())?;
                 if corners - before < 3 {
                     return Err(source.at_line(at, "a face of at least 3 corners", line.trim()));
                 }
-                if corners > MOST_CORNERS {
-                    let expected = format!("at most {MOST_CORNERS} corners of all faces");
-                    return Err(source.at_line(at, expected, line.trim()));
-                }
+                source.within_at(at, &limits::CORNERS, corners)?;
             }
             _ => {}
         }

@@ -5,10 +5,8 @@ use super::source::{Source, lines};
 use super::{Format, Reading, Writer};
 use crate::cut::Design;
 use crate::cut::document::{Document, DocumentError};
+use crate::store::limits;
 use std::collections::BTreeMap;
-
-/// Largest design file: as much as the most facets need. Parsed TOML takes a hundred times that.
-const MOST_BYTES: u64 = 4 << 20;
 
 /// Design files as in `cuts/`.
 pub static FORMAT: Format = Format {
@@ -35,9 +33,7 @@ fn sniff(source: &Source) -> u8 {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    if source.bytes.len() as u64 > MOST_BYTES {
-        return Err(FormatError::TooLarge { file: source.name.into(), limit: MOST_BYTES });
-    }
+    source.of_at_most(&limits::TOML_DESIGN)?;
     let text = source.text();
     let mut design = document(source, &text)?
         .design(&BTreeMap::new())

@@ -7,10 +7,11 @@ mod header;
 mod values;
 
 use super::error::FormatError;
-use super::shell::{MOST_CORNERS, STATED_IN_F32, STATED_IN_F64, design_of_mesh, few_enough};
+use super::shell::{STATED_IN_F32, STATED_IN_F64, design_of_mesh};
 use super::source::Source;
 use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
+use crate::store::limits;
 use glam::DVec3;
 use header::{Element, Header, Kind, Property};
 use std::fmt::Write;
@@ -42,10 +43,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     let mut values = Values::new(source, &header);
     let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
     let (mut exact, mut total) = (true, 0);
-    let fits = |n: usize, element: &Element| {
-        let expected = || format!("at most {MOST_CORNERS} corners");
-        if n <= MOST_CORNERS { Ok(()) } else { Err(source.at_line(element.line, expected(), "more")) }
-    };
+    let fits = |n: usize, element: &Element| source.within_at(element.line, &limits::CORNERS, n);
     for element in &header.elements {
         match &*element.name {
             "vertex" => {
@@ -72,7 +70,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
                     let name = header.facet_names.get(polygons.len()).filter(|_| named);
                     let name = name.map_or_else(Arc::default, |n| n.as_str().into());
                     polygons.push(Polygon { name, corners, normal });
-                    few_enough(source, polygons.len())?;
+                    source.within(&limits::POLYGONS, polygons.len())?;
                     fits(total, element)
                 })?;
             }

@@ -2,7 +2,7 @@
 
 use super::error::FormatError;
 use super::source::Source;
-use super::{MOST_BYTES, bytes_of, glb, obj};
+use super::{bytes_of, glb, obj};
 use glam::DVec3;
 use std::path::Path;
 
@@ -19,8 +19,12 @@ pub struct Triangles {
 ///
 /// Errors name the file and the place in it.
 pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
-    let bytes = bytes_of(path, MOST_BYTES)?;
     let name = path.display().to_string();
+    // a scene from a stranger may name a device or a pipe that never ends
+    if path.exists() && !path.is_file() {
+        return Err(FormatError::Read { file: name, cause: std::io::ErrorKind::InvalidInput.into() });
+    }
+    let bytes = bytes_of(path)?;
     let source = Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) };
     let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(&source) > 0) {
         let (vertices, polygons, _) = glb::polygons(&source)?;

@@ -4,7 +4,7 @@ use super::Reading;
 use super::error::FormatError;
 use super::source::Source;
 use crate::cut::Design;
-use crate::solid::recover::{MOST_POLYGONS, Polygon, RecoverError, facets_of_polygons};
+use crate::solid::recover::{Polygon, RecoverError, facets_of_polygons};
 use glam::DVec3;
 
 /// Stated normals of text formats in full `f64` must fit their corners within this part of the
@@ -14,19 +14,8 @@ pub const STATED_IN_F64: f64 = 1e-11;
 /// The same for normals and corners in `f32`: a few roundings of the largest coordinate.
 pub const STATED_IN_F32: f64 = 3e-7;
 
-/// Most corners of all faces; a closed surface has under six a face. It bounds memory.
-pub const MOST_CORNERS: usize = 8 * MOST_POLYGONS;
-
 /// A merge tolerance beyond this is worth telling: the mesh is coarser than `f32`.
 const COARSE: f64 = 2e-6;
-
-/// Refuses a mesh as soon as it has too many polygons, before more of them fill the memory.
-pub fn few_enough(source: &Source, polygons: usize) -> Result<(), FormatError> {
-    if polygons <= MOST_POLYGONS {
-        return Ok(());
-    }
-    Err(FormatError::Mesh { file: source.name.into(), cause: RecoverError::TooManyPolygons(polygons) })
-}
 
 /// The design of a mesh's facets. Facets keep their names; the design gets the file's.
 pub fn design_of_mesh(

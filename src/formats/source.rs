@@ -2,6 +2,7 @@
 
 use super::error::{FormatError, shown};
 use super::windows_1252;
+use crate::store::limits::Limit;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -46,6 +47,23 @@ impl<'a> Source<'a> {
     /// An error at a line (from 1).
     pub fn at_line(&self, line: usize, expected: impl Into<String>, found: &str) -> FormatError {
         FormatError::Line { file: self.name.into(), line, expected: expected.into(), found: shown(found) }
+    }
+
+    /// Refuses `n` of something if that is more than its limit.
+    pub fn within(&self, limit: &Limit, n: usize) -> Result<(), FormatError> {
+        limit.check(n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
+    }
+
+    /// As [`Source::within`], for what stands at a line (from 1).
+    pub fn within_at(&self, line: usize, limit: &Limit, n: usize) -> Result<(), FormatError> {
+        let place = || format!("{}, line {line}", self.name);
+        limit.check(n).map_err(|cause| FormatError::Limit { place: place(), cause })
+    }
+
+    /// Refuses a file of more bytes than `limit`.
+    pub fn of_at_most(&self, limit: &Limit) -> Result<(), FormatError> {
+        let too_large = |cause| FormatError::TooLarge { file: self.name.into(), cause };
+        limit.check(self.bytes.len()).map_err(too_large)
     }
 
     /// An error at a byte.

@@ -3,10 +3,11 @@
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F32, design_of_mesh, few_enough};
+use super::shell::{STATED_IN_F32, design_of_mesh};
 use super::source::{Source, lines, number};
 use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
+use crate::store::limits;
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
 
@@ -56,7 +57,7 @@ fn sniff_text(source: &Source) -> u8 {
 
 fn read_binary(source: &Source) -> Result<Reading, FormatError> {
     let count = count_of_binary(source.bytes).unwrap_or_default();
-    few_enough(source, count)?;
+    source.within(&limits::POLYGONS, count)?;
     let (mut corners, mut normals) = (Vec::with_capacity(3 * count), Vec::with_capacity(count));
     let records = source.bytes.get(HEADER + 4..).unwrap_or_default();
     for record in records.chunks_exact(TRIANGLE).take(count) {
@@ -71,7 +72,7 @@ fn read_binary(source: &Source) -> Result<Reading, FormatError> {
 fn read_text(source: &Source) -> Result<Reading, FormatError> {
     let (mut corners, mut normals) = (Vec::new(), Vec::new());
     text_triangles(source, &mut corners, &mut normals)?;
-    few_enough(source, normals.len())?;
+    source.within(&limits::POLYGONS, normals.len())?;
     stone_of(source, &corners, &normals)
 }
 

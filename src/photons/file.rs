@@ -7,13 +7,15 @@
 use super::{Photon, Settings, Shot, Shots};
 use crate::optics::colour::BANDS;
 use crate::scene::{PlacedStone, Scene};
+use crate::store::limits;
 use crate::store::replace::{self, WriteError};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"CUTLABPM";
-const VERSION: u32 = 2;
+/// Version of the layout; a file of another is refused.
+pub const VERSION: u32 = 2;
 /// Bytes of one stored photon.
 const PHOTON: usize = 26;
 /// A header is a few hundred bytes; more is not one of ours.
@@ -146,10 +148,11 @@ fn surroundings_checksum(scene: &Scene) -> u32 {
 ///
 /// Returns the shots and whether they were read. Checked below and in `tests/render.rs`.
 pub fn load_or_shoot(path: &Path, scene: &Scene, settings: &Settings) -> Result<(Shots, bool), MapFileError> {
-    match std::fs::read(path) {
+    let unusable = |problem| MapFileError::Unusable { path: path.into(), problem };
+    match limits::PHOTON_MAP.read(path) {
         Ok(bytes) => {
-            let (origin, shots) =
-                decode(&bytes).map_err(|problem| MapFileError::Unusable { path: path.into(), problem })?;
+            let bytes = bytes.map_err(|e| unusable(e.to_string()))?;
+            let (origin, shots) = decode(&bytes).map_err(unusable)?;
             let wanted = Origin::of(scene, settings, &shots);
             if let Some((what, made_for, wanted)) = origin.difference(&wanted) {
                 return Err(MapFileError::OfAnother { path: path.into(), what, made_for, wanted });
@@ -183,7 +186,8 @@ fn encode(origin: &Origin, shots: &Shots) -> Vec<u8> {
     bytes
 }
 
-fn decode(bytes: &[u8]) -> Result<(Origin, Shots), String> {
+/// Reads a stored map; the error says what is wrong with it.
+pub fn decode(bytes: &[u8]) -> Result<(Origin, Shots), String> {
     if !bytes.starts_with(MAGIC) {
         return Err("it does not begin as one".into());
     }

@@ -15,6 +15,7 @@ use crate::optics::{Illuminant, Material, rgb};
 use crate::walk::Stone;
 use glam::{DMat3, Mat3, Vec3};
 use serde::Deserialize;
+use std::path::Path;
 use std::sync::Arc;
 
 /// What is wrong with an entry, and the key it is about.
@@ -108,6 +109,16 @@ impl StoneEntry {
     /// The STONE.
     pub(super) fn cut(&self) -> &str {
         self.cut.as_deref().unwrap_or("round-brilliant")
+    }
+
+    /// Refuses what is there and no file: a pipe or a device may never end, and the scene may be a
+    /// stranger's.
+    pub(super) fn is_no_device(&self) -> Result<(), Wrong> {
+        let path = Path::new(self.cut());
+        if path.exists() && !path.is_file() && !path.is_dir() {
+            return Err(wrong("cut", format!("{} is no file", self.cut())));
+        }
+        Ok(())
     }
 
     /// The stone and what it is made of: as the cast says, else the entry, else the design's own

@@ -22,11 +22,14 @@ use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
 use crate::cut::Design;
 use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::store::limits::{self, Exceeded};
 use crate::walk::Stone;
 use glam::Vec3;
 use serde::Deserialize;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// A scene that cannot be set up. Each error is one line.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +51,14 @@ pub enum SceneError {
         line: usize,
         /// What is wrong.
         problem: String,
+    },
+    /// More of something than is read.
+    #[error("{file}: {cause}")]
+    Limit {
+        /// The file.
+        file: String,
+        /// The limit.
+        cause: Exceeded,
     },
     /// The stone is none.
     #[error(transparent)]
@@ -139,8 +150,10 @@ impl Place<'_> {
 impl SceneFile {
     /// Reads a scene file.
     pub fn open(path: &Path) -> Result<SceneFile, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| SceneError::Read { path: path.to_owned(), cause })?;
+        let fail = |cause| SceneError::Read { path: path.to_owned(), cause };
+        let many = |cause| SceneError::Limit { file: path.display().to_string(), cause };
+        let bytes = limits::SCENE.read(path).map_err(fail)?.map_err(many)?;
+        let text = String::from_utf8(bytes).map_err(|e| fail(std::io::Error::other(e.utf8_error())))?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         Self::parse(&name, &path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
     }
@@ -149,11 +162,25 @@ impl SceneFile {
     ///
     /// - `file`: what errors call it; `folder`: where files that it names are looked for
     pub fn parse(name: &str, file: &str, text: &str, folder: &Path) -> Result<SceneFile, SceneError> {
-        let document = toml::from_str(text).map_err(|e| SceneError::Line {
+        let at = |byte: usize, problem: String| SceneError::Line {
             file: file.into(),
-            line: e.span().map_or(1, |s| line_at(text, s.start)),
-            problem: e.message().replace('\n', " "),
-        })?;
+            line: line_at(text, byte),
+            problem,
+        };
+        let syntax = |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), e.message().replace('\n', " "));
+        let table = DeTable::parse(text).map_err(syntax)?;
+        for value in table.get_ref().values() {
+            sensible(value)
+                .map_err(|span| at(span.start, format!("a number beyond ±{GREATEST:e}, or none")))?;
+        }
+        let document: Document = toml::from_str(text).map_err(syntax)?;
+        for (limit, n) in [
+            (&limits::STONES, document.stone.len()),
+            (&limits::SURFACES, document.surface.len()),
+            (&limits::LIGHTS, document.light.len()),
+        ] {
+            limit.check(n).map_err(|cause| SceneError::Limit { file: file.into(), cause })?;
+        }
         Ok(SceneFile {
             name: name.into(),
             file: file.into(),
@@ -193,7 +220,10 @@ impl SceneFile {
         for (i, entry) in document.stone.iter().enumerate() {
             let design = match cast.designs.get(i) {
                 Some(design) => design.clone(),
-                None => formats::stone::open(entry.get_ref().cut())?.design,
+                None => {
+                    self.say(entry, entry.get_ref().is_no_device())?;
+                    formats::stone::open(entry.get_ref().cut())?.design
+                }
             };
             let (stone, material) = self.say(entry, entry.get_ref().stone(design, cast))?;
             if i == 0 && document.unit == Unit::Stone {
@@ -231,6 +261,26 @@ impl SceneFile {
             let line = line_at(&self.text, span.start) + down;
             SceneError::Line { file: self.file.clone(), line, problem: wrong.problem }
         })
+    }
+}
+
+/// The greatest number in a scene: what is beyond it has no digits left in `f32` for a stone.
+const GREATEST: f64 = 1e9;
+
+/// Checks that every number is one and not beyond [`GREATEST`]; the error is where one stands.
+fn sensible(value: &Spanned<DeValue>) -> Result<(), Range<usize>> {
+    match value.get_ref() {
+        DeValue::Float(x) => {
+            let x: f64 = x.as_str().parse().unwrap_or(f64::NAN);
+            if x.abs() <= GREATEST { Ok(()) } else { Err(value.span()) }
+        }
+        DeValue::Integer(n) => {
+            let n = i64::from_str_radix(n.as_str(), n.radix()).unwrap_or(i64::MAX);
+            if n.unsigned_abs() as f64 <= GREATEST { Ok(()) } else { Err(value.span()) }
+        }
+        DeValue::Array(all) => all.iter().try_for_each(sensible),
+        DeValue::Table(all) => all.values().try_for_each(sensible),
+        _ => Ok(()),
     }
 }
 

@@ -3,12 +3,20 @@
 //! Equirectangular, the zenith at the top, the middle of the picture toward +y.
 
 use crate::optics::rgb;
+use crate::store::limits;
 use glam::Vec3;
+use image::{DynamicImage, ImageDecoder};
 use std::f32::consts::{PI, TAU};
+use std::io::Cursor;
 use std::path::Path;
 
-/// Most pixels of a panorama: 16384 × 8192.
-const MOST_PIXELS: u64 = 1 << 27;
+/// Brighter pixels are taken as this bright: the sun is 1e5 times the sky, and sums stay finite.
+const BRIGHTEST: f32 = 1e12;
+
+/// A channel of a pixel, which a file may give as anything: negative outside the gamut, or no number.
+fn bounded(x: f32) -> f32 {
+    if x.is_nan() { 0.0 } else { x.clamp(-BRIGHTEST, BRIGHTEST) }
+}
 
 /// A panorama ready for look-up and for drawing directions by brightness.
 pub struct Panorama {
@@ -34,29 +42,39 @@ impl Panorama {
     /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
     pub fn open(path: &Path) -> Result<Panorama, String> {
         let wrong = |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", path.display());
-        let bytes = std::fs::read(path).map_err(|e| wrong(&e))?;
-        let reader = image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
-        let mut reader = reader.map_err(|e| wrong(&e))?;
-        let mut limits = image::Limits::default();
-        limits.max_alloc = Some(MOST_PIXELS * 16);
-        reader.limits(limits);
-        let picture = reader.decode().map_err(|e| wrong(&e))?.into_rgb32f();
-        let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let pixels: Vec<Vec3> = picture
-            .pixels()
-            .map(|p| rgb::mixture(Vec3::from_array(p.0).map(|x| if x.is_finite() { x } else { 0.0 })))
-            .collect();
-        if pixels.iter().all(|p| *p == Vec3::ZERO) {
-            return Err(wrong(&"it is black"));
+        // a scene from a stranger may name a device or a pipe that never ends
+        if path.exists() && !path.is_file() {
+            return Err(wrong(&"it is no file"));
         }
-        Ok(Panorama::new(width, height, pixels, crc32fast::hash(&bytes)))
+        let bytes = limits::PANORAMA.read(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
+        Panorama::of(&bytes).map_err(|e| wrong(&e))
+    }
+
+    /// Reads the bytes of such a file; the error says in one line what is wrong.
+    ///
+    /// Its size is known to be within the limits before any of it is decoded.
+    pub fn of(bytes: &[u8]) -> Result<Panorama, String> {
+        let one_line = |e: image::ImageError| e.to_string().replace('\n', " ");
+        let reader = image::ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+        let decoder = reader.map_err(|e| e.to_string())?.into_decoder().map_err(one_line)?;
+        let (width, height) = decoder.dimensions();
+        let count = u64::from(width) * u64::from(height);
+        limits::PIXELS.check(count).map_err(|e| e.to_string())?;
+        limits::PIXELS_PER_BYTE.check(count / bytes.len() as u64).map_err(|e| e.to_string())?;
+        let picture = DynamicImage::from_decoder(decoder).map_err(one_line)?.into_rgb32f();
+        let pixels: Vec<Vec3> =
+            picture.pixels().map(|p| rgb::mixture(Vec3::from_array(p.0.map(bounded)))).collect();
+        if pixels.iter().all(|p| *p == Vec3::ZERO) {
+            return Err("it is black".into());
+        }
+        Ok(Panorama::new(width as usize, height as usize, pixels, crc32fast::hash(bytes)))
     }
 
     fn new(width: usize, height: usize, pixels: Vec<Vec3>, checksum: u32) -> Panorama {
-        let solid_angle = |i: usize| {
-            let row = |y: usize| f64::from((PI * y as f32 / height as f32).cos());
-            (row(i / width) - row(i / width + 1)) * f64::from(TAU) / width as f64
-        };
+        // cos a − cos b by the sine of half their difference: near the zenith `f32` has no digits for it
+        let step = std::f64::consts::PI / height as f64;
+        let row = |y: usize| 2.0 * (step * (y as f64 + 0.5)).sin() * (step / 2.0).sin();
+        let solid_angle = |i: usize| row(i / width) * f64::from(TAU) / width as f64;
         let mut sum = 0.0;
         let mut cumulative: Vec<f64> = (0..pixels.len())
             .map(|i| {

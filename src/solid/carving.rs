@@ -8,6 +8,9 @@ use std::collections::HashMap;
 /// Marks a face of the starting box instead of a given plane.
 const OF_THE_BOX: usize = usize::MAX;
 
+/// The side of a corner of no face.
+const UNJUDGED: i8 = 2;
+
 /// The solid while it is being cut.
 pub(super) struct Carving {
     vertices: Vec<DVec3>,
@@ -32,14 +35,14 @@ impl Carving {
     /// Cuts by plane `number` of `planes`.
     pub(super) fn by(&mut self, number: usize, planes: &[Plane]) -> Result<Fate, SolidError> {
         let plane = &planes[number];
-        let side: Vec<i8> = self
-            .vertices
-            .iter()
-            .map(|&v| {
-                let h = plane.height(v);
-                if h.abs() <= self.on_plane { 0 } else { h.signum() as i8 }
-            })
-            .collect();
+        // of corners that were cut away long ago nothing is asked
+        let mut side = vec![UNJUDGED; self.vertices.len()];
+        for &c in self.faces.iter().flat_map(|f| &f.corners) {
+            if side[c] == UNJUDGED {
+                let h = plane.height(self.vertices[c]);
+                side[c] = if h.abs() <= self.on_plane { 0 } else { h.signum() as i8 };
+            }
+        }
         let used = || self.faces.iter().flat_map(|f| f.corners.iter().map(|&c| side[c]));
         if !used().any(|s| s > 0) {
             let mut given = self.faces.iter().filter(|f| f.plane != OF_THE_BOX);

@@ -8,6 +8,7 @@ use super::body::{Body, BodyFacet};
 use super::plane::Plane;
 use super::polyhedron::{Polyhedron, SolidError};
 use super::surface::{Surface, welded};
+use crate::store::limits::{self, Exceeded};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -30,12 +31,6 @@ const DOUBT: f64 = 0.25;
 /// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
 /// between a mesh and the solid of its planes.
 const VOLUME_SLACK: f64 = 30.0;
-
-/// Most polygons of a mesh: a thousand times the facets of any real stone. It bounds time.
-pub const MOST_POLYGONS: usize = 500_000;
-
-/// Most facets of a solid: twenty times any real stone. Half-space intersection is quadratic.
-pub const MOST_FACETS: usize = 10_000;
 
 /// One polygon of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -73,12 +68,9 @@ pub enum RecoverError {
     /// No polygon with an area.
     #[error("the mesh has no face with an area")]
     Empty,
-    /// More than [`MOST_POLYGONS`].
-    #[error("the mesh has {0} faces: more than {MOST_POLYGONS} are not read")]
-    TooManyPolygons(usize),
-    /// More than [`MOST_FACETS`].
-    #[error("the mesh has {0} facets: more than {MOST_FACETS} are not read")]
-    TooManyFacets(usize),
+    /// More faces or facets than are read.
+    #[error(transparent)]
+    Limit(#[from] Exceeded),
     /// A polygon with a corner that is not there.
     #[error("face {polygon} names corner {corner} of {vertices} (both counted from 0)")]
     NoCorner {
@@ -133,9 +125,7 @@ pub fn facets_of_polygons(
     polygons: &[Polygon],
     stated_within: f64,
 ) -> Result<Recovered, RecoverError> {
-    if polygons.len() > MOST_POLYGONS {
-        return Err(RecoverError::TooManyPolygons(polygons.len()));
-    }
+    limits::POLYGONS.check(polygons.len())?;
     for (polygon, p) in polygons.iter().enumerate() {
         if let Some(&corner) = p.corners.iter().find(|&&c| c >= vertices.len()) {
             return Err(RecoverError::NoCorner { polygon, corner, vertices: vertices.len() });
@@ -182,9 +172,7 @@ fn judge(
     size: f64,
 ) -> Result<Recovered, RecoverError> {
     let regions = surface.regions(polygons, tolerance * size);
-    if regions.len() > MOST_FACETS {
-        return Err(RecoverError::TooManyFacets(regions.len()));
-    }
+    limits::FACETS.check(regions.len())?;
     let mut facets = Vec::with_capacity(regions.len());
     let (mut stands_out, mut convex) = (0.0f64, surface.shells == 1 && surface.open_edges == 0);
     let corners = surface.corners();

@@ -1,6 +1,7 @@
 //! What a table is a function of, in one short word.
 
-use crate::formats::MOST_BYTES;
+use crate::formats;
+use crate::store::limits;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -11,7 +12,8 @@ use std::path::Path;
 #[derive(Clone)]
 pub struct Identity(Sha256);
 
-/// A digest of what a file holds; none if it cannot be read.
+/// A digest of what a file holds, of one that may include others also of what it comes to with them;
+/// none if it cannot be read. Checked in `tests/score_batches.rs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Held(Option<[u8; 32]>);
 
@@ -19,7 +21,10 @@ impl Held {
     /// What the file at `path` holds now.
     pub fn by(path: &Path) -> Held {
         let mut content = Vec::new();
-        let read = File::open(path).and_then(|f| f.take(MOST_BYTES + 1).read_to_end(&mut content));
+        let read = File::open(path).and_then(|f| f.take(limits::FILE.most() + 1).read_to_end(&mut content));
+        if read.is_ok() && formats::may_include(&path.display().to_string(), &content) {
+            content.extend(format!("{:?}", formats::read(path)).bytes());
+        }
         Held(read.is_ok().then(|| Sha256::digest(&content).into()))
     }
 

@@ -4,6 +4,7 @@ use super::batch::Summary;
 use super::meta::Meta;
 use super::shard::Shard;
 use super::table::{Form, RowReader, TableError};
+use crate::store::limits;
 use crate::store::progress::Progress;
 use crate::store::replace::{self, WriteError};
 use std::fs::File;
@@ -77,9 +78,10 @@ impl Part {
         let beside = Meta::beside(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
         let sum = File::open(table).and_then(checksum).map_err(|e| fail(table, e))?;
-        let text = std::fs::read_to_string(&beside).map_err(|e| fail(&beside, e))?;
-        let wrong = |e: serde_json::Error| MergeError::Meta(beside.clone(), e.to_string());
-        let meta: Meta = serde_json::from_str(&text).map_err(wrong)?;
+        let wrong = |e: String| MergeError::Meta(beside.clone(), e);
+        let text = limits::COMPANION.read(&beside).map_err(|e| fail(&beside, e))?;
+        let text = text.map_err(|e| wrong(e.to_string()))?;
+        let meta: Meta = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
         if meta.crc32 != format!("{sum:08x}") {
             return Err(MergeError::Changed(table.to_owned(), beside));
         }

@@ -2,9 +2,10 @@
 
 use super::score::Row;
 use crate::metrics::Metric;
+use crate::store::limits;
 use serde::ser::{SerializeMap, Serializer};
 use std::collections::BTreeMap;
-use std::io::BufRead;
+use std::io::{BufRead, Read};
 use std::path::Path;
 
 /// A number of a table: a fraction or degrees to 1e-9, far below any error.
@@ -151,15 +152,33 @@ pub struct RowReader<R> {
 }
 
 enum Inner<R> {
-    Csv(csv::Reader<R>),
+    Csv(csv::Reader<Metered<R>>),
     Lines(R),
+}
+
+/// What a row is read through, so that none without end fills the memory.
+struct Metered<R> {
+    inner: R,
+    since: u64,
+}
+
+impl<R: Read> Read for Metered<R> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        limits::ROW.check(self.since).map_err(std::io::Error::other)?;
+        let read = self.inner.read(into)?;
+        self.since += read as u64;
+        Ok(read)
+    }
 }
 
 impl<R: BufRead> RowReader<R> {
     /// A reader after the head of a table.
     pub fn new(form: Form, reader: R) -> Result<RowReader<R>, TableError> {
         let inner = match form {
-            Form::Csv => Inner::Csv(csv::ReaderBuilder::new().flexible(true).from_reader(reader)),
+            Form::Csv => {
+                let metered = Metered { inner: reader, since: 0 };
+                Inner::Csv(csv::ReaderBuilder::new().flexible(true).from_reader(metered))
+            }
             Form::JsonLines | Form::Json => Inner::Lines(reader),
         };
         Ok(RowReader { inner })
@@ -169,13 +188,16 @@ impl<R: BufRead> RowReader<R> {
     pub fn row(&mut self) -> Result<Option<Vec<u8>>, TableError> {
         match &mut self.inner {
             Inner::Csv(reader) => {
+                reader.get_mut().since = 0;
                 let mut row = csv::StringRecord::new();
                 let found = reader.read_record(&mut row).map_err(|e| TableError::Row(e.to_string()))?;
                 if found { record(row.iter().collect::<Vec<_>>()).map(Some) } else { Ok(None) }
             }
             Inner::Lines(reader) => loop {
                 let mut line = Vec::new();
-                let read = reader.read_until(b'\n', &mut line).map_err(|e| TableError::Row(e.to_string()))?;
+                let mut part = reader.by_ref().take(limits::ROW.most() + 1);
+                let read = part.read_until(b'\n', &mut line).map_err(|e| TableError::Row(e.to_string()))?;
+                limits::ROW.check(read).map_err(|e| TableError::Row(e.to_string()))?;
                 if read == 0 {
                     return Ok(None);
                 }

@@ -8,10 +8,16 @@
 use cutlab::cut::Design;
 use cutlab::cut::families::{self, FAMILIES};
 use cutlab::formats::{self, FORMATS, FormatError, Source};
+use cutlab::photons::file;
+use cutlab::scene::panorama::Panorama;
+use cutlab::scene::{Cast, SceneFile};
 use cutlab::solid::{Plane, Polyhedron};
+use cutlab::study::meta::Meta;
+use cutlab::study::table::{Form, Numbers, RowReader};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::Path;
 
 /// Bytes as numbers, zeros when they are used up.
 struct Bytes<'a>(&'a [u8]);
@@ -54,10 +60,17 @@ fn is_correct(solid: &Polyhedron) {
     assert!(solid.faces.iter().all(|f| f.corners.len() >= 3));
 }
 
-/// A file: the first byte says whether its format is found or forced, the rest is the file.
+/// In the first byte of [`readers`]: the format is found by the content.
+pub const FOUND: u8 = 0x0f;
+
+/// In the first byte of [`readers`]: what was read is only built, not also written in every format.
+pub const READ_ONLY: u8 = 0x10;
+
+/// A file: the first byte says which format it is read as, and whether what was read is also written in
+/// every format, which takes a hundred times as long; the rest is the file.
 pub fn readers(data: &[u8]) {
-    let Some((which, bytes)) = data.split_first() else { return };
-    let read: Result<Design, FormatError> = match FORMATS.get(*which as usize) {
+    let Some((how, bytes)) = data.split_first() else { return };
+    let read: Result<Design, FormatError> = match FORMATS.get(usize::from(how & FOUND)) {
         Some(format) => {
             let source = Source { name: "fuzzed", bytes, folder: None };
             (format.read)(&source).map(|reading| reading.design)
@@ -65,13 +78,14 @@ pub fn readers(data: &[u8]) {
         None => formats::read_bytes("fuzzed", bytes, None).map(|imported| imported.design),
     };
     match read {
-        Ok(design) => stands_or_says_why(&design),
+        Ok(design) => stands_or_says_why(&design, how & !FOUND == 0),
         Err(error) => is_one_line(&error),
     }
 }
 
-/// A design that was read is a stone that can be written in every format and read again, or an error.
-fn stands_or_says_why(design: &Design) {
+/// A design that was read is a stone, and if asked can be written in every format and read again; or
+/// there is an error.
+fn stands_or_says_why(design: &Design, written: bool) {
     if design.facets().count() > 200 {
         return; // the time goes into small ones
     }
@@ -79,7 +93,7 @@ fn stands_or_says_why(design: &Design) {
         Ok(solid) => is_correct(&solid),
         Err(error) => return is_one_line(&error),
     }
-    for format in FORMATS.iter().filter(|f| f.write.is_some()) {
+    for format in FORMATS.iter().filter(|f| written && f.write.is_some()) {
         match formats::encode(design, format.name) {
             Ok(bytes) => {
                 if let Err(error) = formats::read_bytes("written", &bytes, None) {
@@ -136,7 +150,7 @@ pub fn meets(data: &[u8]) {
         entries.iter().for_each(|(key, value)| text += &format!("{key} = {value}\n"));
     }
     match formats::read_bytes("fuzzed.toml", text.as_bytes(), None) {
-        Ok(read) => stands_or_says_why(&read.design),
+        Ok(read) => stands_or_says_why(&read.design, false),
         Err(error) => is_one_line(&error),
     }
 }
@@ -183,5 +197,75 @@ pub fn cuts(data: &[u8]) {
             Err(error) => is_one_line(&error),
         },
         Err(error) => is_one_line(&error),
+    }
+}
+
+/// A scene file, set up or refused. It lies in no folder: what it names beside itself is not there.
+pub fn scenes(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    let nowhere = Path::new("/nowhere");
+    let scene = SceneFile::parse("fuzzed", "fuzzed.toml", &text, nowhere)
+        .and_then(|f| f.build(&Cast::default(), 1.5));
+    match scene {
+        Ok(scene) => assert!(!scene.stones.is_empty()),
+        Err(error) => is_one_line(&error),
+    }
+}
+
+/// A panorama: light from it is finite, or there is an error.
+pub fn panoramas(data: &[u8]) {
+    match Panorama::of(data) {
+        Ok(sky) => {
+            assert!(sky.mean().is_finite() && sky.mean() >= 0.0, "mean {}", sky.mean());
+            for u in [[0.0, 0.0], [0.3, 0.7], [0.999_999, 0.5]] {
+                let (direction, _) = sky.draw(u);
+                let colour = sky.colour(direction);
+                assert!(direction.is_finite() && colour.is_finite(), "{sky:?}, {u:?}: {direction} {colour}");
+            }
+        }
+        Err(problem) => is_one_line(&problem),
+    }
+}
+
+/// A photon map. Unless the first byte is 0, what follows is put behind the right beginning and before
+/// the right checksum, as the header, which ends at the first `}`, and the photons.
+pub fn maps(data: &[u8]) {
+    let Some((how, rest)) = data.split_first() else { return };
+    let decoded = if *how == 0 { file::decode(rest) } else { file::decode(&photon_map(rest)) };
+    match decoded {
+        Ok((_, shots)) => {
+            let all = shots.caustic.photons.iter().chain(&shots.indirect.photons);
+            assert!(all.into_iter().all(|p| p.point.is_finite() && p.power.is_finite()));
+        }
+        Err(problem) => is_one_line(&problem),
+    }
+}
+
+fn photon_map(rest: &[u8]) -> Vec<u8> {
+    let header = rest.iter().position(|b| *b == b'}').map_or(0, |at| at + 1);
+    let mut bytes = b"CUTLABPM".to_vec();
+    bytes.extend(file::VERSION.to_le_bytes());
+    bytes.extend((header as u32).to_le_bytes());
+    bytes.extend(rest);
+    bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+    bytes
+}
+
+/// What tables of scores and their companions are read back from.
+pub fn tables(data: &[u8]) {
+    let Some((how, bytes)) = data.split_first() else { return };
+    if how % 4 == 3 {
+        if let Err(error) = serde_json::from_slice::<Meta>(bytes) {
+            is_one_line(&error);
+        }
+        return;
+    }
+    let form = [Form::Csv, Form::JsonLines, Form::Json][usize::from(how % 4)];
+    if let Err(error) = Numbers::read(bytes, form) {
+        is_one_line(&error);
+    }
+    let Ok(mut rows) = RowReader::new(form, bytes) else { return };
+    while let Ok(Some(row)) = rows.row() {
+        assert!(row.len() <= 4 * bytes.len() + 2, "a row longer than what it is from");
     }
 }

@@ -4,9 +4,9 @@
 
 use super::Mesh;
 use crate::formats::error::FormatError;
-use crate::formats::shell::few_enough;
 use crate::formats::source::{Source, lines, number};
 use crate::solid::recover::Polygon;
+use crate::store::limits;
 use glam::DVec3;
 
 /// One row: its line, its letter if any, its numbers, and whether all are written as whole ones.
@@ -74,7 +74,7 @@ pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
             (false, 3) => vertices.push(DVec3::from_slice(&row.numbers)),
             (true, 3..) if row.whole => {
                 faces.push(row);
-                few_enough(source, faces.len())?;
+                source.within_at(row.line, &limits::POLYGONS, faces.len())?;
             }
             (_, 0..=2) if row.whole && row.letter.is_none() => {} // counts
             (false, n) => return Err(source.at_line(row.line, "three coordinates", &format!("{n} numbers"))),

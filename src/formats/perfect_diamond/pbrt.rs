@@ -5,19 +5,13 @@
 
 use super::Mesh;
 use super::words::{Word, words};
+use crate::formats::beside;
 use crate::formats::error::FormatError;
-use crate::formats::shell::few_enough;
 use crate::formats::source::Source;
-use crate::formats::{MOST_BYTES, beside};
 use crate::solid::recover::Polygon;
+use crate::store::limits;
 use glam::{DMat4, DVec3};
 use std::iter::Peekable;
-
-/// Deepest nesting of `Include`; pbrt's own scenes need two.
-const DEEPEST_INCLUDE: usize = 8;
-
-/// Deepest nesting of `AttributeBegin` and `TransformBegin`.
-const DEEPEST_BEGIN: usize = 1000;
 
 /// How surely this is a pbrt scene.
 pub fn sniff(source: &Source) -> u8 {
@@ -36,7 +30,8 @@ pub fn sniff(source: &Source) -> u8 {
 
 /// Every triangle mesh of the scene, in the scene's frame.
 pub fn meshes(source: &Source) -> Result<Vec<Mesh>, FormatError> {
-    let mut scene = Scene { at: DMat4::IDENTITY, saved: Vec::new(), meshes: Vec::new(), bytes: 0 };
+    let mut scene =
+        Scene { at: DMat4::IDENTITY, saved: Vec::new(), meshes: Vec::new(), bytes: 0, included: 0 };
     scene.file(source, 0)?;
     if scene.meshes.is_empty() {
         return Err(source.at_line(1, "a Shape \"trianglemesh\"", "no such shape"));
@@ -48,15 +43,16 @@ struct Scene {
     at: DMat4,
     saved: Vec<DMat4>,
     meshes: Vec<Mesh>,
-    bytes: u64,
+    /// Bytes of all files so far.
+    bytes: usize,
+    included: usize,
 }
 
 impl Scene {
     fn file(&mut self, source: &Source, depth: usize) -> Result<(), FormatError> {
-        self.bytes += source.bytes.len() as u64;
-        if self.bytes > MOST_BYTES {
-            return Err(FormatError::TooLarge { file: source.name.into(), limit: MOST_BYTES });
-        }
+        self.bytes += source.bytes.len();
+        let too_large = |cause| FormatError::TooLarge { file: source.name.into(), cause };
+        limits::FILE.check(self.bytes).map_err(too_large)?;
         let text = source.text();
         let mut words = words(&text).peekable();
         while let Some((line, word)) = words.next() {
@@ -68,9 +64,7 @@ impl Scene {
                     continue;
                 }
                 "AttributeBegin" | "TransformBegin" => {
-                    if self.saved.len() >= DEEPEST_BEGIN {
-                        return Err(source.at_line(line, "fewer nested blocks", directive));
-                    }
+                    source.within_at(line, &limits::BLOCKS, self.saved.len() + 1)?;
                     self.saved.push(self.at);
                     continue;
                 }
@@ -111,10 +105,9 @@ impl Scene {
     }
 
     fn include(&mut self, source: &Source, line: usize, name: &str, depth: usize) -> Result<(), FormatError> {
-        if depth >= DEEPEST_INCLUDE {
-            let expected = format!("at most {DEEPEST_INCLUDE} levels of Include");
-            return Err(source.at_line(line, expected, name));
-        }
+        source.within_at(line, &limits::INCLUDES, depth + 1)?;
+        self.included += 1;
+        source.within_at(line, &limits::INCLUDED, self.included)?;
         let bytes = beside::fetch(source, name)
             .ok_or_else(|| source.at_line(line, "a file in the scene's own folder", name))??;
         let path = source.folder.map_or_else(|| name.to_owned(), |f| f.join(name).display().to_string());
@@ -157,7 +150,7 @@ impl Scene {
             let expected = format!("corners from 0 to {}", count - 1);
             return Err(source.at_line(line, expected, &i.to_string()));
         }
-        few_enough(source, indices.len() / 3)?;
+        source.within_at(line, &limits::POLYGONS, indices.len() / 3)?;
         let vertices = points.chunks_exact(3).map(|p| self.at.project_point3(DVec3::from_slice(p))).collect();
         let polygons = indices
             .chunks_exact(3)

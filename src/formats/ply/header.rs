@@ -2,12 +2,7 @@
 
 use crate::formats::error::FormatError;
 use crate::formats::source::{Source, lines};
-
-/// Most elements, and most properties of one: many times what any program writes.
-const MOST: usize = 100;
-
-/// Longest list: ten times the facets of any stone that is read.
-pub const LONGEST_LIST: f64 = 100_000.0;
+use crate::store::limits;
 
 /// How the values after the header are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,9 +118,7 @@ impl Header {
                 }
                 ["element", name, count] => {
                     let count = count.parse().map_err(|_| wrong("element NAME COUNT"))?;
-                    if header.elements.len() == MOST {
-                        return Err(wrong("fewer elements"));
-                    }
+                    source.within_at(header.line, &limits::PLY_PARTS, header.elements.len() + 1)?;
                     let (name, line) = (name.into(), header.line);
                     header.elements.push(Element { name, count, properties: Vec::new(), line });
                 }
@@ -140,9 +133,7 @@ impl Header {
                     else {
                         return Err(wrong("a property of a known type after its element"));
                     };
-                    if element.properties.len() == MOST {
-                        return Err(source.at_line(header.line, "fewer properties", text.trim()));
-                    }
+                    source.within_at(header.line, &limits::PLY_PARTS, element.properties.len() + 1)?;
                     element.properties.push(Property {
                         name: (*name).into(),
                         kind,

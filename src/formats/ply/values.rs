@@ -1,8 +1,9 @@
 //! The values after a PLY header, one after the other, from words or bytes.
 
-use super::header::{Header, Kind, LONGEST_LIST, Storage};
+use super::header::{Header, Kind, Storage};
 use crate::formats::error::FormatError;
 use crate::formats::source::{Source, number, words};
+use crate::store::limits;
 
 /// Reads value after value.
 pub struct Values<'s> {
@@ -81,7 +82,8 @@ impl<'s> Values<'s> {
     /// The length of a list.
     pub fn count(&mut self, kind: Kind, name: &str) -> Result<u64, FormatError> {
         let count = self.next(kind, name)?;
-        if count >= 0.0 && count.fract() == 0.0 && count <= LONGEST_LIST {
+        if count >= 0.0 && count.fract() == 0.0 {
+            self.source.within(&limits::PLY_LIST, count as usize)?;
             Ok(count as u64)
         } else {
             Err(self.wrong(format!("the length of {name}"), &count.to_string()))

@@ -1,0 +1,178 @@
+//! How much a file may ask for: a limit on everything that memory or time grows with.
+//!
+//! Each is many times what any real stone or scene needs. One factor raises them all, for whoever has
+//! such a file and the memory for it; the command line takes it from the environment.
+
+use std::io::{Error, Read};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The environment variable that raises every limit.
+pub const VARIABLE: &str = "CUTLAB_LIMIT";
+
+/// The highest factor: what is quadratic in a limit is by then ten thousand times as slow.
+const HIGHEST: u64 = 100;
+
+static FACTOR: AtomicU64 = AtomicU64::new(1);
+
+/// The most that a file may have of something, before it is raised.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Limit {
+    most: u64,
+    /// Of what.
+    pub of: &'static str,
+}
+
+/// Designs, meshes and what they include.
+pub static FILE: Limit = Limit::new(32 << 20, "bytes in a design or mesh with what it includes");
+/// TOML takes a hundred times its size in memory.
+pub static TOML_DESIGN: Limit = Limit::new(4 << 20, "bytes in a TOML design");
+/// XML takes ten times its size in memory.
+pub static XML: Limit = Limit::new(16 << 20, "bytes in a Gem Cut Studio design");
+/// What a file of that size holds of corners.
+pub static XML_NODES: Limit = Limit::new(500_000, "XML elements and texts");
+/// The time that the XML reader takes grows with the square of either.
+pub static XML_ATTRIBUTES: Limit = Limit::new(100, "attributes of an XML element, or namespaces");
+/// Twenty times any real stone. Half-space intersection is quadratic.
+pub static FACETS: Limit = Limit::new(10_000, "facets of a stone");
+/// Facets squared, for each time the stone is carved anew to place a tier: it bounds time.
+pub static SOLVING: Limit = Limit::new(100_000_000, "steps to solve a design's meets");
+/// A thousand times the facets of any real stone.
+pub static POLYGONS: Limit = Limit::new(500_000, "faces of a mesh");
+/// A closed surface has under six a face.
+pub static CORNERS: Limit = Limit::new(8 * 500_000, "corners of all faces of a mesh");
+/// Many times what any program writes.
+pub static PLY_PARTS: Limit = Limit::new(100, "elements of a PLY file, or properties of one");
+/// Ten times the facets of any stone.
+pub static PLY_LIST: Limit = Limit::new(100_000, "entries of a PLY list");
+/// pbrt's own scenes need two.
+pub static INCLUDES: Limit = Limit::new(8, "nested levels of Include");
+/// A file that is included twice counts twice.
+pub static INCLUDED: Limit = Limit::new(1000, "files included");
+/// Of pbrt's `AttributeBegin` and `TransformBegin`.
+pub static BLOCKS: Limit = Limit::new(1000, "nested blocks of a pbrt scene");
+/// Scenes are TOML too.
+pub static SCENE: Limit = Limit::new(1 << 20, "bytes in a scene");
+/// Stones in one scene.
+pub static STONES: Limit = Limit::new(100, "stones in a scene");
+/// Surfaces in one scene, each of which every ray is tried against.
+pub static SURFACES: Limit = Limit::new(500, "surfaces in a scene");
+/// Lights in one scene.
+pub static LIGHTS: Limit = Limit::new(500, "lights in a scene");
+/// Panoramas as files.
+pub static PANORAMA: Limit = Limit::new(256 << 20, "bytes in a panorama");
+/// 8192 × 4096: a gigabyte while it is read.
+pub static PIXELS: Limit = Limit::new(1 << 25, "pixels of a panorama");
+/// No compression that is read puts more pixels into a byte: so a small file cannot claim a large picture.
+pub static PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for each byte of its file");
+/// Both maps of the most photons that can be asked for.
+pub static PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
+/// The companion of a table.
+pub static COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
+/// One row of a table that is read back.
+pub static ROW: Limit = Limit::new(1 << 20, "bytes in a row of a table");
+
+/// Every limit.
+pub static ALL: &[&Limit] = &[
+    &FILE,
+    &TOML_DESIGN,
+    &XML,
+    &XML_NODES,
+    &XML_ATTRIBUTES,
+    &FACETS,
+    &SOLVING,
+    &POLYGONS,
+    &CORNERS,
+    &PLY_PARTS,
+    &PLY_LIST,
+    &INCLUDES,
+    &INCLUDED,
+    &BLOCKS,
+    &SCENE,
+    &STONES,
+    &SURFACES,
+    &LIGHTS,
+    &PANORAMA,
+    &PIXELS,
+    &PIXELS_PER_BYTE,
+    &PHOTON_MAP,
+    &COMPANION,
+    &ROW,
+];
+
+/// More than a limit allows. One line that says how to raise it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("more than {most} {of}: the limit; {VARIABLE}={twice} in the environment doubles every limit")]
+pub struct Exceeded {
+    most: u64,
+    of: &'static str,
+    twice: u64,
+}
+
+impl Limit {
+    const fn new(most: u64, of: &'static str) -> Limit {
+        Limit { most, of }
+    }
+
+    /// The most as it is now, raised or not.
+    pub fn most(&self) -> u64 {
+        self.most.saturating_mul(FACTOR.load(Ordering::Relaxed))
+    }
+
+    /// Refuses `n` of them if that is more.
+    pub fn check(&self, n: impl TryInto<u64>) -> Result<(), Exceeded> {
+        match n.try_into() {
+            Ok(n) if n <= self.most() => Ok(()),
+            _ => Err(self.exceeded()),
+        }
+    }
+
+    /// What is said of more.
+    pub fn exceeded(&self) -> Exceeded {
+        Exceeded { most: self.most(), of: self.of, twice: 2 * FACTOR.load(Ordering::Relaxed) }
+    }
+
+    /// The bytes of the file at `path`, if the operating system gives them and they are not more.
+    pub fn read(&self, path: &Path) -> Result<Result<Vec<u8>, Exceeded>, Error> {
+        let mut bytes = Vec::new();
+        std::fs::File::open(path)?.take(self.most() + 1).read_to_end(&mut bytes)?;
+        Ok(self.check(bytes.len()).map(|()| bytes))
+    }
+}
+
+/// Raises every limit for the rest of the process.
+///
+/// - `factor`: a whole number from 1 to 100, as text; the error says so in one line
+pub fn raise(factor: &str) -> Result<(), String> {
+    match factor.parse() {
+        Ok(n) if (1..=HIGHEST).contains(&n) => {
+            FACTOR.store(n, Ordering::Relaxed);
+            Ok(())
+        }
+        _ => Err(format!(
+            "{VARIABLE}='{factor}' in the environment: a whole number from 1 to {HIGHEST} raises every limit so many times"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_excess_names_the_limit_and_how_to_raise_it() {
+        assert_eq!(FACETS.check(10_000usize), Ok(()));
+        let error = FACETS.check(10_001usize).expect_err("one too many").to_string();
+        assert_eq!(
+            error,
+            "more than 10000 facets of a stone: the limit; CUTLAB_LIMIT=2 in the environment doubles every limit"
+        );
+        assert!(FACETS.check(-1i64).is_err() && FACETS.check(u128::MAX).is_err());
+        for wrong in ["", "0", "101", "-1", "2.5", "many"] {
+            assert!(raise(wrong).is_err_and(|e| e.contains("from 1 to 100")), "{wrong}");
+        }
+        let mut names: Vec<_> = ALL.iter().map(|l| l.of).collect();
+        names.dedup();
+        assert_eq!(names.len(), ALL.len());
+    }
+}

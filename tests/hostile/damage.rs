@@ -1,0 +1,124 @@
+//! Truncations at every byte and corruptions of every byte of one sample of every format that is read:
+//! an error of one line or a correct stone, never a panic.
+
+use super::targets::{self, FOUND, READ_ONLY};
+use super::{SAMPLES, cutlab};
+use rayon::prelude::*;
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What is damaged: its bytes, the target that reads them, and the byte that tells the target how.
+struct Sample {
+    what: String,
+    target: fn(&[u8]),
+    how: Option<u8>,
+    bytes: Vec<u8>,
+}
+
+/// Stones in every format, found by content and as the format that they are; a scene, a photon map with
+/// its checksum put right after the damage and without, tables and their companion.
+fn samples() -> Vec<Sample> {
+    let mut all = Vec::new();
+    let mut add = |what: &str, target: fn(&[u8]), how: Option<u8>, bytes: &[u8]| {
+        all.push(Sample { what: what.into(), target, how, bytes: bytes.to_vec() });
+    };
+    for (i, (format, bytes)) in SAMPLES.iter().enumerate() {
+        add(&format!("sample {i}, found"), targets::readers, Some(FOUND | READ_ONLY), bytes);
+        if *format < FOUND {
+            add(&format!("sample {i}, format {format}"), targets::readers, Some(format | READ_ONLY), bytes);
+        }
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let good = |arguments: &str| {
+        let out = cutlab(folder.path(), arguments);
+        assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    };
+    let small = "--width 4 --height 4 --spp 1 --photons 3 --nearest 5";
+    good(&format!("render -q octahedron {small} --photon-map m.map -o p.png"));
+    let read = |name: &str| fs::read(folder.path().join(name)).expect("was written");
+    let map = read("m.map");
+    add("photon map", targets::maps, Some(0), &map);
+    add("photon map behind its checksum", targets::maps, Some(1), &map[16..map.len() - 4]);
+    for (how, ending) in ["csv", "jsonl", "json"].iter().enumerate() {
+        good(&format!("score -q octahedron cube --metrics weight_ratio -o t.{ending}"));
+        add(ending, targets::tables, Some(how as u8), &read(&format!("t.{ending}")));
+    }
+    add("companion", targets::tables, Some(3), &read("t.meta.json"));
+    let sky = image::Rgb32FImage::from_fn(8, 4, |x, y| image::Rgb([x as f32, y as f32 / 9.0, 1.0]));
+    for ending in ["hdr", "exr"] {
+        let path = folder.path().join(format!("sky.{ending}"));
+        sky.save(&path).expect("written");
+        add(ending, targets::panoramas, None, &fs::read(&path).expect("was written"));
+    }
+    add("scene", targets::scenes, None, SCENE.as_bytes());
+    all
+}
+
+/// Every kind of entry in few bytes.
+const SCENE: &str = r#"unit = "mm"
+[camera]
+at = [0, -30, 20]
+field = 40
+[[stone]]
+cut = "octahedron"
+size = 6.5
+turn = [0, 0, 10]
+[[surface]]
+corner = [-9, -9, 0]
+u = [18, 0, 0]
+v = [0, 18, 0]
+reflectance = { low = 0.1, high = 0.5, edge = 600 }
+[[light]]
+kind = "sphere"
+at = [8, -8, 20]
+radius = 2
+power = 9e3
+colour = [1, 0.5, 0.2]
+"#;
+
+impl Sample {
+    fn try_with(&self, damage: &str, bytes: &[u8]) {
+        let data: Vec<u8> = self.how.iter().chain(bytes).copied().collect();
+        let passed = catch_unwind(AssertUnwindSafe(|| (self.target)(&data))).is_ok();
+        assert!(passed, "{}, {damage}", self.what);
+    }
+
+    /// Cut off at every byte.
+    fn cut_off(&self) {
+        (0..self.bytes.len()).into_par_iter().for_each(|end| {
+            self.try_with(&format!("cut off at {end}"), &self.bytes[..end]);
+        });
+    }
+
+    /// Every byte replaced by each of the values made of it.
+    fn corrupted(&self, values: impl Fn(u8) -> Vec<u8> + Sync) {
+        (0..self.bytes.len()).into_par_iter().for_each(|at| {
+            for value in values(self.bytes[at]) {
+                let mut bytes = self.bytes.clone();
+                bytes[at] = value;
+                self.try_with(&format!("byte {at} = {value:#04x}"), &bytes);
+            }
+        });
+    }
+}
+
+#[test]
+fn files_cut_off_at_any_byte_are_refused_or_stones() {
+    samples().iter().for_each(Sample::cut_off);
+}
+
+#[test]
+fn files_with_any_byte_changed_are_refused_or_stones() {
+    samples().iter().for_each(|s| s.corrupted(|byte| vec![byte ^ 0x10]));
+}
+
+/// Eleven values for each byte; 40 s of one core.
+#[test]
+#[ignore = "takes long"]
+fn files_with_any_byte_changed_in_many_ways_are_refused_or_stones() {
+    let values = |byte: u8| {
+        let bits = (0..8).map(|bit| byte ^ 1 << bit);
+        bits.chain([0, 0xff, b'-']).filter(|v| *v != byte).collect()
+    };
+    samples().iter().for_each(|s| s.corrupted(values));
+}

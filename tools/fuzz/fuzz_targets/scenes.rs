@@ -1,0 +1,8 @@
+//! libFuzzer on [`targets::scenes`].
+
+#![no_main]
+
+#[path = "../targets.rs"]
+mod targets;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| targets::scenes(data));
