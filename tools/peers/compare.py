@@ -1,134 +1,110 @@
-"""Compares cutlab with Mitsuba on tools/peers/table.toml; run by tools/peers/run.
+"""Compares cutlab with other renderers on table.toml; called by tools/peers/run.
 
-Errors are the RMS difference of 4x4-pixel blocks of luminance from a reference over the reference's
-mean, in the stone and in the shadow with its caustic (no direct light). The reference is the mean of
-two long cutlab renderings with different seeds; half the RMS of their difference is its own error.
+Prints a row for each: processor seconds of both cores (whole process; of the peers also the rendering
+alone, without imports, scenes and compilation), errors, means. The error is the RMS difference of blocks
+of 4 x 4 pixels of luminance from the reference (reference.py), over the reference's mean, in the stone and
+in its shadow, where no light falls straight from the lamp. `open` is the table that the whole lamp lights,
+over the analytic direct light with the reference's caustic.
+
+    compare.py --cutlab "quick: --spp 4 --photons 50000" --cutlab "long: --spp 64" --peers mitsuba
 """
 
 import argparse
+import json
 import os
 import resource
+import shlex
 import subprocess
+import sys
 
-import mitsuba as mi
 import numpy as np
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-OUT = os.path.join(ROOT, "out", "peers")
-CUTLAB = os.path.join(ROOT, "target", "release", "cutlab")
-SCENE = os.path.join(ROOT, "tools", "peers", "table.toml")
-STONE = "round-brilliant:crown-angle=34,pavilion-angle=40.75,table=56,lower-half=77,girdle=3,size=1"
-WIDTH, HEIGHT = 400, 300
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+import reference
+import scene
+
+SETTINGS = [
+    f"spp {spp}, {photons} photons, nearest {nearest}: --spp {spp} --photons {photons} --nearest {nearest}"
+    for spp, photons, nearest in [
+        (4, 20_000, 50),
+        (4, 200_000, 50),
+        (4, 200_000, 200),
+        (9, 1_000_000, 100),
+        (9, 1_000_000, 200),
+        (9, 1_000_000, 500),
+        (36, 4_000_000, 500),
+    ]
+]
+PEERS = {
+    "mitsuba": ("with_mitsuba.py", "16 wavelengths x 4 spp"),
+    "luxcore": ("with_luxcore.py", "caustic cache of 1 M photons, 16 spp"),
+    "povray": ("with_povray.py", "100 k photons, 7 samples of dispersion"),
+}
 
 
-def cpu(kind=resource.RUSAGE_SELF):
-    use = resource.getrusage(kind)
-    return use.ru_utime + use.ru_stime
+def measured(command):
+    """Runs it; processor seconds of all its threads, and its last line."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        raise RuntimeError((done.stderr.strip().splitlines() or [f"it ended with {done.returncode}"])[-1])
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return seconds, (done.stdout.strip().splitlines() or [""])[-1]
 
 
-def layers(path):
-    bitmap = mi.Bitmap(path)
-    names = [f.name for f in bitmap.struct_()]
-    data = np.array(bitmap)
-    return {n: data[..., i].astype(float) for i, n in enumerate(names)}
+def cutlab(options):
+    path = os.path.join(scene.OUT, "ours.exr")
+    seconds, _ = measured([*scene.RENDER, "-o", path, *shlex.split(options)])
+    return scene.luminance(scene.layers(path)), seconds
 
 
-def rgb(layer, prefix=""):
-    return np.stack([layer[prefix + c] for c in "RGB"], axis=-1)
-
-
-def cutlab(name, *options):
-    path = os.path.join(OUT, name + ".exr")
-    before = cpu(resource.RUSAGE_CHILDREN)
-    subprocess.run([CUTLAB, "render", "-q", "--scene", SCENE, "-o", path, *options], check=True)
-    return layers(path), cpu(resource.RUSAGE_CHILDREN) - before
-
-
-def diamond(um):
-    """C/Peter of refractiveindex.info, as src/optics/materials/diamond.rs."""
-    return np.sqrt(1 + 0.3306 * um**2 / (um**2 - 0.1750**2) + 4.3356 * um**2 / (um**2 - 0.1060**2))
-
-
-def mitsuba(spp, wavelengths):
-    mi.set_variant("llvm_ad_mono")
-    obj = os.path.join(OUT, "stone.obj")
-    subprocess.run([CUTLAB, "generate", "-q", STONE, "-o", obj], check=True)
-    low = min(float(line.split()[3]) for line in open(obj) if line.startswith("v "))
-    up = mi.ScalarTransform4f().translate([0, 0, 0.001 - low])
-    down = mi.ScalarTransform4f().look_at(origin=[0.9, 0.5, 3], target=[0.9, 0.5, 0], up=[0, 1, 0])
-    total = np.zeros((HEIGHT, WIDTH))
-    seconds = 0.0
-    # equal shares of luminance: the eye's weight is in the choice of wavelengths
-    nm = np.linspace(380, 730, 351)
-    eye = np.exp(-0.5 * ((nm - 558) / 46.0) ** 2)
-    share = np.cumsum(eye) / eye.sum()
-    for k in range(wavelengths):
-        n = float(diamond(np.interp((k + 0.5) / wavelengths, share, nm) / 1000))
-        scene = mi.load_dict({
-            "type": "scene",
-            "integrator": {"type": "path", "max_depth": 24, "rr_depth": 100},
-            "sensor": {
-                "type": "perspective", "fov": 28, "fov_axis": "x",
-                "to_world": mi.ScalarTransform4f().look_at([0, -3.4, 2.6], [0, 0, 0.2], [0, 0, 1]),
-                "film": {"type": "hdrfilm", "width": WIDTH, "height": HEIGHT, "pixel_format": "luminance",
-                         "rfilter": {"type": "tent"}},
-                "sampler": {"type": "independent", "sample_count": spp, "seed": k},
-            },
-            "stone": {"type": "obj", "filename": obj, "face_normals": True, "to_world": up,
-                      "bsdf": {"type": "dielectric", "int_ior": n, "ext_ior": 1.0}},
-            "table": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(10),
-                      "bsdf": {"type": "diffuse", "reflectance": {"type": "uniform", "value": 0.5}}},
-            "light": {"type": "rectangle", "to_world": down @ mi.ScalarTransform4f().scale(0.5),
-                      "emitter": {"type": "area", "radiance": {"type": "uniform", "value": 10.0}}},
-        })
-        if k == 0:
-            mi.render(scene, spp=1)  # compiles
-        before = cpu()
-        total += np.array(mi.render(scene, spp=spp, seed=k)).reshape(HEIGHT, WIDTH) / wavelengths
-        seconds += cpu() - before
-    return total, seconds
-
-
-def error(picture, reference, mask):
-    def blocks(a):
-        return a.reshape(HEIGHT // 4, 4, WIDTH // 4, 4).mean(axis=(1, 3))
-
-    whole = blocks(mask.astype(float)) == 1
-    difference = (blocks(picture) - blocks(reference))[whole]
-    return np.sqrt((difference**2).mean()) / blocks(reference)[whole].mean()
+def peer(name, again):
+    """Version, picture, seconds of the process and of its rendering; what an earlier run kept, if any."""
+    program, _ = PEERS[name]
+    picture, notes = (os.path.join(scene.OUT, name + end) for end in (".npy", ".json"))
+    if again or not os.path.exists(notes):
+        seconds, line = measured([sys.executable, os.path.join(scene.HERE, program), picture])
+        with open(notes, "w") as file:
+            json.dump(json.loads(line) | {"process_s": seconds}, file)
+    with open(notes) as file:
+        kept = json.load(file)
+    return kept["version"], np.load(picture), kept["process_s"], kept["render_s"]
 
 
 def main():
-    arguments = argparse.ArgumentParser()
-    arguments.add_argument("--reference-spp", default="196")
-    arguments.add_argument("--reference-photons", default="4000000")
-    arguments.add_argument("--spp", nargs="*", default=["4", "16"])
-    arguments.add_argument("--photons", nargs="*", default=["100000", "400000"])
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    arguments.add_argument("--cutlab", action="append", metavar="NAME: OPTIONS", help="instead of the list here")
+    arguments.add_argument("--peers", nargs="*", default=list(PEERS), choices=list(PEERS))
+    arguments.add_argument("--kept", action="store_true", help="the peers' pictures and times of the last run")
     options = arguments.parse_args()
-    os.makedirs(OUT, exist_ok=True)
-    mi.set_variant("scalar_rgb")
-    long = ["--spp", options.reference_spp, "--photons", options.reference_photons, "--nearest", "300"]
-    halves = [cutlab(f"reference-{seed}", *long, "--seed", str(seed))[0] for seed in (101, 102)]
-    lit = [rgb(h) @ LUMINANCE for h in halves]
-    reference = (lit[0] + lit[1]) / 2
-    stone = halves[0]["facet.id"] > 0
-    shadow = (halves[0]["facet.id"] == 0) & (halves[0]["direct.G"] == 0) & np.isfinite(halves[0]["Z"])
-    row = "{:34} {:>9} {:>12} {:>14}".format
-    print(row("", "CPU s", "err in stone", "err in caustic"))
-    own = [error(lit[0], lit[1], m) / 2 for m in (stone, shadow)]
-    print(row("reference, its own error", "", *(f"{100 * e:.1f} %" for e in own)))
-    for spp in options.spp:
-        for photons in options.photons:
-            layer, seconds = cutlab("ours", "--spp", spp, "--photons", photons)
-            errors = [error(rgb(layer) @ LUMINANCE, reference, m) for m in (stone, shadow)]
-            name = f"cutlab, {spp} spp, {photons} photons"
-            print(row(name, f"{seconds:.1f}", *(f"{100 * e:.1f} %" for e in errors)), flush=True)
-    picture, seconds = mitsuba(4, 16)
-    errors = [error(picture, reference, m) for m in (stone, shadow)]
-    print(row("Mitsuba, 16 wavelengths x 4 spp", f"{seconds:.1f}", *(f"{100 * e:.1f} %" for e in errors)))
-    for name, mask in (("stone", stone), ("shadow with caustic", shadow)):
-        print(f"mean in the {name}: cutlab {reference[mask].mean():.4f}, Mitsuba {picture[mask].mean():.4f}")
+    store = reference.load()
+    right = reference.picture(store)
+    stone, shadow = reference.regions(store)
+    direct, analytic = store["direct"].mean(axis=0), scene.analytic_table()
+    bare = (store["facet"][0] == 0) & (direct > 0.99 * analytic)
+    expected = analytic + store["caustic"].mean(axis=0)
+    row = "| {:44} | {:>7} | {:>7} | {:>9} | {:>10} | {:>10} | {:>11} | {:>6} |".format
+    head = ["", "CPU s", "render", "err stone", "err shadow", "mean stone", "mean shadow", "open"]
+    print(row(*head), row("---", *["--:"] * 7), sep="\n", flush=True)
+
+    def show(name, picture, process, render):
+        numbers = [f"{process:.1f}", f"{render:.1f}"] if process else ["", ""]
+        numbers += [f"{100 * scene.error(picture, right, mask):.1f} %" for mask in (stone, shadow)]
+        numbers += [f"{picture[stone].mean():.4f}", f"{picture[shadow].mean():.5f}"]
+        print(row(name, *numbers, f"{(picture / expected)[bare].mean():.4f}"), flush=True)
+
+    for name in options.peers:
+        try:
+            version, picture, process, render = peer(name, not options.kept)
+            show(f"{version}, {PEERS[name][1]}", picture, process, render)
+        except (RuntimeError, OSError, ValueError) as problem:
+            print(f"{name} did not run: {problem}")
+    for entry in options.cutlab or SETTINGS:
+        name, _, settings = entry.rpartition(": ")
+        picture, seconds = cutlab(settings)
+        show(f"cutlab, {name or settings}", picture, seconds, seconds)
+    show("the reference", right, None, None)
+    print(*(f"reference, {line}" for line in reference.describe(store)), sep="\n")
 
 
 if __name__ == "__main__":
