@@ -273,8 +273,8 @@ impl View<'_> {
             .collect();
         let near = |seen: &Seen| seen.surface == s && seen.at.distance(point) < seen.holds;
         let seen = shared.seen.take().filter(near).unwrap_or_else(|| self.see_maps(s, point));
-        for b in 0..BANDS {
-            let reflected = share[b] / std::f32::consts::PI;
+        for (b, share) in share.iter().enumerate() {
+            let reflected = share / std::f32::consts::PI;
             let direct: f32 = lit.iter().map(|(light, colour)| light.at(*colour, sight.nm[b])).sum();
             sight.add(Pass::Direct, b, reflected * direct);
             sight.add(Pass::Caustic, b, reflected * seen.caustic[b]);
