@@ -125,8 +125,9 @@ fn picture(scene: &str, isa: Isa) -> Vec<f64> {
         |p: &PlacedStone| PlacedStone { stone: Stone::with_isa(p.stone.solid.clone(), isa), ..p.clone() };
     scene.stones = scene.stones.iter().map(on).collect();
     let shots = Shots::shoot(scene, &Settings { photons: 20_000, nearest: 100, seed: SEED });
-    let settings = render::Settings { width: 64, height: 48, rays: 9, tone: Tone::default(), seed: SEED };
-    let film = render::render(scene, &scene.camera, &Maps::new(scene, &shots, 100), &settings, &|| ());
+    let settings =
+        render::Settings { width: 64, height: 48, rays: 9, round: 0, tone: Tone::default(), seed: SEED };
+    let film = render::render(scene, &scene.camera, &Maps::new(scene, shots, 100), &settings, &|| ());
     let shown = film.linear(None);
     let block = |b: usize| {
         let (x, y) = (8 * (b % 8), 8 * (b / 8));
