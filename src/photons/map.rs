@@ -41,7 +41,7 @@ struct Known {
 /// A photon map: the irradiance at some of the photons, gathered from their nearest photons.
 ///
 /// Where photons are dense the places are too: within the disc of one estimate lie
-/// [`PLACES_A_DISC`] of them, so looking between them costs no detail that the estimate has.
+/// `PLACES_A_DISC` of them, so looking between them costs no detail that the estimate has.
 /// Source: P. Christensen, *Faster Photon Map Global Illumination*, J. Graphics Tools 4(3), 1999.
 pub struct PhotonMap {
     sheets: Vec<Option<Sheet>>,
