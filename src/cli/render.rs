@@ -85,9 +85,10 @@ pub struct Args {
     /// Bits a channel of a PNG: 8 or 16
     #[arg(long, default_value = "8", value_parser = ["8", "16"])]
     bits: String,
-    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
-    polarisation: bool,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each.
+    /// On, unless the scene says
+    #[arg(long, value_name = "on|off", value_parser = stones::on_off)]
+    polarisation: Option<bool>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -189,7 +190,7 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
         material: args.substance.asked(),
         size_mm: args.size,
         pose: args.pose,
-        scalar: !args.polarisation,
+        polarisation: args.polarisation,
     })
 }
 

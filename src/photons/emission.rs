@@ -47,7 +47,14 @@ struct Room<'a> {
 
 impl Room<'_> {
     fn new(scene: &Scene, class: Class, seed: u64) -> Room<'_> {
-        let aim = scene.aim(if class == Class::Caustic { AIMED } else { 0.0 });
+        let aim = scene.aim(
+            if class == Class::Caustic {
+                std::env::var("AIMED").map_or(AIMED, |a| a.parse().unwrap())
+            } else {
+                0.0
+            },
+            std::env::var("HALOS").map_or(2, |a| a.parse().unwrap()),
+        );
         let reach = |l: &crate::scene::Light| l.emitter.reach(&aim) * (l.radiance.element_sum() / 3.0);
         let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
         let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
@@ -70,7 +77,11 @@ impl Room<'_> {
 /// - `from`: number of the first photon; shots that follow each other have none in common
 pub fn shoot(scene: &Scene, class: Class, settings: &Settings, from: u64) -> Shot {
     let target = settings.photons;
-    if scene.surfaces.iter().all(|s| matches!(s.finish, Finish::Mirror(_))) {
+    let possible = match class {
+        Class::Caustic => scene.surfaces.iter().any(|s| matches!(s.finish, Finish::Diffuse(_))),
+        Class::Indirect => scene.has_indirect_light(),
+    };
+    if !possible {
         return Shot::default(); // nothing to land on
     }
     let room = Room::new(scene, class, settings.seed);

@@ -14,8 +14,8 @@
 //! - `[[light]]`: `kind` of `cutlab list lights` with what that needs; `radiance` or `power`,
 //!   `colour`, `spectrum`
 //!
-//! `depth` limits the segments of a path, to compare with programs that do; without it paths are
-//! followed to the end of their power.
+//! To compare with other programs: `depth` limits the segments of a path, which are followed to the
+//! end of their power without it; `polarisation = false` takes light as unpolarised at every facet.
 
 use super::entries::{CameraEntry, LightEntry, StoneEntry, SurfaceEntry, Wrong};
 use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
@@ -92,6 +92,8 @@ struct Document {
     picture: Option<[u32; 2]>,
     #[serde(default)]
     depth: Option<u32>,
+    #[serde(default)]
+    polarisation: Option<bool>,
     camera: Spanned<CameraEntry>,
     stone: Vec<Spanned<StoneEntry>>,
     #[serde(default)]
@@ -121,8 +123,9 @@ pub struct Cast {
     pub size_mm: Option<f64>,
     /// How all stand.
     pub pose: Option<Pose>,
-    /// Whether light is taken as unpolarised at every facet.
-    pub scalar: bool,
+    /// Whether light keeps its polarisation from facet to facet; it does if neither this nor the scene
+    /// says.
+    pub polarisation: Option<bool>,
 }
 
 /// What entries are read against.
@@ -229,7 +232,9 @@ impl SceneFile {
             if i == 0 && document.unit == Unit::Stone {
                 unit = stone.unit as f32;
             }
-            stones.push(self.say(entry, entry.get_ref().place(stone, material, unit, cast))?);
+            let polarised = cast.polarisation.or(document.polarisation).unwrap_or(true);
+            let placed = self.say(entry, entry.get_ref().place(stone, material, unit, cast.pose))?;
+            stones.push(PlacedStone { polarised, ..placed });
         }
         let centre = stones[0].position;
         let place = Place { unit, folder: &self.folder, centre };
