@@ -63,6 +63,12 @@ pub fn preset(name: &str) -> Option<Result<SceneFile, SceneError>> {
 }
 
 impl Scene {
+    /// Whether light can fall on a diffuse surface last from a stone or a mirror.
+    pub fn has_caustics(&self) -> bool {
+        let mirrors = self.surfaces.iter().filter(|s| matches!(s.finish, Finish::Mirror(_))).count();
+        mirrors < self.surfaces.len() && (mirrors > 0 || !self.stones.is_empty())
+    }
+
     /// Whether light can go straight from one place of a diffuse surface to another: a plate alone
     /// does not shine on itself.
     pub fn has_indirect_light(&self) -> bool {
@@ -88,7 +94,7 @@ impl Scene {
         let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let world = Ball { centre: 0.5 * (low + high), radius: 0.5 * low.distance(high) };
-        Aim { targets, share, world }
+        Aim { share: if stones.is_empty() { 0.0 } else { share }, targets, world }
     }
 }
 

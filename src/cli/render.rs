@@ -142,12 +142,10 @@ fn counted(text: &str) -> Result<usize, String> {
 /// Takes the picture or pictures.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
-    let first = args.stones.first().map_or_else(|| file.first_cut(), String::as_str);
+    let first = args.stones.first().map(String::as_str).or(file.first_cut());
+    let called = first.map_or(String::new(), |stone| format!("{}-", stones::file_stem(stone)));
     let ending = if args.frames.is_some() { "gif" } else { "png" };
-    let output = args
-        .output
-        .clone()
-        .unwrap_or_else(|| format!("{}-{}.{ending}", stones::file_stem(first), file.name).into());
+    let output = args.output.clone().unwrap_or_else(|| format!("{called}{}.{ending}", file.name).into());
     let target = frames::Target::of(&output, args)?;
     let (width, height) = size(args, &file);
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;

@@ -78,11 +78,11 @@ impl Room<'_> {
 pub fn shoot(scene: &Scene, class: Class, settings: &Settings, from: u64) -> Shot {
     let target = settings.photons;
     let possible = match class {
-        Class::Caustic => scene.surfaces.iter().any(|s| matches!(s.finish, Finish::Diffuse(_))),
+        Class::Caustic => scene.has_caustics(),
         Class::Indirect => scene.has_indirect_light(),
     };
     if !possible {
-        return Shot::default(); // nothing to land on
+        return Shot::default();
     }
     let room = Room::new(scene, class, settings.seed);
     let mut photons: Vec<Photon> = Vec::new();

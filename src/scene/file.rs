@@ -6,7 +6,7 @@
 //! - `[camera]`: `at`, `to` (the first stone if absent), `field` (degrees across the width) or
 //!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
 //!   (the illuminant that comes out white)
-//! - `[[stone]]`: `cut`, `material`, `size` (mm) or `radius` (as large as the scene wants it),
+//! - `[[stone]]` (none, if only the surroundings are of interest): `cut`, `material`, `size` (mm) or `radius` (as large as the scene wants it),
 //!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
 //!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
 //! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
@@ -95,6 +95,7 @@ struct Document {
     #[serde(default)]
     polarisation: Option<bool>,
     camera: Spanned<CameraEntry>,
+    #[serde(default)]
     stone: Vec<Spanned<StoneEntry>>,
     #[serde(default)]
     surface: Vec<Spanned<SurfaceEntry>>,
@@ -134,7 +135,7 @@ pub struct Place<'a> {
     pub unit: f32,
     /// Where files that the scene names are looked for.
     pub folder: &'a Path,
-    /// Centre of the first stone.
+    /// Centre of the first stone; the origin where there is none.
     pub centre: Vec3,
 }
 
@@ -199,8 +200,8 @@ impl SceneFile {
     }
 
     /// The first stone's STONE, by which a picture is called.
-    pub fn first_cut(&self) -> &str {
-        self.document.stone.first().map_or("round-brilliant", |s| s.get_ref().cut())
+    pub fn first_cut(&self) -> Option<&str> {
+        self.document.stone.first().map(|s| s.get_ref().cut())
     }
 
     /// Width and height of its picture.
@@ -215,8 +216,13 @@ impl SceneFile {
     pub fn build(&self, cast: &Cast, aspect: f32) -> Result<Scene, SceneError> {
         let document = &self.document;
         let (places, given) = (document.stone.len(), cast.designs.len());
-        if given > places || places == 0 {
+        if given > places {
             return Err(SceneError::Places { scene: self.name.clone(), places, given });
+        }
+        if places == 0 && document.unit == Unit::Stone {
+            let text = self.text.lines().position(|l| l.trim_start().starts_with("unit"));
+            let problem = "unit is \"mm\" where there is no stone".into();
+            return Err(SceneError::Line { file: self.file.clone(), line: text.unwrap_or(0) + 1, problem });
         }
         let mut unit = 1.0;
         let mut stones: Vec<PlacedStone> = Vec::with_capacity(places);
@@ -236,7 +242,7 @@ impl SceneFile {
             let placed = self.say(entry, entry.get_ref().place(stone, material, unit, cast.pose))?;
             stones.push(PlacedStone { polarised, ..placed });
         }
-        let centre = stones[0].position;
+        let centre = stones.first().map_or(Vec3::ZERO, |s| s.position);
         let place = Place { unit, folder: &self.folder, centre };
         let camera: Camera = self.say(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
         let surfaces: Result<Vec<Surface>, _> =
