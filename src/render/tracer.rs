@@ -12,6 +12,7 @@ use crate::scene::{Camera, Finish, Light, Scene};
 use crate::transport::{Arrival, Event};
 use glam::{Mat3, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// How a picture is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -191,7 +192,8 @@ impl View<'_> {
             seen: None,
             entering: Vec::new(),
         };
-        let mut sights: Vec<Sight> = Points::new(seed, Purpose::CameraRay, number, numbers(1))
+        let mut sights: Vec<Sight> = self
+            .places(number, numbers(1))
             .enumerate()
             .map(|(ray, place)| self.look([x, y], ray, place.map(|p| p as f32), &mut shared))
             .collect();
@@ -207,6 +209,16 @@ impl View<'_> {
         pixel
     }
 
+    /// Where camera rays of a pixel lie: place, wavelength, lens. A sequence for each is more even in
+    /// the plane, which is where edges of facets are, than one for all is.
+    fn places(&self, pixel: u64, rays: Range<u64>) -> impl Iterator<Item = [f64; 5]> {
+        let seed = self.settings.seed;
+        let places = Points::<2>::new(seed, Purpose::CameraRay, pixel, rays.clone());
+        let hues = Points::<1>::new(seed, Purpose::Hue, pixel, rays.clone());
+        let lens = Points::<2>::new(seed, Purpose::Lens, pixel, rays);
+        places.zip(hues).zip(lens).map(|(([across, down], [hue]), [u, v])| [across, down, hue, u, v])
+    }
+
     /// Shadow rays to each light of one camera ray.
     fn shadow_rays(&self) -> u32 {
         SHADOW_RAYS.div_ceil(self.settings.rays.max(1)).min(SHADOW_RAYS_EACH)
@@ -214,15 +226,15 @@ impl View<'_> {
 
     /// One camera ray up to the first thing that is no mirror; at a stone it is noted for later.
     ///
-    /// - `number`: of the ray in its pixel; `place`: its point of the cube of place and wavelength
-    fn look(&self, [x, y]: [u32; 2], number: usize, place: [f32; 3], shared: &mut Shared) -> Sight {
-        let [across, down, hue] = place;
+    /// - `number`: of the ray in its pixel; `place`: its point of the cube of place, wavelength and lens
+    fn look(&self, [x, y]: [u32; 2], number: usize, place: [f32; 5], shared: &mut Shared) -> Sight {
+        let [across, down, hue, on_lens @ ..] = place;
         let u = (x as f32 + 0.5 + tent(across)) / self.settings.width as f32;
         let v = (y as f32 + 0.5 + tent(down)) / self.settings.height as f32;
         let nm = std::array::from_fn(|b| colour::wavelength((b as f32 + hue) / BANDS as f32));
         let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES] };
         let mut share = [1.0; BANDS];
-        let (mut origin, mut direction) = self.camera.ray(u, v);
+        let (mut origin, mut direction) = self.camera.ray_through(u, v, on_lens);
         for _ in 0..MIRRORS {
             match self.scene.first(origin, direction, None) {
                 Event::Nothing => break,

@@ -66,9 +66,27 @@ pub struct CameraEntry {
     field: Option<f32>,
     field_short: Option<f32>,
     width: Option<f32>,
+    aperture: Option<Aperture>,
+    focus: Option<Focus>,
     #[serde(default)]
     exposure: f32,
     white: Option<String>,
+}
+
+/// How wide the lens is: a diameter in the file's unit, or an f-number such as "f/8".
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Aperture {
+    Diameter(f32),
+    Number(String),
+}
+
+/// What is sharp: a distance along the view, or the plane across the view through a point.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Focus {
+    Distance(f32),
+    Point([f32; 3]),
 }
 
 impl CameraEntry {
@@ -87,8 +105,46 @@ impl CameraEntry {
         if position.distance(target) < 1e-6 {
             return Err(wrong("at", "the camera stands where it looks"));
         }
+        let lens = self.opened(lens, place, position, target)?;
         let white = illuminant("white", self.white.as_deref())?;
         Ok(Camera { position, target, lens, aspect, stops: self.exposure, white })
+    }
+
+    /// The lens with its aperture, if it has one.
+    fn opened(&self, lens: Lens, place: &Place, position: Vec3, target: Vec3) -> Result<Lens, Wrong> {
+        let field_deg = match (&self.aperture, &self.focus, lens) {
+            (None, None, _) => return Ok(lens),
+            (None, Some(_), _) => return Err(wrong("focus", "without an aperture everything is in focus")),
+            (Some(_), _, Lens::Perspective(field_deg)) => field_deg,
+            (Some(_), ..) => {
+                return Err(wrong("aperture", "parallel rays have no aperture: give field instead of width"));
+            }
+        };
+        let forward = (target - position).normalize();
+        let focus = match self.focus {
+            None => target.distance(position),
+            Some(Focus::Distance(distance)) => place.length(distance),
+            Some(Focus::Point(point)) => (place.point(point) - position).dot(forward),
+        };
+        if focus <= 1e-6 {
+            return Err(wrong("focus", "what is in focus lies before the camera"));
+        }
+        let diameter = match &self.aperture {
+            Some(Aperture::Number(text)) => {
+                let number = text.strip_prefix("f/").and_then(|n| n.parse().ok());
+                let number = number.filter(|n: &f32| *n > 0.0 && n.is_finite());
+                let number = number.ok_or_else(|| {
+                    wrong(
+                        "aperture",
+                        format!("aperture '{text}' is no diameter and no f-number such as \"f/8\""),
+                    )
+                })?;
+                Lens::opening_mm(number, field_deg, focus)
+            }
+            Some(Aperture::Diameter(diameter)) => place.length(positive("aperture", Some(*diameter))?),
+            None => 0.0,
+        };
+        Ok(Lens::Thin { field_deg, radius: 0.5 * diameter, focus })
     }
 }
 

@@ -5,8 +5,10 @@
 //!
 //! - `[camera]`: `at`, `to` (the first stone if absent), `field` (degrees across the width) or
 //!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
-//!   (the illuminant that comes out white)
-//! - `[[stone]]` (none, if only the surroundings are of interest): `cut`, `material`, `size` (mm) or `radius` (as large as the scene wants it),
+//!   (the illuminant that comes out white); `aperture` (a diameter, or "f/8" for a picture 36 mm wide in
+//!   a world of millimetres) and `focus` (a distance along the view, or a point; `to` if absent)
+//! - `[[stone]]` (none if only the surroundings are of interest): `cut`, `material`, `size` (mm) or
+//!   `radius` (as large as the scene wants it),
 //!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
 //!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
 //! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
