@@ -16,7 +16,7 @@ use glam::Vec3;
 /// How fast the estimates shrink: noise and blur then fall alike.
 const ALPHA: f64 = 2.0 / 3.0;
 /// No estimate gathers fewer photons; from there on the rounds shoot more of them instead.
-const FEWEST: f64 = 8.0;
+const FEWEST: f64 = 32.0;
 /// Most photons of a round.
 const MOST_PHOTONS: f64 = 5e7;
 /// Side of the square of pixels whose noise is measured.
@@ -177,8 +177,8 @@ mod tests {
         // Γ(i + 2/3)/(Γ(2/3) i!) → i^(−1/3)/Γ(2/3), Γ(2/3) = 1.3541
         let thousandth = of_round(first, 1000);
         assert_eq!((thousandth.nearest, thousandth.photons), (37, 1000));
-        let few = of_round(photons::Settings { nearest: 16, ..first }, 1000);
-        assert_eq!(few.nearest, 8);
-        assert!((few.photons as f64 / (1000.0 * 8.0 / (16.0 * 0.1 / 1.3541)) - 1.0).abs() < 1e-2);
+        let few = of_round(photons::Settings { nearest: 64, ..first }, 1000);
+        assert_eq!(few.nearest, 32);
+        assert!((few.photons as f64 / (1000.0 * 32.0 / (64.0 * 0.1 / 1.3541)) - 1.0).abs() < 1e-2);
     }
 }
