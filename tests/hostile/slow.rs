@@ -71,6 +71,17 @@ fn many_nodes_of_many_empty_primitives_are_refused() {
     refused(folder.path(), "show many.gltf", "more than 500000 faces of a mesh");
 }
 
+/// A table of thousands of corners: its extent was measured along every two of them, corner by corner.
+#[test]
+fn a_table_of_thousands_of_corners_is_measured_in_seconds() {
+    let tier = |angle: &str, n: u32| {
+        format!("[[tier]]\nangle = {angle}\ndistance = 1\nindices = [0]\nrepeat = {n}\n")
+    };
+    let text = tier("90", 3000) + &tier("0", 1) + &tier("-0.0", 1);
+    let said = shown_in_seconds("a table", "prism.toml", text);
+    assert!(said.contains("3002"), "{said}");
+}
+
 /// A text of other things: a remark on every line came to fifty times the file.
 #[test]
 fn remarks_on_lines_that_are_not_understood_come_to_an_end() {
