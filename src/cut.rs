@@ -4,6 +4,7 @@ pub mod brilliant;
 pub mod design;
 pub mod document;
 pub mod families;
+mod hull;
 pub mod library;
 pub mod meet;
 pub mod proportions;

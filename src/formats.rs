@@ -104,20 +104,36 @@ pub struct Imported {
     pub warnings: Vec<String>,
 }
 
-/// Reads the file at `path`, whatever its ending.
+/// Reads the file at `path`, whatever its ending. It may be a pipe.
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
 pub fn read(path: &Path) -> Result<Imported, FormatError> {
+    read_as(path, limits::FILE.read(path))
+}
+
+/// As [`read`], for what a file names: only a regular file is read.
+pub fn read_regular(path: &Path) -> Result<Imported, FormatError> {
+    read_as(path, limits::FILE.read_regular(path))
+}
+
+fn read_as(path: &Path, bytes: Bytes) -> Result<Imported, FormatError> {
     let name = path.display().to_string();
-    let bytes = bytes_of(path)?;
+    let bytes = within_limit(path, bytes)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
 }
 
-/// The bytes of a file, if they are not more than [`limits::FILE`]. What a reader allots is bounded by
-/// the bytes it was given and by the other [`limits`].
+/// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
+/// bounded by the bytes it was given and by the other [`limits`].
 fn bytes_of(path: &Path) -> Result<Vec<u8>, FormatError> {
+    within_limit(path, limits::FILE.read_regular(path))
+}
+
+/// What [`limits::Limit::read`] gives.
+type Bytes = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
+
+fn within_limit(path: &Path, bytes: Bytes) -> Result<Vec<u8>, FormatError> {
     let file = || path.display().to_string();
-    let bytes = limits::FILE.read(path).map_err(|cause| FormatError::Read { file: file(), cause })?;
+    let bytes = bytes.map_err(|cause| FormatError::Read { file: file(), cause })?;
     bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
 }
 

@@ -7,6 +7,7 @@ pub mod mesh;
 pub mod plane;
 pub mod polyhedron;
 pub mod recover;
+mod scale;
 mod surface;
 
 pub use body::Body;

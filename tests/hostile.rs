@@ -10,6 +10,11 @@ mod includes;
 mod limits;
 #[path = "hostile/maps.rs"]
 mod maps;
+#[cfg(unix)]
+#[path = "hostile/named.rs"]
+mod named;
+#[path = "hostile/slow.rs"]
+mod slow;
 #[path = "../tools/fuzz/targets.rs"]
 mod targets;
 

@@ -1,7 +1,7 @@
 //! What a command says and where: results on standard output, notes and progress on standard
 //! error.
 
-use super::outcome::{Failure, complain};
+use super::outcome::{Failure, complain, printable};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 
@@ -38,7 +38,7 @@ impl Console {
     /// A remark: standard error, unless quiet.
     pub fn note(&self, text: &str) {
         if !self.quiet {
-            let _ = writeln!(std::io::stderr(), "{text}");
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
         }
     }
 

@@ -7,9 +7,10 @@ use super::outcome::{self, Code, Failure};
 use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Format, FormatError, stone};
-use crate::store::replace;
+use crate::store::{limits, replace};
 use plan::Job;
 use serde::Serialize;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -160,12 +161,19 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
         replace::write(&job.target, &bytes)?;
     } else if job.target.symlink_metadata().is_ok() || !replace::create(&job.target, &bytes)? {
         // an import that was interrupted, started again
-        if std::fs::read(&job.target).ok() != Some(bytes) {
+        if !holds(&job.target, &bytes) {
             return Err(Failure::exists(&file, &job.target));
         }
         return Ok(Row { file, outcome: THERE, ..read });
     }
     Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
+}
+
+/// Whether there is a file at `path` of just these bytes.
+fn holds(path: &Path, bytes: &[u8]) -> bool {
+    let mut there = Vec::new();
+    let read = limits::regular(path).and_then(|f| f.take(bytes.len() as u64 + 1).read_to_end(&mut there));
+    read.is_ok() && there == bytes
 }
 
 /// The rows in columns, then how many had which outcome.

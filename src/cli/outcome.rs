@@ -178,7 +178,6 @@ impl From<MapFileError> for Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Failure {
         match error {
-            SceneError::Stone(error) => error.into(),
             SceneError::Read { .. } => Failure::new(Code::Io, error.to_string()),
             _ => Failure::input(error.to_string()),
         }
@@ -202,10 +201,16 @@ pub fn complain(message: &str) {
     let _ = writeln!(std::io::stderr(), "cutlab: {}", one_line(message));
 }
 
-/// The text with its lines joined.
+/// The text with its lines joined, and without what a terminal would obey.
 fn one_line(text: &str) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
-    lines.join("; ")
+    printable(&lines.join("; "))
+}
+
+/// The text with control characters, but line ends, escaped: a file's name or words may hold any.
+pub fn printable(text: &str) -> String {
+    let shown = |c: char| if c.is_control() && c != '\n' { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(shown).collect()
 }
 
 /// Ends after the argument parser: help and version go to standard output, an error becomes one
@@ -246,6 +251,7 @@ mod tests {
     #[test]
     fn errors_are_one_line_and_a_closed_pipe_is_none() {
         assert_eq!(Failure::input("a\n  b\n").message(), "a; b");
+        assert_eq!(Failure::input("a\x1b[31m\tb\rc\u{9b}").message(), "a\\u{1b}[31m\\tb\\rc\\u{9b}");
         let gone = std::io::Error::from(std::io::ErrorKind::BrokenPipe);
         assert_eq!(Failure::output(&gone).code(), Code::Done);
         assert!(Failure::output(&gone).message().is_empty());

@@ -2,6 +2,7 @@
 
 use super::brilliant::{self, Lengths};
 use super::design::{Design, Zone};
+use super::hull::Hull;
 use super::symmetry::{self, Symmetry};
 use crate::solid::measure::calipers;
 use crate::solid::{Polyhedron, SolidError};
@@ -170,14 +171,15 @@ pub fn wheel_size(outline: &[DVec2]) -> (f64, f64) {
 pub fn flat_extent(solid: &Polyhedron, face: usize, outline: &[DVec2]) -> f64 {
     let corners: Vec<DVec2> = solid.polygon(face).map(|v| v.truncate()).collect();
     let widest = ROUND * calipers(outline).0;
+    let (outside, inside) = (Hull::of(outline), Hull::of(&corners));
     let edges = (0..outline.len()).map(|i| (outline[(i + 1) % outline.len()] - outline[i]).perp());
     let across = corners.iter().enumerate().flat_map(|(i, a)| corners[..i].iter().map(move |b| *a - *b));
-    edges
-        .chain(across)
-        .filter_map(DVec2::try_normalize)
-        .filter(|d| extent_along(outline, *d) <= widest)
-        .map(|d| extent_along(&corners, d))
-        .fold(0.0, f64::max)
+    edges.chain(across).filter_map(DVec2::try_normalize).map(|d| (inside.extent(d), d)).fold(
+        0.0,
+        |most, (extent, d)| {
+            if extent > most && outside.extent(d) <= widest { extent } else { most }
+        },
+    )
 }
 
 fn extent_along(points: &[DVec2], direction: DVec2) -> f64 {

@@ -37,6 +37,9 @@ fn sniff(source: &Source) -> u8 {
     if lines(start).any(|(_, line)| tier(line)) { 60 } else { 0 }
 }
 
+/// A file of other text has remarks on every line: nobody reads more of them.
+const MOST_REMARKS: usize = 50;
+
 /// What lines begin with.
 const KEYWORDS: [&str; 6] = ["a", "g", "y", "I", "H", "F"];
 
@@ -123,10 +126,19 @@ impl File {
             _ if self.gear.is_none() && number(keyword.trim_start_matches('g')).is_some() => {
                 self.gear(source, at, content.trim_start_matches('g'))?;
             }
-            _ => self.warnings.push(format!("line {at}: not understood and left out: {}", shown(content))),
+            _ => self.remark(|| format!("line {at}: not understood and left out: {}", shown(content))),
         }
         self.last = keyword.chars().next().filter(|_| keyword.len() == 1);
         Ok(())
+    }
+
+    /// Keeps a remark on a line, if it is one of the first.
+    fn remark(&mut self, remark: impl FnOnce() -> String) {
+        match self.warnings.len() {
+            0..MOST_REMARKS => self.warnings.push(remark()),
+            MOST_REMARKS => self.warnings.push("more lines like these are not told of".into()),
+            _ => {}
+        }
     }
 
     /// The header or footer that an indented line goes on with: any text but another keyword.
@@ -167,9 +179,7 @@ impl File {
                 let mirror = words.next().is_some_and(|w| w.eq_ignore_ascii_case("y"));
                 self.symmetry = Some((order.abs() as u32, mirror));
             }
-            None => {
-                self.warnings.push(format!("line {at}: no order of symmetry, left out: {}", shown(first)))
-            }
+            None => self.remark(|| format!("line {at}: no order of symmetry, left out: {}", shown(first))),
         }
     }
 
@@ -177,12 +187,12 @@ impl File {
     fn index(&mut self, at: usize, rest: &str) {
         let first = rest.split_whitespace().next().unwrap_or_default();
         let Some(index) = number(first) else {
-            self.warnings.push(format!("line {at}: no index of refraction, left out: {}", shown(first)));
+            self.remark(|| format!("line {at}: no index of refraction, left out: {}", shown(first)));
             return;
         };
         if !(index > 1.0 && index <= 3.5) {
             let done = if index < 1.0 { "left out" } else { "kept" };
-            self.warnings.push(format!("line {at}: index of refraction {index} is that of no gem; {done}"));
+            self.remark(|| format!("line {at}: index of refraction {index} is that of no gem; {done}"));
         }
         self.refractive_index = Some(index).filter(|n| *n >= 1.0);
     }

@@ -68,6 +68,8 @@ struct Reader<'a> {
     vertices: Vec<DVec3>,
     polygons: Vec<Polygon>,
     left_out: usize,
+    /// Primitives that were met: many nodes may show one mesh.
+    met: usize,
     /// Nodes that were visited: in a tree none is twice.
     seen: Vec<bool>,
 }
@@ -90,6 +92,7 @@ pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>, usi
         vertices: Vec::new(),
         polygons: Vec::new(),
         left_out: 0,
+        met: 0,
         seen: vec![false; gltf.nodes().len()],
     };
     let mut read = 0;
@@ -183,6 +186,8 @@ impl Reader<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive, world: DMat4) -> Result<(), FormatError> {
+        self.met += 1;
+        self.source.within(&limits::POLYGONS, self.met)?;
         let corner_sets: fn(usize) -> [usize; 3] = match primitive.mode() {
             Mode::Triangles => |i| [3 * i, 3 * i + 1, 3 * i + 2],
             // winding alternates in a strip; it is made consistent later

@@ -15,22 +15,22 @@ pub struct Triangles {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Reads an OBJ, glTF or GLB file; polygons become fans of triangles.
+/// Reads an OBJ, glTF or GLB file, a regular one; polygons become fans of triangles.
 ///
 /// Errors name the file and the place in it.
 pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
     let name = path.display().to_string();
-    // a scene from a stranger may name a device or a pipe that never ends
-    if path.exists() && !path.is_file() {
-        return Err(FormatError::Read { file: name, cause: std::io::ErrorKind::InvalidInput.into() });
-    }
     let bytes = bytes_of(path)?;
-    let source = Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) };
-    let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(&source) > 0) {
-        let (vertices, polygons, _) = glb::polygons(&source)?;
+    triangles_of(&Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) })
+}
+
+/// As [`triangles`], of a file's bytes.
+pub fn triangles_of(source: &Source) -> Result<Triangles, FormatError> {
+    let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(source) > 0) {
+        let (vertices, polygons, _) = glb::polygons(source)?;
         (vertices, polygons)
     } else {
-        obj::polygons(&source)?
+        obj::polygons(source)?
     };
     let mut triangles = Vec::new();
     for p in &polygons {

@@ -2,7 +2,7 @@
 //! `round-brilliant:crown-angle=35,table=57`, or a file.
 
 use super::error::FormatError;
-use super::{Imported, read};
+use super::{Imported, read, read_regular};
 use crate::cut::document::DocumentError;
 use crate::cut::{Design, families, library};
 use std::collections::BTreeMap;
@@ -13,6 +13,15 @@ use std::path::Path;
 /// A library name wins over a file of that name, which `./name` reaches. Errors are one line and
 /// name the nearest cut where there is neither. Checked in `tests/formats.rs`.
 pub fn open(spec: &str) -> Result<Imported, FormatError> {
+    open_by(spec, read)
+}
+
+/// As [`open`], for a stone that a file names: only a regular file is read.
+pub fn open_regular(spec: &str) -> Result<Imported, FormatError> {
+    open_by(spec, read_regular)
+}
+
+fn open_by(spec: &str, read: fn(&Path) -> Result<Imported, FormatError>) -> Result<Imported, FormatError> {
     let (name, rest) = spec.split_once(':').map_or((spec, None), |(name, rest)| (name, Some(rest)));
     let known = library::names().any(|n| n == name) || families::FAMILIES.iter().any(|f| f.name == name);
     if known {

@@ -2,6 +2,10 @@
 
 use super::error::FormatError;
 use super::source::{Source, number, words};
+use crate::store::limits;
+
+/// Of words after the numbers no reader knows more than one; two are enough to complain.
+const MOST_AFTER: usize = 2;
 
 /// One record: the numbers after `triangle`, and the words after the numbers.
 pub struct Record<'t> {
@@ -24,11 +28,14 @@ pub fn records<'t>(source: &Source, text: &'t str) -> Result<Vec<Record<'t>>, Fo
     for (line, word) in words(text) {
         let last = records.last_mut();
         match (number(word), last) {
-            _ if begins(word) => records.push(Record { line, numbers: Vec::new(), after: Vec::new() }),
+            _ if begins(word) => {
+                records.push(Record { line, numbers: Vec::new(), after: Vec::new() });
+                source.within_at(line, &limits::POLYGONS, records.len())?;
+            }
             (Some(value), Some(record)) if record.after.is_empty() => record.numbers.push(value),
             (Some(_), _) => return Err(source.at_line(line, "the word 'triangle'", word)),
-            (None, Some(record)) => record.after.push(word),
-            (None, None) => {}
+            (None, Some(record)) if record.after.len() < MOST_AFTER => record.after.push(word),
+            (None, _) => {}
         }
     }
     Ok(records)

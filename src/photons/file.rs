@@ -149,7 +149,7 @@ fn surroundings_checksum(scene: &Scene) -> u32 {
 /// Returns the shots and whether they were read. Checked below and in `tests/render.rs`.
 pub fn load_or_shoot(path: &Path, scene: &Scene, settings: &Settings) -> Result<(Shots, bool), MapFileError> {
     let unusable = |problem| MapFileError::Unusable { path: path.into(), problem };
-    match limits::PHOTON_MAP.read(path) {
+    match limits::PHOTON_MAP.read_regular(path) {
         Ok(bytes) => {
             let bytes = bytes.map_err(|e| unusable(e.to_string()))?;
             let (origin, shots) = decode(&bytes).map_err(unusable)?;

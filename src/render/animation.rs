@@ -89,11 +89,13 @@ pub fn apng(frames: &[Vec<u8>], width: u32, height: u32, command: &str) -> Resul
     Ok(out)
 }
 
-/// The RGB bytes of a PNG of ours, if it is one that `command` made.
-pub fn finished_frame(png: &[u8], command: &str) -> Option<Vec<u8>> {
+/// The RGB bytes of a PNG of ours, if it is one that `command` made, of so many pixels.
+pub fn finished_frame(png: &[u8], command: &str, pixels: u32) -> Option<Vec<u8>> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().ok()?;
     let said = reader.info().utf8_text.iter().find(|t| t.keyword == "Command")?.get_text().ok()?;
-    if said != command {
+    let (width, height) = reader.info().size();
+    // before memory is taken for it
+    if said != command || width.checked_mul(height) != Some(pixels) {
         return None;
     }
     let mut bytes = vec![0; reader.output_buffer_size()?];

@@ -1,13 +1,13 @@
 //! The entries of a scene file, and how each becomes a part of the scene.
 
-use super::file::{Cast, Place, walking_stone};
+use super::file::{Cast, GREATEST, Place, walking_stone};
 use super::lights::{Kind, LIGHTS};
 use super::mesh::Mesh;
 use super::panorama::Panorama;
 use super::surface::{Finish, Plate, Shape};
 use super::{Camera, Lens, Light, PlacedStone, Pose, Reflectance, Surface};
 use crate::cut::Design;
-use crate::formats::scenery;
+use crate::formats::{scenery, stone};
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
 use crate::optics::viewers::{VIEWERS, Viewer};
@@ -15,7 +15,6 @@ use crate::optics::{Illuminant, Material, rgb};
 use crate::walk::Stone;
 use glam::{DMat3, Mat3, Vec3};
 use serde::Deserialize;
-use std::path::Path;
 use std::sync::Arc;
 
 /// What is wrong with an entry, and the key it is about.
@@ -167,14 +166,10 @@ impl StoneEntry {
         self.cut.as_deref().unwrap_or("round-brilliant")
     }
 
-    /// Refuses what is there and no file: a pipe or a device may never end, and the scene may be a
-    /// stranger's.
-    pub(super) fn is_no_device(&self) -> Result<(), Wrong> {
-        let path = Path::new(self.cut());
-        if path.exists() && !path.is_file() && !path.is_dir() {
-            return Err(wrong("cut", format!("{} is no file", self.cut())));
-        }
-        Ok(())
+    /// The design of that STONE: of the library, or of a regular file.
+    pub(super) fn design(&self) -> Result<Design, Wrong> {
+        let opened = stone::open_regular(self.cut()).map_err(|e| wrong("cut", e.to_string()))?;
+        Ok(opened.design)
     }
 
     /// The stone and what it is made of: as the cast says, else the entry, else the design's own
@@ -266,9 +261,14 @@ impl SurfaceEntry {
             (Some(file), None, None, None) => {
                 let mesh = scenery::triangles(&place.folder.join(file));
                 let mesh = mesh.map_err(|e| wrong("mesh", e.to_string()))?;
+                place.count_triangles(mesh.triangles.len()).map_err(|e| wrong("mesh", e.to_string()))?;
                 let scale = place.length(positive("scale", Some(self.scale.unwrap_or(1.0)))?);
+                if mesh.vertices.iter().any(|v| v.length() * f64::from(scale) > GREATEST) {
+                    return Err(wrong("mesh", format!("{file} has a corner beyond ±{GREATEST:e}")));
+                }
                 let at = place.point(self.at.unwrap_or_default()).as_dvec3();
-                Shape::Mesh(Arc::new(Mesh::new(&mesh, turned(self.turn), scale.into(), at)))
+                let mesh = Mesh::new(&mesh, turned(self.turn), scale.into(), at);
+                Shape::Mesh(Arc::new(mesh.map_err(|e| wrong("mesh", e.to_string()))?))
             }
             (None, Some(corner), Some(u), Some(v)) => {
                 let [corner, u, v] = [corner, u, v].map(|p| place.point(p));
@@ -350,8 +350,10 @@ impl LightEntry {
 
     /// The panorama it shows, if any.
     pub(super) fn panorama(&self, place: &Place) -> Result<Option<Panorama>, Wrong> {
-        let open = |file: &String| Panorama::open(&place.folder.join(file)).map_err(|e| wrong("panorama", e));
-        self.panorama.as_ref().map(open).transpose()
+        let Some(file) = &self.panorama else { return Ok(None) };
+        let sky = Panorama::open(&place.folder.join(file)).map_err(|e| wrong("panorama", e))?;
+        place.count_pixels(sky.pixel_count()).map_err(|e| wrong("panorama", e.to_string()))?;
+        Ok(Some(sky))
     }
 
     /// How it is turned.

@@ -22,12 +22,12 @@
 use super::entries::{CameraEntry, LightEntry, StoneEntry, SurfaceEntry, Wrong};
 use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
 use crate::cut::Design;
-use crate::formats::{self, FormatError};
 use crate::optics::Material;
 use crate::store::limits::{self, Exceeded};
 use crate::walk::Stone;
 use glam::Vec3;
 use serde::Deserialize;
+use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -62,9 +62,6 @@ pub enum SceneError {
         /// The limit.
         cause: Exceeded,
     },
-    /// The stone is none.
-    #[error(transparent)]
-    Stone(#[from] FormatError),
     /// More stones than the scene has places for.
     #[error("the scene '{scene}' has places for {places} stone(s), not for {given}")]
     Places {
@@ -139,12 +136,26 @@ pub struct Place<'a> {
     pub folder: &'a Path,
     /// Centre of the first stone; the origin where there is none.
     pub centre: Vec3,
+    /// Triangles and pixels of the files that were read for the scene so far.
+    read: [Cell<usize>; 2],
 }
 
 impl Place<'_> {
     /// A length of the file in the world.
     pub fn length(&self, l: f32) -> f32 {
         l * self.unit
+    }
+
+    /// Counts the triangles of a mesh that was read.
+    pub fn count_triangles(&self, n: usize) -> Result<(), Exceeded> {
+        self.read[0].update(|sum| sum.saturating_add(n));
+        limits::SCENE_TRIANGLES.check(self.read[0].get())
+    }
+
+    /// Counts the pixels of a panorama that was read.
+    pub fn count_pixels(&self, n: usize) -> Result<(), Exceeded> {
+        self.read[1].update(|sum| sum.saturating_add(n));
+        limits::SCENE_PIXELS.check(self.read[1].get())
     }
 
     /// A point of the file in the world.
@@ -231,10 +242,7 @@ impl SceneFile {
         for (i, entry) in document.stone.iter().enumerate() {
             let design = match cast.designs.get(i) {
                 Some(design) => design.clone(),
-                None => {
-                    self.say(entry, entry.get_ref().is_no_device())?;
-                    formats::stone::open(entry.get_ref().cut())?.design
-                }
+                None => self.say(entry, entry.get_ref().design())?,
             };
             let (stone, material) = self.say(entry, entry.get_ref().stone(design, cast))?;
             if i == 0 && document.unit == Unit::Stone {
@@ -245,7 +253,7 @@ impl SceneFile {
             stones.push(PlacedStone { polarised, ..placed });
         }
         let centre = stones.first().map_or(Vec3::ZERO, |s| s.position);
-        let place = Place { unit, folder: &self.folder, centre };
+        let place = Place { unit, folder: &self.folder, centre, read: Default::default() };
         let camera: Camera = self.say(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
         let surfaces: Result<Vec<Surface>, _> =
             document.surface.iter().map(|e| self.say(e, e.get_ref().surface(&place))).collect();
@@ -278,7 +286,7 @@ impl SceneFile {
 }
 
 /// The greatest number in a scene: what is beyond it has no digits left in `f32` for a stone.
-const GREATEST: f64 = 1e9;
+pub(super) const GREATEST: f64 = 1e9;
 
 /// Checks that every number is one and not beyond [`GREATEST`]; the error is where one stands.
 fn sensible(value: &Spanned<DeValue>) -> Result<(), Range<usize>> {

@@ -1,12 +1,14 @@
 //! Triangle meshes around the stones, in a tree of boxes.
 
 use crate::formats::scenery::Triangles;
+use crate::store::limits::{self, Exceeded};
 use glam::{DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
+use std::collections::HashMap;
 
 /// A mesh ready to be met by rays, on both sides.
 pub struct Mesh {
@@ -25,13 +27,21 @@ impl std::fmt::Debug for Mesh {
 
 impl Mesh {
     /// Places a mesh: turned and scaled about its own origin, then moved.
-    pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Mesh {
+    pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Result<Mesh, Exceeded> {
         let place = |i: usize| (at + turn * mesh.vertices[i] * scale).as_vec3a();
         let mut triangles: Vec<Triangle> = mesh
             .triangles
             .iter()
             .map(|[a, b, c]| Triangle { v0: place(*a), v1: place(*b), v2: place(*c) })
             .collect();
+        let mut same: HashMap<[u32; 6], usize> = HashMap::new();
+        for t in &triangles {
+            let (low, high) = (t.v0.min(t.v1).min(t.v2), t.v0.max(t.v1).max(t.v2));
+            let [(a, b, c), (d, e, f)] = [low, high].map(|v| v.into());
+            let count = same.entry([a, b, c, d, e, f].map(f32::to_bits)).or_default();
+            *count += 1;
+            limits::SAME_BOX.check(*count)?;
+        }
         let mut crc = crc32fast::Hasher::new();
         for t in &triangles {
             [t.v0, t.v1, t.v2].iter().flat_map(|v| v.to_array()).for_each(|x| crc.update(&x.to_le_bytes()));
@@ -39,7 +49,7 @@ impl Mesh {
         let tree = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Default::default());
         // in the tree's order, so that a leaf's number is its triangle's
         triangles = tree.primitive_indices.iter().map(|i| triangles[*i as usize]).collect();
-        Mesh { triangles, tree, checksum: crc.finalize() }
+        Ok(Mesh { triangles, tree, checksum: crc.finalize() })
     }
 
     /// Distance along a ray and the unit normal on the ray's side.
@@ -83,7 +93,7 @@ mod tests {
         let mesh = stone.solid.triangulate();
         let triangles = Triangles { vertices: mesh.vertices, triangles: mesh.triangles };
         let scale = 1.0 / stone.unit;
-        let mesh = Mesh::new(&triangles, DMat3::IDENTITY, scale, -stone.centre * scale);
+        let mesh = Mesh::new(&triangles, DMat3::IDENTITY, scale, -stone.centre * scale).expect("few");
         let mut stream = Stream::new(5, Purpose::Test, 0);
         let mut met = 0;
         for _ in 0..2000 {

@@ -42,11 +42,7 @@ impl Panorama {
     /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
     pub fn open(path: &Path) -> Result<Panorama, String> {
         let wrong = |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", path.display());
-        // a scene from a stranger may name a device or a pipe that never ends
-        if path.exists() && !path.is_file() {
-            return Err(wrong(&"it is no file"));
-        }
-        let bytes = limits::PANORAMA.read(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
+        let bytes = limits::PANORAMA.read_regular(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
         Panorama::of(&bytes).map_err(|e| wrong(&e))
     }
 
@@ -84,6 +80,11 @@ impl Panorama {
             .collect();
         cumulative.iter_mut().for_each(|c| *c /= sum);
         Panorama { width, height, pixels, cumulative, mean: (sum / f64::from(4.0 * PI)) as f32, checksum }
+    }
+
+    /// How many pixels it has.
+    pub fn pixel_count(&self) -> usize {
+        self.pixels.len()
     }
 
     /// Mean brightness over the sphere.

@@ -3,7 +3,7 @@
 use super::plane::Plane;
 use super::polyhedron::{Face, Fate, Polyhedron, SolidError};
 use glam::{DMat3, DVec3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Marks a face of the starting box instead of a given plane.
 const OF_THE_BOX: usize = usize::MAX;
@@ -53,7 +53,7 @@ impl Carving {
             return Err(SolidError::Nothing { plane: number });
         }
         let mut on_cut: HashMap<(usize, usize), usize> = HashMap::new();
-        let mut rim: HashMap<usize, usize> = HashMap::new();
+        let mut rim: HashSet<(usize, usize)> = HashSet::new();
         let faces = std::mem::take(&mut self.faces);
         for face in faces {
             if !face.corners.iter().any(|&c| side[c] < 0) {
@@ -77,15 +77,14 @@ impl Carving {
             let on = |c: usize| c >= side.len() || side[c] == 0;
             for (i, &a) in kept.iter().enumerate() {
                 let b = kept[(i + 1) % kept.len()];
-                if on(a) && on(b) && rim.get(&a) != Some(&b) {
-                    rim.insert(b, a);
-                } else if on(a) && on(b) {
-                    rim.remove(&a); // both neighbours of this edge stay: it is no rim
+                // where both neighbours of an edge stay, it is no rim
+                if on(a) && on(b) && !rim.remove(&(a, b)) {
+                    rim.insert((b, a));
                 }
             }
             self.faces.push(Face { plane: face.plane, corners: kept });
         }
-        let corners = ring(rim).ok_or(SolidError::Degenerate { plane: number })?;
+        let corners = ring(&rim).ok_or(SolidError::Degenerate { plane: number })?;
         self.faces.push(Face { plane: number, corners });
         self.settle_from(side.len(), planes);
         Ok(Fate::Facet(0)) // the face's number is known at the end
@@ -104,21 +103,19 @@ impl Carving {
         }
     }
 
-    pub(super) fn refuse_open(&self, size: f64) -> Result<(), SolidError> {
-        let far: Vec<usize> = self
-            .faces
-            .iter()
-            .filter(|f| f.plane == OF_THE_BOX)
-            .flat_map(|f| f.corners.iter().copied())
-            .collect();
+    /// Refuses what has a corner beyond `reach` from the origin, as all of the box are.
+    pub(super) fn refuse_open(&self, reach: f64) -> Result<(), SolidError> {
+        let is_far = |v: &usize| self.vertices[*v].length() > reach;
+        let far: Vec<usize> =
+            self.faces.iter().flat_map(|f| f.corners.iter().copied()).filter(is_far).collect();
         if far.is_empty() {
             return Ok(());
         }
-        let direction = far.iter().map(|&v| self.vertices[v] / size).sum::<DVec3>();
+        let direction = far.iter().map(|&v| self.vertices[v] / reach).sum::<DVec3>();
         let mut planes: Vec<usize> = self
             .faces
             .iter()
-            .filter(|f| f.plane != OF_THE_BOX && f.corners.iter().any(|c| far.contains(c)))
+            .filter(|f| f.plane != OF_THE_BOX && f.corners.iter().any(is_far))
             .map(|f| f.plane)
             .collect();
         planes.sort_unstable();
@@ -167,7 +164,11 @@ fn between(plane: &Plane, a: DVec3, b: DVec3) -> DVec3 {
 }
 
 /// Chains directed edges into one closed ring; none if they do not form one.
-fn ring(next: HashMap<usize, usize>) -> Option<Vec<usize>> {
+fn ring(edges: &HashSet<(usize, usize)>) -> Option<Vec<usize>> {
+    let next: HashMap<usize, usize> = edges.iter().copied().collect();
+    if next.len() < edges.len() {
+        return None;
+    }
     let start = *next.keys().min()?;
     let mut corners = vec![start];
     let mut at = next[&start];

@@ -22,7 +22,8 @@ impl Polyhedron {
     /// The solid with corners nearer than `distance` to each other made one. Faces that shrink to an
     /// edge or a point go, and count as redundant.
     pub fn welded(&self, distance: f64) -> Polyhedron {
-        let first = welded(&self.vertices, distance);
+        let (low, high) = self.bounds();
+        let first = welded(&self.vertices, low, high, distance);
         if first.iter().enumerate().all(|(i, &f)| i == f) {
             return self.clone();
         }

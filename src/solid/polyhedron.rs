@@ -4,31 +4,9 @@
 //! outside), and all facets around it use that judgement, so the result is a closed surface by
 //! construction however the roundings fall.
 
-use super::carving::Carving;
 use super::plane::Plane;
+use super::scale::bounded;
 use glam::DVec3;
-
-/// A corner nearer to a plane than this, times the largest distance of the planes from the origin,
-/// lies on it. Tried in turn until every cut leaves one closed outline: the first is far above the
-/// rounding of `f64` and far below what a faceter can cut; planes that were recovered from nine
-/// decimals or from `f32` miss their common corners by as much as that, and need the later ones.
-/// A smaller value splits corners at which many facets meet, a larger one swallows facets.
-const ON_PLANE: [f64; 5] = [1e-10, 1e-9, 1e-8, 1e-7, 1e-6];
-
-/// Half the side of the box that is cut, times the same distance: a stone that reaches further is
-/// called open.
-const BOX: f64 = 1e4;
-
-/// A stone so many times smaller than the largest distance of its planes is carved again by its own
-/// measure.
-const SMALL: f64 = 16.0;
-
-/// So many times its own radius a solid may lie from the origin.
-const AFAR: f64 = 1e5;
-
-/// A solid of less volume than this, times the cube of its radius, is refused: a needle a thousand
-/// times as long as it is wide has more.
-const SLIVER: f64 = 1e-7;
 
 /// One facet of a polyhedron.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,6 +76,12 @@ pub enum SolidError {
         /// Distance of its centre from the origin.
         distance: f64,
     },
+    /// Planes so far from the origin, or so near, that the cube of their distance is no number.
+    #[error("the planes bound a solid of about {size:.1e} in size, beyond 1e±90")]
+    Size {
+        /// The largest distance of its planes.
+        size: f64,
+    },
     /// A needle or a film, whose corners `f64` cannot tell apart.
     #[error("the planes bound a sliver: its volume is {:.1e} of the cube of its radius", .volume / .cube)]
     Sliver {
@@ -126,67 +110,16 @@ impl Polyhedron {
     /// - `planes`: in any order, any origin (it need not lie inside), any unit
     ///
     /// Coincident planes merge, planes that bound nothing are dropped; [`Polyhedron::fates`] tells.
-    /// Checked in `tests/geometry.rs` (V − E + F = 2, volumes, shuffled and turned planes).
+    /// Every corner lies on its planes and under all others to some 1e-11 of the solid's radius, so the
+    /// volume is the planes' own to 1e-9 of the radius cubed. Checked in `tests/geometry.rs` and
+    /// `tests/hostile/degenerate.rs` (V − E + F = 2, volumes, shuffled, turned and scaled planes).
     pub fn from_planes(planes: &[Plane]) -> Result<Self, SolidError> {
         for (plane, p) in planes.iter().enumerate() {
             if !p.normal.is_finite() || !p.distance.is_finite() || (p.normal.length() - 1.0).abs() > 1e-6 {
                 return Err(SolidError::NotAPlane { plane, normal: p.normal, distance: p.distance });
             }
         }
-        let size = planes.iter().fold(0.0, |m: f64, p| m.max(p.distance.abs())).max(f64::MIN_POSITIVE);
-        let solid = Self::resolved(planes, size)?;
-        let (centre, radius) = solid.bounding_sphere();
-        let distance = centre.length();
-        if distance > AFAR * radius {
-            return Err(SolidError::Afar { radius, distance });
-        }
-        if radius * SMALL < size { Self::near(planes, centre, radius) } else { Ok(solid) }
-    }
-
-    /// Carved with the least tolerance that leaves every outline closed.
-    ///
-    /// - `size`: what tolerance and box are measured by
-    fn resolved(planes: &[Plane], size: f64) -> Result<Self, SolidError> {
-        let mut outcome = Err(SolidError::Degenerate { plane: 0 });
-        for on_plane in ON_PLANE {
-            outcome = Self::carved(planes, size, on_plane);
-            if !matches!(outcome, Err(SolidError::Degenerate { .. })) {
-                break;
-            }
-        }
-        outcome
-    }
-
-    fn carved(planes: &[Plane], size: f64, on_plane: f64) -> Result<Self, SolidError> {
-        let mut cut = Carving::box_of(size * BOX, size * on_plane);
-        let mut fates = Vec::with_capacity(planes.len());
-        for i in 0..planes.len() {
-            fates.push(cut.by(i, planes)?);
-        }
-        cut.refuse_open(size)?;
-        let solid = cut.finish(planes, fates);
-        let (volume, cube) = (solid.volume(), solid.bounding_sphere().1.powi(3));
-        if volume > SLIVER * cube { Ok(solid) } else { Err(SolidError::Sliver { volume, cube }) }
-    }
-
-    /// The solid again, for a stone that is small beside some plane's distance: seen from its own
-    /// centre, so that the tolerance is the stone's, and without the planes that lie far beyond it.
-    fn near(planes: &[Plane], centre: DVec3, radius: f64) -> Result<Self, SolidError> {
-        let reach = 2.0 * radius;
-        let (numbers, moved): (Vec<usize>, Vec<Plane>) = planes
-            .iter()
-            .map(|p| p.moved(-centre))
-            .enumerate()
-            .filter(|(_, p)| p.distance.abs() <= reach)
-            .unzip();
-        let mut solid = Self::resolved(&moved, reach)?;
-        solid.vertices.iter_mut().for_each(|v| *v += centre);
-        solid.faces.iter_mut().for_each(|f| f.plane = numbers[f.plane]);
-        let mut fates = vec![Fate::Redundant; planes.len()];
-        for (number, fate) in numbers.iter().zip(solid.fates) {
-            fates[*number] = if let Fate::Duplicate(of) = fate { Fate::Duplicate(numbers[of]) } else { fate };
-        }
-        Ok(Self { fates, ..solid })
+        bounded(planes)
     }
 
     /// Number of edges.

@@ -142,7 +142,7 @@ pub fn facets_of_polygons(
     }
     let mut surface = Surface::default();
     for weld in WELD {
-        surface = Surface::of(vertices, polygons, &welded(vertices, weld * size));
+        surface = Surface::of(vertices, polygons, &welded(vertices, lo, hi, weld * size));
         if surface.open_edges == 0 {
             break;
         }

@@ -33,11 +33,18 @@ pub(super) struct Surface {
 }
 
 /// For each corner the number of the first corner within `distance` of it.
-pub(super) fn welded(vertices: &[DVec3], distance: f64) -> Vec<usize> {
+///
+/// - `low`, `high`: the box of the corners that matter; those outside stay as they are
+pub(super) fn welded(vertices: &[DVec3], low: DVec3, high: DVec3, distance: f64) -> Vec<usize> {
     let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     let mut first = Vec::with_capacity(vertices.len());
     for (i, v) in vertices.iter().enumerate() {
-        let cell = (*v / distance).floor().to_array().map(|c| c as i64);
+        // all far ones would share the last cell
+        if !(v.cmpge(low) & v.cmple(high)).all() {
+            first.push(i);
+            continue;
+        }
+        let cell = ((*v - low) / distance).floor().to_array().map(|c| c as i64);
         let around = (0..27i64).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]);
         let twin = around
             .filter_map(|d| cells.get(&[0, 1, 2].map(|a| cell[a].saturating_add(d[a]))))
@@ -68,16 +75,18 @@ pub(super) fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize
             }
         }
     }
+    let mut start = 0;
     loop {
         let n = ring.len();
-        if n >= 2 && ring[0] == ring[n - 1] {
+        if n - start >= 2 && ring[start] == ring[n - 1] {
             ring.pop();
-        } else if n >= 3 && ring[0] == ring[n - 2] {
+        } else if n - start >= 3 && ring[start] == ring[n - 2] {
             ring.truncate(n - 2);
-        } else if n >= 3 && ring[1] == ring[n - 1] {
-            ring.remove(0);
+        } else if n - start >= 3 && ring[start + 1] == ring[n - 1] {
+            start += 1;
             ring.pop();
         } else {
+            ring.drain(..start);
             return ring;
         }
     }
@@ -218,12 +227,15 @@ impl Surface {
             let mut weight = area.length();
             let mut queue: VecDeque<usize> = self.neighbours[seed].iter().copied().collect();
             while let Some(f) = queue.pop_front() {
+                if taken[f] {
+                    continue;
+                }
                 let face = &self.faces[f];
                 let plane = Plane::new(area, 0.0);
                 let level = plane.height(moment / weight);
                 let flat =
                     face.corners.iter().all(|&c| (plane.height(self.vertices[c]) - level).abs() <= within);
-                if taken[f] || !flat || face.area.dot(area) < 0.0 || self.named_apart(polygons, seed, f) {
+                if !flat || face.area.dot(area) < 0.0 || self.named_apart(polygons, seed, f) {
                     continue;
                 }
                 taken[f] = true;

@@ -3,7 +3,8 @@
 //! Each is many times what any real stone or scene needs. One factor raises them all, for whoever has
 //! such a file and the memory for it; the command line takes it from the environment.
 
-use std::io::{Error, Read};
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -59,6 +60,13 @@ pub static STONES: Limit = Limit::new(100, "stones in a scene");
 pub static SURFACES: Limit = Limit::new(500, "surfaces in a scene");
 /// Lights in one scene.
 pub static LIGHTS: Limit = Limit::new(500, "lights in a scene");
+/// Of all surfaces of one scene: a mesh that is named twice counts twice.
+pub static SCENE_TRIANGLES: Limit = Limit::new(2_000_000, "triangles of all meshes in a scene");
+/// Of one mesh of a scene. Among equal boxes the builder of the tree finds neighbours in a time that
+/// grows with the square of them.
+pub static SAME_BOX: Limit = Limit::new(1000, "triangles of a scene's mesh with the same bounds");
+/// Of all lights of one scene.
+pub static SCENE_PIXELS: Limit = Limit::new(1 << 26, "pixels of all panoramas in a scene");
 /// Panoramas as files.
 pub static PANORAMA: Limit = Limit::new(256 << 20, "bytes in a panorama");
 /// 8192 × 4096: a gigabyte while it is read.
@@ -92,6 +100,9 @@ pub static ALL: &[&Limit] = &[
     &STONES,
     &SURFACES,
     &LIGHTS,
+    &SCENE_TRIANGLES,
+    &SAME_BOX,
+    &SCENE_PIXELS,
     &PANORAMA,
     &PIXELS,
     &PIXELS_PER_BYTE,
@@ -132,12 +143,35 @@ impl Limit {
         Exceeded { most: self.most(), of: self.of, twice: 2 * FACTOR.load(Ordering::Relaxed) }
     }
 
-    /// The bytes of the file at `path`, if the operating system gives them and they are not more.
+    /// The bytes at `path`, if the operating system gives them and they are not more. It may be a pipe
+    /// or a device: so only for what is named on the command line.
     pub fn read(&self, path: &Path) -> Result<Result<Vec<u8>, Exceeded>, Error> {
+        self.read_from(File::open(path)?)
+    }
+
+    /// As [`Limit::read`], but only of a regular file.
+    pub fn read_regular(&self, path: &Path) -> Result<Result<Vec<u8>, Exceeded>, Error> {
+        self.read_from(regular(path)?)
+    }
+
+    fn read_from(&self, file: File) -> Result<Result<Vec<u8>, Exceeded>, Error> {
+        // a file says how large it is; pipes and devices say 0
+        if let Err(exceeded) = self.check(file.metadata()?.len()) {
+            return Ok(Err(exceeded));
+        }
         let mut bytes = Vec::new();
-        std::fs::File::open(path)?.take(self.most() + 1).read_to_end(&mut bytes)?;
+        file.take(self.most().saturating_add(1)).read_to_end(&mut bytes)?;
         Ok(self.check(bytes.len()).map(|()| bytes))
     }
+}
+
+/// Opens the file at `path` to be read, if it is one or a link to one: a pipe may never end, a device
+/// may do anything, and whoever named it may be a stranger.
+pub fn regular(path: &Path) -> Result<File, Error> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(Error::new(ErrorKind::InvalidInput, "it is no file"));
+    }
+    File::open(path)
 }
 
 /// Raises every limit for the rest of the process.

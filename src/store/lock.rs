@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// No name of a hidden file is longer in bytes: file systems take 255.
@@ -31,6 +32,10 @@ pub fn take(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
         std::fs::create_dir_all(folder)?;
     }
     loop {
+        // a pipe in its place would be waited for without end
+        if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+            return Err(Error::new(ErrorKind::InvalidInput, format!("{} is no file", path.display())));
+        }
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             waiting();

@@ -7,7 +7,7 @@ use super::lock;
 use super::replace::WriteError;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// First word of the file, with the version of its form.
@@ -216,7 +216,7 @@ fn content(file: &mut File, head: &str) -> std::io::Result<Content> {
             Record::Ends => return Ok(Content::Good { start, end, done }),
             Record::Broken => return Ok(Content::Useless("it is broken")),
             Record::Whole { key, length, .. } => {
-                let position: u64 = key.parse().map_err(|_| Error::from(ErrorKind::InvalidData))?;
+                let Ok(position) = key.parse() else { return Ok(Content::Useless("it is broken")) };
                 done.add(position);
                 end += length;
             }

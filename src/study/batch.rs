@@ -110,16 +110,20 @@ impl Summary {
 
     fn count(&mut self, of: &str, n: Samples) {
         let sum = self.samples.entry(of.to_owned()).or_insert(Samples { least: n.least, most: 0, total: 0 });
-        *sum =
-            Samples { least: sum.least.min(n.least), most: sum.most.max(n.most), total: sum.total + n.total };
+        let total = sum.total.saturating_add(n.total);
+        *sum = Samples { least: sum.least.min(n.least), most: sum.most.max(n.most), total };
     }
 
-    /// Adds what another part of the table comes to.
+    /// Adds what another part of the table comes to, whatever its file says that it does.
     pub fn join(&mut self, other: &Summary) {
-        self.rows += other.rows;
-        self.short += other.short;
-        self.failed += other.failed;
-        self.unreadable += other.unreadable;
+        for (sum, n) in [
+            (&mut self.rows, other.rows),
+            (&mut self.short, other.short),
+            (&mut self.failed, other.failed),
+            (&mut self.unreadable, other.unreadable),
+        ] {
+            *sum = sum.saturating_add(n);
+        }
         other.samples.iter().for_each(|(of, n)| self.count(of, *n));
     }
 }

@@ -68,7 +68,12 @@ fn missing(shards: &[Shard], total: u64) -> String {
         }
         format!("shard {s} is missing: rows {} ({rows} of {total})", named.join(", "))
     };
-    shards.iter().map(one).collect::<Vec<_>>().join("; ")
+    const SHOWN: usize = 8;
+    let mut said: Vec<String> = shards.iter().take(SHOWN).map(one).collect();
+    if shards.len() > SHOWN {
+        said.push(format!("{} more shards are missing", shards.len() - SHOWN));
+    }
+    said.join("; ")
 }
 
 impl Part {
@@ -77,9 +82,9 @@ impl Part {
         let form = Form::of(table)?;
         let beside = Meta::beside(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
-        let sum = File::open(table).and_then(checksum).map_err(|e| fail(table, e))?;
+        let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let text = limits::COMPANION.read(&beside).map_err(|e| fail(&beside, e))?;
+        let text = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
         let text = text.map_err(|e| wrong(e.to_string()))?;
         let meta: Meta = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
         if meta.crc32 != format!("{sum:08x}") {

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 /// The part `number` of `of`: rows number − 1, number − 1 + of, …
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "Stated")]
 pub struct Shard {
     /// Which part, from 1.
     pub number: u64,
@@ -13,13 +14,39 @@ pub struct Shard {
     pub of: u64,
 }
 
+/// As a file says it.
+#[derive(Deserialize)]
+struct Stated {
+    number: u64,
+    of: u64,
+}
+
+impl TryFrom<Stated> for Shard {
+    type Error = String;
+
+    fn try_from(Stated { number, of }: Stated) -> Result<Shard, String> {
+        Shard::checked(number, of)
+    }
+}
+
+/// No table is shared by more machines.
+const MOST: u64 = 1_000_000;
+
 impl Shard {
+    fn checked(number: u64, of: u64) -> Result<Shard, String> {
+        if (1..=of).contains(&number) && of <= MOST {
+            Ok(Shard { number, of })
+        } else {
+            Err("a shard is I/N with I from 1 to N, as 3/8".into())
+        }
+    }
+
     /// The whole table.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
     /// How many rows of `total` are in it.
     pub fn rows(self, total: u64) -> u64 {
-        (total + self.of - self.number) / self.of
+        total.saturating_add(self.of - self.number) / self.of
     }
 
     /// Number of the whole table's row that is its row `position`, both from 0.
@@ -39,10 +66,8 @@ impl FromStr for Shard {
 
     fn from_str(text: &str) -> Result<Shard, String> {
         let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        match parts {
-            Some((number, of)) if (1..=of).contains(&number) && of <= 1_000_000 => Ok(Shard { number, of }),
-            _ => Err("a shard is I/N with I from 1 to N, as 3/8".into()),
-        }
+        let (number, of) = parts.unwrap_or_default();
+        Shard::checked(number, of)
     }
 }
 
@@ -63,6 +88,11 @@ mod tests {
         for bad in ["", "3", "0/3", "4/3", "1/0", "a/b", "1/2/3"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }
+        for bad in [(0, 3), (4, 3), (1, 0), (1, u64::MAX)] {
+            let text = format!("{{\"number\":{},\"of\":{}}}", bad.0, bad.1);
+            assert!(serde_json::from_str::<Shard>(&text).is_err(), "{text}");
+        }
+        assert_eq!(Shard { number: 1, of: 3 }.rows(u64::MAX), u64::MAX / 3);
         assert_eq!("2/3".parse::<Shard>().map(|s| s.to_string()), Ok("2/3".into()));
     }
 }

@@ -3,9 +3,14 @@
 
 use super::targets::{self, FOUND, READ_ONLY};
 use super::{SAMPLES, cutlab};
+use cutlab::formats::{self, FORMATS};
+use cutlab::render::animation;
+use cutlab::store::progress::Progress;
 use rayon::prelude::*;
 use std::fs;
+use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 
 /// What is damaged: its bytes, the target that reads them, and the byte that tells the target how.
 struct Sample {
@@ -51,7 +56,93 @@ fn samples() -> Vec<Sample> {
         add(ending, targets::panoramas, None, &fs::read(&path).expect("was written"));
     }
     add("scene", targets::scenes, None, SCENE.as_bytes());
+    for (name, bytes) in good_files(&["octahedron.obj", "octahedron-odd.obj", "octahedron.gltf"]) {
+        add(&format!("{name} as scenery"), targets::sceneries, None, &bytes);
+    }
     all
+}
+
+fn good_files(names: &[&'static str]) -> Vec<(&'static str, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good");
+    names.iter().map(|name| (*name, fs::read(folder.join(name)).expect("is there"))).collect()
+}
+
+/// What is damaged here is every format that is read.
+#[test]
+fn there_is_a_sample_of_every_format() {
+    let read = |bytes: &Vec<u8>| formats::read_bytes("sample", bytes, None).ok().map(|i| i.format);
+    let known: Vec<_> = SAMPLES.iter().filter_map(|(_, bytes)| read(bytes)).collect();
+    for format in FORMATS {
+        assert!(known.contains(&format.name), "no sample of {}", format.name);
+    }
+}
+
+/// Progress: of damaged records none is taken for good, and none for another.
+fn try_progress(folder: &Path, damage: &str, bytes: &[u8], records: &[&[u8]]) {
+    let path = folder.join(".t.csv.progress");
+    fs::write(&path, bytes).expect("written");
+    let mut progress = Progress::open(&path, "work", &|_| ()).unwrap_or_else(|e| panic!("{damage}: {e}"));
+    assert!(progress.count() <= records.len() as u64, "{damage}");
+    let mut there: Vec<Vec<u8>> = Vec::new();
+    progress
+        .each(|payload| {
+            there.push(payload.to_vec());
+            Ok(())
+        })
+        .expect("reads");
+    assert!(there.iter().zip(records).all(|(a, b)| a == b), "{damage}: {there:?}");
+    // the work goes on from there
+    let next = progress.missing_from();
+    progress.append(next, b"again").expect("writes");
+    drop(progress);
+    let again = Progress::open(&path, "work", &|_| ()).expect("opens");
+    assert!(again.count() > 0 && again.missing_from() > next, "{damage}");
+}
+
+#[test]
+fn damaged_progress_is_never_taken_for_work_that_is_done() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join(".t.csv.progress");
+    let records: [&[u8]; 4] = [b"ok\n1,2,3", b"", b"x", b"line\nanother"];
+    let mut progress = Progress::open(&path, "work", &|_| ()).expect("opens");
+    for i in [0, 2, 1, 3] {
+        progress.append(i as u64, records[i]).expect("writes");
+    }
+    drop(progress);
+    let good = fs::read(&path).expect("is there");
+    try_progress(folder.path(), "whole", &good, &records);
+    for at in 0..good.len() {
+        try_progress(folder.path(), &format!("cut off at {at}"), &good[..at], &records);
+        for value in [good[at] ^ 0x10, good[at] ^ 1, 0, 0xff, b'9', b'\n'] {
+            let mut bytes = good.clone();
+            bytes[at] = value;
+            try_progress(folder.path(), &format!("byte {at} = {value:#04x}"), &bytes, &records);
+        }
+    }
+}
+
+/// Frames that are kept: a damaged one is made anew, whatever it claims.
+#[test]
+fn damaged_frames_are_none_or_whole() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let small = "--width 4 --height 3 --spp 1 --photons 3 --nearest 5";
+    let out = cutlab(folder.path(), &format!("render -q octahedron --frames 1 {small} -o turn-%03d.png"));
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    let good = fs::read(folder.path().join("turn-000.png")).expect("was written");
+    let read = png::Decoder::new(Cursor::new(&good)).read_info().expect("a PNG");
+    let text = read.info().utf8_text.iter().find(|t| t.keyword == "Command").expect("says its command");
+    let command = text.get_text().expect("is text");
+    let whole = |bytes: &[u8]| animation::finished_frame(bytes, &command, 12);
+    assert_eq!(whole(&good).map(|rgb| rgb.len()), Some(36));
+    assert_eq!(animation::finished_frame(&good, &command, 13), None);
+    for at in 0..good.len() {
+        assert!(whole(&good[..at]).is_none_or(|rgb| rgb.len() == 36), "cut off at {at}");
+        for value in [good[at] ^ 0x10, 0, 0xff] {
+            let mut bytes = good.clone();
+            bytes[at] = value;
+            assert!(whole(&bytes).is_none_or(|rgb| rgb.len() == 36), "byte {at} = {value:#04x}");
+        }
+    }
 }
 
 /// Every kind of entry in few bytes.

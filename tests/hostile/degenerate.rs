@@ -204,6 +204,71 @@ fn stones_of_any_scale_are_the_same_stone() {
     }
 }
 
+/// Found by fuzzing: nine planes whose corners miss each other by about what was taken for one place made
+/// solids that differed by 5e-9 of their size cubed, by the order of the planes.
+#[test]
+fn planes_that_nearly_coincide_bound_one_volume_in_any_order() {
+    let nine = [
+        [-1.0, 0.0, -0.000000001, 1.000000007],
+        [1.0, -0.000000006, 0.000000005, 0.999999994],
+        [0.000000004, -0.000000006, -1.0, 1.000000007],
+        [-0.000000005, -1.0, 0.000000007, 0.999999994],
+        [1.0, -0.000000005, -0.000000007, 1.000000005],
+        [0.000000001, 1.0, -0.000000003, 1.000000009],
+        [-0.000000002, -0.000000009, 1.0, 0.999999996],
+        [0.000000004, -0.000000005, -1.0, 0.99999999],
+        [1.0, 0.000000007, -0.000000006, 0.999999992],
+    ];
+    for k in [1e-33, 1e-6, 1.0, 1e6, 1e33] {
+        let planes: Vec<Plane> = nine
+            .map(|[x, y, z, d]| Plane { normal: DVec3::new(x, y, z).normalize(), distance: d * k })
+            .to_vec();
+        let volume = Polyhedron::from_planes(&planes).expect("closed").volume();
+        assert_stable(&format!("nine planes × {k}"), &planes, volume);
+        // a cube of side 1.999999999 ± 1e-8, but for what the slopes take
+        assert!((volume / k.powi(3) - 8.0).abs() < 3e-7, "{volume}");
+    }
+}
+
+/// Planes at all distances that the stone does not reach, whatever its scale and place.
+#[test]
+fn far_planes_change_nothing_at_any_scale() {
+    let directions = [DVec3::X, DVec3::ONE, DVec3::new(-0.3, 0.9, 0.2), DVec3::new(0.1, -0.5, -0.8)];
+    for (what, planes) in [("cube", cube()), ("bipyramid", bipyramid(24, 0.7)), ("brilliant", brilliant())] {
+        let one = Polyhedron::from_planes(&planes).expect("closed");
+        let (_, size) = one.bounding_sphere();
+        for place in [0.0, 0.7, 30.0, 1e3] {
+            let offset = DVec3::new(0.48, -0.6, 0.64) * place * size;
+            for k in [1e-80, 1e-30, 1e-9, 1.0, 1e9, 1e30, 1e80] {
+                let mut all: Vec<Plane> = planes.iter().map(|p| p.moved(offset).scaled(k)).collect();
+                for (i, far) in [3.0, 17.0, 1e3, 1e5, 1e10, 1e20, 1e40, 1e100, 1e200].iter().enumerate() {
+                    let normal = directions[i % directions.len()].normalize();
+                    let far = Plane { normal, distance: far * size }.moved(offset).scaled(k);
+                    all.insert((i * 7) % all.len(), far);
+                }
+                assert_stable(&format!("{what} × {k} at {place}"), &all, one.volume() * k.powi(3));
+                let solid = Polyhedron::from_planes(&all).expect("closed");
+                assert_eq!(solid.faces.len(), one.faces.len(), "{what} × {k} at {place}");
+            }
+        }
+    }
+    // a far plane that leaves nothing, and one that makes a needle
+    let mut planes = cube();
+    planes.push(Plane::new(DVec3::X, -1e33));
+    assert_refused("a cube behind a far plane", &planes, |e| matches!(e, SolidError::Nothing { .. }));
+    let mut planes = cube();
+    planes[4].distance = 1e33;
+    assert_refused("a cube with a far side", &planes, |_| true);
+}
+
+#[test]
+fn sizes_whose_cube_is_no_number_are_refused() {
+    for k in [1e-300, 1e-110, 1e110, 1e300] {
+        let planes: Vec<Plane> = bipyramid(5, 0.7).iter().map(|p| p.scaled(k)).collect();
+        assert_refused(&format!("× {k}"), &planes, |e| matches!(e, SolidError::Size { .. }));
+    }
+}
+
 #[test]
 fn open_stones_are_refused() {
     let open = |e: &SolidError| matches!(e, SolidError::Open { .. });
@@ -291,5 +356,44 @@ proptest! {
         assert_correct("touched", &solid);
         let off = solid.volume() / (volume_of_bipyramid(n, slope) * k.powi(3)) - 1.0;
         prop_assert!(off.abs() <= 1e-9, "volume off by {:e}", off);
+    }
+    /// Planes that miss each other's corners by anything from rounding to a tenth, of any scale.
+    #[test]
+    fn planes_that_nearly_meet_bound_one_volume(
+        corners in prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 4..24),
+        through in prop::collection::vec((prop::array::uniform3(any::<prop::sample::Index>()), prop::array::uniform4(-1.0..1.0f64)), 4..60),
+        of_a_cube in any::<bool>(),
+        noise in -15i32..0,
+        turn in (0.0..TAU, 0.0..TAU, 0.0..TAU),
+        order in any::<u64>(),
+        scale in -30i32..31,
+    ) {
+        let (noise, k) = (10f64.powi(noise), 10f64.powi(scale));
+        let corners: Vec<DVec3> = corners.into_iter().map(DVec3::from).collect();
+        let mut planes = if of_a_cube { cube() } else { Vec::new() };
+        for (at, off) in through {
+            let [a, b, c] = at.map(|i| corners[i.index(corners.len())]);
+            let flat = (b - a).cross(c - a);
+            let normal = if of_a_cube { cube()[at[0].index(6)].normal } else { flat.normalize_or_zero() };
+            let shaken = normal + noise * DVec3::new(off[0], off[1], off[2]);
+            if flat.length() < 1e-6 {
+                continue;
+            }
+            for normal in [shaken.normalize(), -shaken.normalize()] {
+                let reach = corners.iter().map(|v| v.dot(normal)).fold(f64::MIN, f64::max);
+                let distance = if of_a_cube { 1.0 } else { reach } + noise * off[3];
+                planes.push(Plane { normal, distance: distance * k });
+            }
+        }
+        planes.iter_mut().take(if of_a_cube { 6 } else { 0 }).for_each(|p| p.distance *= k);
+        let turn = DMat3::from_euler(EulerRot::XYZ, turn.0, turn.1, turn.2);
+        let mut shuffled: Vec<Plane> = planes.iter().map(|p| p.turned(turn)).collect();
+        shuffled.sort_by_cached_key(|p| p.distance.to_bits().wrapping_mul(order | 1) ^ p.normal.x.to_bits());
+        if let (Ok(a), Ok(b)) = (Polyhedron::from_planes(&planes), Polyhedron::from_planes(&shuffled)) {
+            assert_correct("as given", &a);
+            assert_correct("shuffled", &b);
+            let apart = (a.volume() - b.volume()).abs() / a.bounding_sphere().1.powi(3);
+            prop_assert!(apart <= 1e-9, "volumes apart by {:e}", apart);
+        }
     }
 }

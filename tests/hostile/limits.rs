@@ -257,7 +257,7 @@ fn scenes_are_limited_and_their_numbers_sensible() {
         (scene("").replace("-5", "-1e30"), "line 3: a number beyond"),
         (scene("").replace("30", "inf"), "line 4: a number beyond"),
         (scene("").replace("30", "9_000_000_000"), "line 4: a number beyond"),
-        (scene("").replace("\"cube\"", "\"/dev/zero\""), "line 6: /dev/zero is no file"),
+        (scene("").replace("\"cube\"", "\"/dev/zero\""), "line 6: cannot read /dev/zero: it is no file"),
         (
             scene(plate)
                 .replace("corner = [-9, -9, 0]\nu = [18, 0, 0]\nv = [0, 18, 0]", "mesh = \"/dev/zero\""),

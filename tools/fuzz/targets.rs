@@ -7,14 +7,15 @@
 
 use cutlab::cut::Design;
 use cutlab::cut::families::{self, FAMILIES};
-use cutlab::formats::{self, FORMATS, FormatError, Source};
+use cutlab::formats::{self, FORMATS, FormatError, Source, scenery};
 use cutlab::photons::file;
+use cutlab::scene::mesh::Mesh;
 use cutlab::scene::panorama::Panorama;
 use cutlab::scene::{Cast, SceneFile};
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::study::meta::Meta;
 use cutlab::study::table::{Form, Numbers, RowReader};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -209,6 +210,28 @@ pub fn scenes(data: &[u8]) {
     match scene {
         Ok(scene) => assert!(!scene.stones.is_empty()),
         Err(error) => is_one_line(&error),
+    }
+}
+
+/// A mesh that stands around stones, of any shape: rays meet it in front of them on the side they see.
+pub fn sceneries(data: &[u8]) {
+    let source = Source { name: "fuzzed", bytes: data, folder: None };
+    let mesh = match scenery::triangles_of(&source) {
+        Ok(mesh) => mesh,
+        Err(error) => return is_one_line(&error),
+    };
+    // the numbers of scenes, which are refused beyond that
+    if mesh.vertices.iter().any(|v| v.length() > 1e9) {
+        return;
+    }
+    let mesh = match Mesh::new(&mesh, DMat3::IDENTITY, 1.0, DVec3::ZERO) {
+        Ok(mesh) => mesh,
+        Err(error) => return is_one_line(&error),
+    };
+    for d in [Vec3::X, Vec3::NEG_Z, Vec3::new(0.6, -0.48, 0.64)] {
+        if let Some((distance, normal)) = mesh.hit(-3.0 * d, d) {
+            assert!(distance > 0.0 && normal.dot(d) <= 1e-6, "{distance} {normal} against {d}");
+        }
     }
 }
 

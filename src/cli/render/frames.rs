@@ -12,8 +12,9 @@ use crate::render::write::{self, Bits, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, tracer};
 use crate::scene::Scene;
 use crate::store::kept::Kept;
-use crate::store::lock;
 use crate::store::replace::{self, WriteError};
+use crate::store::{limits, lock};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// What is written.
@@ -109,7 +110,7 @@ impl Target {
     /// - `pixels`: how many it must have
     fn finished(&self, number: u32, passes: bool, command: &str, pixels: u32) -> Option<Vec<u8>> {
         let path = self.frame(number);
-        let shown = |path: &Path| animation::finished_frame(&std::fs::read(path).ok()?, command);
+        let shown = |path: &Path| animation::finished_frame(&whole(path, pixels)?, command, pixels);
         let mut others = Pass::ALL.iter().filter(|_| passes);
         if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
             return None;
@@ -124,6 +125,16 @@ impl Target {
             Kind::Png | Kind::Exr => self.path.clone(),
         }
     }
+}
+
+/// The bytes of a file, if it is one and not larger than a PNG of so many pixels of ours can be.
+fn whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
+    /// Of a pixel of four channels of 16 bits that nothing packs, with room to spare; and of the texts.
+    const PIXEL: u64 = 16;
+    const TEXTS: u64 = 1 << 20;
+    let (mut bytes, most) = (Vec::new(), u64::from(pixels) * PIXEL + TEXTS);
+    limits::regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
+    (bytes.len() as u64 <= most).then_some(bytes)
 }
 
 /// `turn-%03d.png` with the number; none if there is no place for it.

@@ -60,7 +60,10 @@ pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
     for (at, line) in lines(&text) {
         match row(at, line) {
             None => {}
-            Some(Some(row)) => rows.push(row),
+            Some(Some(row)) => {
+                rows.push(row);
+                source.within_at(at, &limits::CORNERS, rows.len())?;
+            }
             Some(None) => return Err(source.at_line(at, "a row of numbers, 'v …' or 'f …'", line.trim())),
         }
     }

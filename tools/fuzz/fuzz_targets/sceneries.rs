@@ -1,0 +1,8 @@
+//! libFuzzer on [`targets::sceneries`].
+
+#![no_main]
+
+#[path = "../targets.rs"]
+mod targets;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| targets::sceneries(data));
