@@ -65,18 +65,38 @@ pub fn preset(name: &str) -> Option<Result<SceneFile, SceneError>> {
 }
 
 impl Scene {
+    /// Whether light can fall on a diffuse surface last from a stone or a mirror.
+    pub fn has_caustics(&self) -> bool {
+        let mirrors = self.surfaces.iter().filter(|s| matches!(s.finish, Finish::Mirror(_))).count();
+        mirrors < self.surfaces.len() && (mirrors > 0 || !self.stones.is_empty())
+    }
+
+    /// Whether light can go straight from one place of a diffuse surface to another: a plate alone
+    /// does not shine on itself.
+    pub fn has_indirect_light(&self) -> bool {
+        let mut diffuse = self.surfaces.iter().filter(|s| matches!(s.finish, Finish::Diffuse(_)));
+        match (diffuse.next(), diffuse.next()) {
+            (Some(one), None) => matches!(one.shape, surface::Shape::Mesh(_)),
+            (one, _) => one.is_some(),
+        }
+    }
+
     /// Where photons are sent.
     ///
-    /// - `share`: of photons sent straight at the stones
-    pub fn aim(&self, share: f32) -> Aim {
-        let targets: Vec<Ball> = self.stones.iter().map(PlacedStone::ball).collect();
+    /// - `share`: of photons sent at the stones and at what lies near them; `halos`: how many balls,
+    ///   each twice as wide as the one before, around each stone: what lies within r of a stone
+    ///   sends it light as 1/r², so each of them matters about as much as the next
+    pub fn aim(&self, share: f32, halos: u32) -> Aim {
+        let stones: Vec<Ball> = self.stones.iter().map(PlacedStone::ball).collect();
+        let wider = |b: &Ball, halo: u32| Ball { radius: b.radius * 2f32.powi(halo as i32), ..*b };
+        let targets = stones.iter().flat_map(|b| (0..=halos).map(move |halo| wider(b, halo))).collect();
         let corners = |b: &Ball| [b.centre - Vec3::splat(b.radius), b.centre + Vec3::splat(b.radius)];
-        let mut points: Vec<Vec3> = targets.iter().flat_map(corners).collect();
+        let mut points: Vec<Vec3> = stones.iter().flat_map(corners).collect();
         points.extend(self.surfaces.iter().flat_map(|s| <[Vec3; 2]>::from(s.bounds())));
         let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let world = Ball { centre: 0.5 * (low + high), radius: 0.5 * low.distance(high) };
-        Aim { targets, share, world }
+        Aim { share: if stones.is_empty() { 0.0 } else { share }, targets, world }
     }
 }
 
@@ -97,6 +117,30 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn light_is_polarised_unless_the_scene_or_the_cast_says() {
+        let scalar = format!("polarisation = false\n{}", SCENES[0].1);
+        for (text, asked, polarised) in [
+            (SCENES[0].1, None, true),
+            (SCENES[0].1, Some(false), false),
+            (&*scalar, None, false),
+            (&*scalar, Some(true), true),
+        ] {
+            let file = SceneFile::parse("t", "t.toml", text, Path::new("")).expect("is sound");
+            let cast = Cast { polarisation: asked, ..Cast::default() };
+            let scene = file.build(&cast, 1.0).expect("is set up");
+            assert!(scene.stones.iter().all(|s| s.polarised == polarised));
+        }
+    }
+
+    #[test]
+    fn only_a_plate_alone_does_not_shine_on_itself() {
+        let indirect =
+            |name| preset(name).expect("in the catalogue").expect("is sound").build(&Cast::default(), 1.0);
+        assert!(!indirect("table").expect("is set up").has_indirect_light());
+        assert!(indirect("cornell").expect("is set up").has_indirect_light());
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What is on disk: the only place that writes files, and how much of one is read.
 
+pub mod kept;
 pub mod limits;
 pub mod lock;
 pub mod progress;

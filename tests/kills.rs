@@ -163,6 +163,15 @@ fn a_photon_map_and_its_picture() {
     survives("photon map", 0, &render, nothing, 2);
 }
 
+/// Long enough for its state to be kept now and then.
+#[test]
+#[ignore = "twenty kills: .ci/run runs it"]
+fn a_progressive_picture() {
+    let rounds = ["--progressive", "--rounds", "60", "-o", "p.exr"];
+    let render = [&["render"], &PICTURE[..4], &["--photons", "2000", "--nearest", "50"], &rounds].concat();
+    survives("progressive picture", 0, &render, nothing, 1);
+}
+
 #[test]
 #[ignore = "twenty kills: .ci/run runs it"]
 fn designs_in_and_out() {

@@ -60,3 +60,22 @@ fn rounds_do_not_depend_on_threads() {
     };
     assert_eq!(on(1), on(5));
 }
+
+/// A picture put where another was goes on as that would have; a state of another form is refused.
+#[test]
+fn a_picture_goes_on_from_its_state() {
+    let scene = table();
+    let few = photons::Settings { photons: 1_000, nearest: 30, seed: SEED };
+    let new = || Progressive::new(&scene, &scene.camera, settings(1), few);
+    let mut whole = new();
+    (0..2).for_each(|_| whole.round(&|| ()));
+    let (state, noise) = (whole.state(), whole.noise());
+    let mut later = new();
+    assert!(!later.go_on_from(&state[1..]) && !later.go_on_from(&[]));
+    assert!(later.go_on_from(&state));
+    assert_eq!((later.rounds(), later.noise(), later.film()), (2, noise, whole.film()));
+    for picture in [&mut whole, &mut later] {
+        (0..2).for_each(|_| picture.round(&|| ()));
+    }
+    assert_eq!((later.film(), later.noise()), (whole.film(), whole.noise()));
+}

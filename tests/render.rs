@@ -85,17 +85,22 @@ fn first_meetings(room: &Scene) -> (f64, f64) {
 /// front takes a little light too: 0.09 of the room's 181 square units.
 #[test]
 #[ignore = "long statistics; CI runs it in release"]
-fn a_closed_grey_room_balances_with_the_stone_in_it() {
+fn a_closed_grey_room_balances_with_and_without_the_stone() {
     let grey = 0.5;
-    let room = closed_room(grey as f32);
+    let with = closed_room(grey as f32);
+    let without = Scene { stones: Vec::new(), ..with.clone() };
     let settings = Settings { photons: 1_000_000, nearest: 500, seed: SEED };
-    let shots = Shots::shoot(&room, &settings);
     let power = f64::from(small_light().area()) * 10.0 * std::f64::consts::PI;
-    let (on_stone, on_wall) = first_meetings(&room);
-    assert!(on_stone > 0.01, "the stone is lit: {on_stone}");
-    let fallen = on_wall * power + flux(&shots.caustic) + flux(&shots.indirect);
     let expected = power / (1.0 - grey);
-    assert!((fallen / expected - 1.0).abs() < 5e-3, "{fallen} of {expected}");
+    for room in [&with, &without] {
+        let shots = Shots::shoot(room, &settings);
+        let (on_stone, on_wall) = first_meetings(room);
+        assert_eq!(on_stone > 0.01, !room.stones.is_empty(), "the stone is lit: {on_stone}");
+        assert_eq!(shots.caustic.photons.is_empty(), room.stones.is_empty());
+        let fallen = on_wall * power + flux(&shots.caustic) + flux(&shots.indirect);
+        println!("{} stones: fallen {fallen:.4} of {expected:.4}", room.stones.len());
+        assert!((fallen / expected - 1.0).abs() < 5e-3, "{fallen} of {expected}");
+    }
 }
 
 /// [D] Uniform light on a wall is found uniform, up to the edges and corners.

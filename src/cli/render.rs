@@ -85,9 +85,10 @@ pub struct Args {
     /// Bits a channel of a PNG: 8 or 16
     #[arg(long, default_value = "8", value_parser = ["8", "16"])]
     bits: String,
-    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
-    polarisation: bool,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each.
+    /// On, unless the scene says
+    #[arg(long, value_name = "on|off", value_parser = stones::on_off)]
+    polarisation: Option<bool>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -141,12 +142,10 @@ fn counted(text: &str) -> Result<usize, String> {
 /// Takes the picture or pictures.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
-    let first = args.stones.first().map_or_else(|| file.first_cut(), String::as_str);
+    let first = args.stones.first().map(String::as_str).or(file.first_cut());
+    let called = first.map_or(String::new(), |stone| format!("{}-", stones::file_stem(stone)));
     let ending = if args.frames.is_some() { "gif" } else { "png" };
-    let output = args
-        .output
-        .clone()
-        .unwrap_or_else(|| format!("{}-{}.{ending}", stones::file_stem(first), file.name).into());
+    let output = args.output.clone().unwrap_or_else(|| format!("{called}{}.{ending}", file.name).into());
     let target = frames::Target::of(&output, args)?;
     let (width, height) = size(args, &file);
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
@@ -189,7 +188,7 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
         material: args.substance.asked(),
         size_mm: args.size,
         pose: args.pose,
-        scalar: !args.polarisation,
+        polarisation: args.polarisation,
     })
 }
 

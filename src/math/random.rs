@@ -37,10 +37,14 @@ pub enum Purpose {
     Dents = 13,
     /// Scattered points of a sweep, one stream.
     Scatter = 20,
-    /// Places and wavelengths of camera rays, one stream a pixel.
+    /// Places of camera rays, one stream a pixel.
     CameraRay = 21,
     /// Places of lights that shadow rays look at, one stream a pixel and light.
     ShadowRay = 22,
+    /// Wavelengths of camera rays, one stream a pixel.
+    Hue = 23,
+    /// Places where camera rays cross the lens, one stream a pixel.
+    Lens = 24,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

@@ -90,6 +90,42 @@ impl<'a> Progressive<'a> {
         }
     }
 
+    /// Everything that decides the rounds to come, as bytes, little-endian: the number of rounds and
+    /// of photons emitted, the picture, its noise. For [`Self::go_on_from`] of the same picture.
+    pub fn state(&self) -> Vec<u8> {
+        let mut bytes = Vec::from(self.rounds().to_le_bytes());
+        self.emitted.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+        for pixel in &self.mean.pixels {
+            let colours = pixel.light.iter().chain([&pixel.shown]);
+            colours.flat_map(|c| c.to_array()).for_each(|x| bytes.extend(x.to_le_bytes()));
+        }
+        let noise = self.blocks.iter().flat_map(|(mean, spread)| [*mean, *spread]);
+        noise.for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes
+    }
+
+    /// Puts the picture where it was when [`Self::state`] was asked; whether the bytes are of its form.
+    pub fn go_on_from(&mut self, mut state: &[u8]) -> bool {
+        let fixed = size_of::<u32>() + 2 * size_of::<u64>();
+        let a_pixel = size_of::<f32>() * 3 * (PASSES + 1);
+        let a_block = 2 * size_of::<f64>();
+        if state.len() != fixed + a_pixel * self.mean.pixels.len() + a_block * self.blocks.len() {
+            return false;
+        }
+        let from = &mut state;
+        self.settings.round = u32::from_le_bytes(taken(from));
+        self.emitted = [(); 2].map(|()| u64::from_le_bytes(taken(from)));
+        for pixel in &mut self.mean.pixels {
+            for colour in pixel.light.iter_mut().chain([&mut pixel.shown]) {
+                *colour = Vec3::from([(); 3].map(|()| f32::from_le_bytes(taken(from))));
+            }
+        }
+        for block in &mut self.blocks {
+            *block = [(); 2].map(|()| f64::from_le_bytes(taken(from))).into();
+        }
+        true
+    }
+
     /// Noise of the picture so far: the root mean square of the standard errors of 4×4 pixels'
     /// luminance, over the mean luminance. Infinite after one round.
     pub fn noise(&self) -> f64 {
@@ -108,6 +144,13 @@ fn of_round(first: photons::Settings, round: u32) -> photons::Settings {
     let fewest = FEWEST.min(first.nearest as f64);
     let photons = (first.photons as f64 * (fewest / nearest).max(1.0)).min(MOST_PHOTONS);
     photons::Settings { photons: photons as usize, nearest: nearest.max(fewest).round() as usize, ..first }
+}
+
+/// The next bytes; zeros after the end.
+fn taken<const N: usize>(from: &mut &[u8]) -> [u8; N] {
+    let (next, rest) = from.split_first_chunk().unwrap_or((&[0; N], &[]));
+    *from = rest;
+    *next
 }
 
 /// Mean luminance of every block of pixels.

@@ -209,16 +209,14 @@ impl View<'_> {
         pixel
     }
 
-    /// Where camera rays of a pixel lie in the cube of place, wavelength and lens. A pinhole needs no
-    /// numbers for its lens: the others are then spread more evenly.
-    fn places(&self, pixel: u64, rays: Range<u64>) -> Box<dyn Iterator<Item = [f64; 5]>> {
-        let (seed, purpose) = (self.settings.seed, Purpose::CameraRay);
-        if self.camera.lens.is_open() {
-            Box::new(Points::<5>::new(seed, purpose, pixel, rays))
-        } else {
-            let places = Points::<3>::new(seed, purpose, pixel, rays);
-            Box::new(places.map(|[across, down, hue]| [across, down, hue, 0.0, 0.0]))
-        }
+    /// Where camera rays of a pixel lie: place, wavelength, lens. A sequence for each is more even in
+    /// the plane, which is where edges of facets are, than one for all is.
+    fn places(&self, pixel: u64, rays: Range<u64>) -> impl Iterator<Item = [f64; 5]> {
+        let seed = self.settings.seed;
+        let places = Points::<2>::new(seed, Purpose::CameraRay, pixel, rays.clone());
+        let hues = Points::<1>::new(seed, Purpose::Hue, pixel, rays.clone());
+        let lens = Points::<2>::new(seed, Purpose::Lens, pixel, rays);
+        places.zip(hues).zip(lens).map(|(([across, down], [hue]), [u, v])| [across, down, hue, u, v])
     }
 
     /// Shadow rays to each light of one camera ray.

@@ -20,9 +20,9 @@ pub struct Ball {
 /// mixture) keep every mean right.
 #[derive(Debug, Clone)]
 pub struct Aim {
-    /// Spheres around the stones.
+    /// Spheres around the stones and what lies near them.
     pub targets: Vec<Ball>,
-    /// Share of photons sent at the targets, 0 for none.
+    /// Share of photons sent at the targets; 0 if there are none.
     pub share: f32,
     /// Sphere around everything that photons can land on.
     pub world: Ball,
@@ -59,7 +59,7 @@ impl Aim {
             let local = sample::disc(u) * sin2_max.sqrt();
             sample::about(normal, local.extend((1.0 - local.length_squared()).max(0.0).sqrt()))
         };
-        if self.share == 0.0 || self.targets.is_empty() {
+        if self.share == 0.0 {
             return Some((natural(), 1.0));
         }
         let count = self.targets.len();
@@ -91,10 +91,9 @@ impl Aim {
     ///
     /// - `direction`: of the beam; `pick`, `u`: three uniforms
     pub fn beam(&self, direction: Vec3, pick: f32, u: [f32; 2]) -> (Vec3, f32) {
-        let share = if self.targets.is_empty() { 0.0 } else { self.share };
         let count = self.targets.len();
-        let ball = if pick < share {
-            &self.targets[((pick / share * count as f32) as usize).min(count - 1)]
+        let ball = if pick < self.share {
+            &self.targets[((pick / self.share * count as f32) as usize).min(count - 1)]
         } else {
             &self.world
         };
@@ -106,7 +105,7 @@ impl Aim {
             if distance2 <= b.radius * b.radius { 1.0 / (PI * b.radius * b.radius) } else { 0.0 }
         };
         let aimed: f32 = self.targets.iter().map(within).sum();
-        let density = share * aimed / count.max(1) as f32 + (1.0 - share) * within(&self.world);
+        let density = self.share * aimed / count.max(1) as f32 + (1.0 - self.share) * within(&self.world);
         // back to where nothing is in the way yet
         let start = (point - self.world.centre).dot(direction) + 1.01 * self.world.radius;
         (point - direction * start.max(0.0), 1.0 / density.max(f32::MIN_POSITIVE))

@@ -203,9 +203,9 @@ impl StoneEntry {
         stone: Stone,
         material: Material,
         unit: f32,
-        cast: &Cast,
+        pose: Option<Pose>,
     ) -> Result<PlacedStone, Wrong> {
-        let pose = match (&self.pose, cast.pose) {
+        let pose = match (&self.pose, pose) {
             (_, Some(pose)) => pose,
             (None, None) => Pose::Lying,
             (Some(name), None) => named("pose", Pose::named(name), name, &Pose::ALL.map(|(n, _)| n))?,
@@ -216,16 +216,14 @@ impl StoneEntry {
             None => stone.unit as f32,
         };
         let at = self.at.clone().unwrap_or_else(|| vec![0.0, 0.0]);
-        let mut placed = match at[..] {
-            [x, y] => PlacedStone::resting(stone, material, turn, radius, Vec3::new(x, y, 0.0) * unit),
+        match at[..] {
+            [x, y] => Ok(PlacedStone::resting(stone, material, turn, radius, Vec3::new(x, y, 0.0) * unit)),
             [x, y, z] => {
                 let placed = PlacedStone::resting(stone, material, turn, radius, Vec3::ZERO);
-                PlacedStone { position: Vec3::new(x, y, z) * unit, ..placed }
+                Ok(PlacedStone { position: Vec3::new(x, y, z) * unit, ..placed })
             }
-            _ => return Err(wrong("at", "at is [x, y] on the floor or [x, y, z]")),
-        };
-        placed.polarised = !cast.scalar;
-        Ok(placed)
+            _ => Err(wrong("at", "at is [x, y] on the floor or [x, y, z]")),
+        }
     }
 }
 

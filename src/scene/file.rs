@@ -7,7 +7,8 @@
 //!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
 //!   (the illuminant that comes out white); `aperture` (a diameter, or "f/8" for a picture 36 mm wide in
 //!   a world of millimetres) and `focus` (a distance along the view, or a point; `to` if absent)
-//! - `[[stone]]`: `cut`, `material`, `size` (mm) or `radius` (as large as the scene wants it),
+//! - `[[stone]]` (none if only the surroundings are of interest): `cut`, `material`, `size` (mm) or
+//!   `radius` (as large as the scene wants it),
 //!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
 //!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
 //! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
@@ -15,8 +16,8 @@
 //! - `[[light]]`: `kind` of `cutlab list lights` with what that needs; `radiance` or `power`,
 //!   `colour`, `spectrum`
 //!
-//! `depth` limits the segments of a path, to compare with programs that do; without it paths are
-//! followed to the end of their power.
+//! To compare with other programs: `depth` limits the segments of a path, which are followed to the
+//! end of their power without it; `polarisation = false` takes light as unpolarised at every facet.
 
 use super::entries::{CameraEntry, LightEntry, StoneEntry, SurfaceEntry, Wrong};
 use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
@@ -93,7 +94,10 @@ struct Document {
     picture: Option<[u32; 2]>,
     #[serde(default)]
     depth: Option<u32>,
+    #[serde(default)]
+    polarisation: Option<bool>,
     camera: Spanned<CameraEntry>,
+    #[serde(default)]
     stone: Vec<Spanned<StoneEntry>>,
     #[serde(default)]
     surface: Vec<Spanned<SurfaceEntry>>,
@@ -122,8 +126,9 @@ pub struct Cast {
     pub size_mm: Option<f64>,
     /// How all stand.
     pub pose: Option<Pose>,
-    /// Whether light is taken as unpolarised at every facet.
-    pub scalar: bool,
+    /// Whether light keeps its polarisation from facet to facet; it does if neither this nor the scene
+    /// says.
+    pub polarisation: Option<bool>,
 }
 
 /// What entries are read against.
@@ -132,7 +137,7 @@ pub struct Place<'a> {
     pub unit: f32,
     /// Where files that the scene names are looked for.
     pub folder: &'a Path,
-    /// Centre of the first stone.
+    /// Centre of the first stone; the origin where there is none.
     pub centre: Vec3,
 }
 
@@ -197,8 +202,8 @@ impl SceneFile {
     }
 
     /// The first stone's STONE, by which a picture is called.
-    pub fn first_cut(&self) -> &str {
-        self.document.stone.first().map_or("round-brilliant", |s| s.get_ref().cut())
+    pub fn first_cut(&self) -> Option<&str> {
+        self.document.stone.first().map(|s| s.get_ref().cut())
     }
 
     /// Width and height of its picture.
@@ -213,8 +218,13 @@ impl SceneFile {
     pub fn build(&self, cast: &Cast, aspect: f32) -> Result<Scene, SceneError> {
         let document = &self.document;
         let (places, given) = (document.stone.len(), cast.designs.len());
-        if given > places || places == 0 {
+        if given > places {
             return Err(SceneError::Places { scene: self.name.clone(), places, given });
+        }
+        if places == 0 && document.unit == Unit::Stone {
+            let text = self.text.lines().position(|l| l.trim_start().starts_with("unit"));
+            let problem = "unit is \"mm\" where there is no stone".into();
+            return Err(SceneError::Line { file: self.file.clone(), line: text.unwrap_or(0) + 1, problem });
         }
         let mut unit = 1.0;
         let mut stones: Vec<PlacedStone> = Vec::with_capacity(places);
@@ -230,9 +240,11 @@ impl SceneFile {
             if i == 0 && document.unit == Unit::Stone {
                 unit = stone.unit as f32;
             }
-            stones.push(self.say(entry, entry.get_ref().place(stone, material, unit, cast))?);
+            let polarised = cast.polarisation.or(document.polarisation).unwrap_or(true);
+            let placed = self.say(entry, entry.get_ref().place(stone, material, unit, cast.pose))?;
+            stones.push(PlacedStone { polarised, ..placed });
         }
-        let centre = stones[0].position;
+        let centre = stones.first().map_or(Vec3::ZERO, |s| s.position);
         let place = Place { unit, folder: &self.folder, centre };
         let camera: Camera = self.say(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
         let surfaces: Result<Vec<Surface>, _> =

@@ -89,7 +89,7 @@ def cutlab(folder, seed, photons, *options):
 
 
 def table_round(folder, seed, photons):
-    landed, _ = cutlab(folder, seed, photons, "--width", "4", "--height", "3", "--spp", "1", "--nearest", "1")
+    landed, _ = cutlab(folder, seed, photons, "--width", "4", "--height", "3", "--spp", "1", "--nearest", "100000")
     return {"caustic": light_trace(landed)}
 
 

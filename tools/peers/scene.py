@@ -20,8 +20,7 @@ LIGHT_AT, LIGHT_SIDE, RADIANCE = np.array([0.9, 0.5, 3.0]), 1.0, 10.0  # faces d
 TABLE_HALF, ALBEDO = 10.0, 0.5
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB
 BLOCK = 4  # pixels a side
-# the others take light as unpolarised at every facet; so does cutlab here, beside them
-RENDER = [CUTLAB, "render", "-q", "--scene", TOML, "--polarisation", "off"]
+RENDER = [CUTLAB, "render", "-q", "--scene", TOML]
 
 
 def project(points):

@@ -11,6 +11,7 @@ use crate::render::animation::{self, Turn};
 use crate::render::write::{self, Bits, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, tracer};
 use crate::scene::Scene;
+use crate::store::kept::Kept;
 use crate::store::lock;
 use crate::store::replace::{self, WriteError};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,19 @@ enum Kind {
     Numbered,
     Gif,
     Apng,
+}
+
+/// A target that this process has to itself until it is dropped.
+struct Alone {
+    path: PathBuf,
+    _lock: std::fs::File,
+}
+
+impl Alone {
+    /// Takes the lock away, the work being done.
+    fn ends(self) -> Result<(), WriteError> {
+        std::fs::remove_file(&self.path).map_err(|cause| WriteError { path: self.path, cause })
+    }
 }
 
 /// Where pictures go.
@@ -66,6 +80,18 @@ impl Target {
             return Err(Failure::input("passes of an animation need numbered pictures: -o name-%03d.png"));
         }
         Ok(Target { path: path.into(), kind })
+    }
+
+    /// Has the target to itself from here on: what is done of it outlives this process.
+    fn alone(&self, console: &Console) -> Result<Alone, Failure> {
+        outcome::goes_on();
+        let waiting = || {
+            let path = self.path.display();
+            console.note(&format!("another cutlab is making {path}: waiting for it to end"));
+        };
+        let path = lock::hidden(&self.path, "lock");
+        let lock = lock::take(&path, &waiting).map_err(|cause| WriteError { path: path.clone(), cause })?;
+        Ok(Alone { path, _lock: lock })
     }
 
     /// Frames of an animation in one file wait here until all are there.
@@ -119,24 +145,24 @@ pub fn take(
     console: &Console,
 ) -> Result<Vec<PathBuf>, Failure> {
     let command = command::normalised();
+    // what another version made, or was made of files that have changed since, is of no use
+    let identity = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
     let Some(frames) = args.frames else {
+        let alone = if args.stops.progressive && !replace::is_stream(&target.path) {
+            Some(target.alone(console)?)
+        } else {
+            None
+        };
         let mut maps = None;
         settings.tone.stops = exposure(args, scene, &mut maps, &settings, console)?;
         let mut file =
             File { args, target: &target.path, kind: target.kind, command: &command, written: vec![] };
-        picture(scene, maps, &settings, &mut file, console)?;
+        picture(scene, maps, &settings, &mut file, &identity, console)?;
+        alone.map_or(Ok(()), Alone::ends)?;
         return Ok(file.written);
     };
-    outcome::goes_on();
-    let fail = |cause| WriteError { path: target.path.clone(), cause };
-    let locked = lock::hidden(&target.path, "lock");
-    let waiting = || {
-        let path = target.path.display();
-        console.note(&format!("another cutlab is making {path}: waiting for it to end"));
-    };
-    let _lock = lock::take(&locked, &waiting).map_err(fail)?;
-    // frames of another version, or of files that have changed since, are of no use
-    let command = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
+    let alone = target.alone(console)?;
+    let command = identity;
     // where only the camera moves, the light stands still
     let still = args.turn == Turn::Camera;
     let mut kept: Option<Maps> = None;
@@ -157,7 +183,7 @@ pub fn take(
                 let maps = if still { kept.take() } else { None };
                 let mut file =
                     File { args, target: &path, kind: target.kind, command: &command, written: Vec::new() };
-                let (film, maps) = picture(&moved, maps, &settings, &mut file, console)?;
+                let (film, maps) = picture(&moved, maps, &settings, &mut file, &command, console)?;
                 kept = maps;
                 files.extend(file.written);
                 write::bytes(&write::shown(&film, None, &settings.tone))
@@ -168,7 +194,7 @@ pub fn take(
         }
     }
     if !target.is_one_file() {
-        std::fs::remove_file(&locked).map_err(fail)?;
+        alone.ends()?;
         return Ok(files);
     }
     let (width, height) = (settings.width, settings.height);
@@ -177,7 +203,9 @@ pub fn take(
         _ => animation::apng(&pictures, width, height, &command),
     };
     replace::write(&target.path, &bytes.map_err(|e| Failure::input(e.to_string()))?)?;
-    std::fs::remove_dir_all(target.folder()).and_then(|()| std::fs::remove_file(&locked)).map_err(fail)?;
+    let fail = |cause| WriteError { path: target.path.clone(), cause };
+    std::fs::remove_dir_all(target.folder()).map_err(fail)?;
+    alone.ends()?;
     Ok(vec![target.path.clone()])
 }
 
@@ -197,21 +225,27 @@ fn exposure(
 }
 
 /// Takes and writes one picture. Returns the maps for the next, unless each round had its own.
+///
+/// - `identity`: of the work whose rounds can go on where an earlier start was
 fn picture(
     scene: &Scene,
     kept: Option<Maps>,
     settings: &Settings,
     file: &mut File,
+    identity: &str,
     console: &Console,
 ) -> Result<(Film, Option<Maps>), Failure> {
     let args = file.args;
     if args.stops.progressive {
         // a frame that is there counts as finished
-        let to_a_file = matches!(file.kind, Kind::Png | Kind::Exr) && file.target != Path::new("-");
+        let to_a_file = !replace::is_stream(file.target);
+        let whole = to_a_file && matches!(file.kind, Kind::Png | Kind::Exr);
+        let mut state = to_a_file.then(|| Kept::beside(file.target, identity));
         let mut keep =
-            |film: &Film, n| if to_a_file { file.write(scene, film, settings, Some(n)) } else { Ok(()) };
-        let (film, rounds) = rounds::take(args, scene, settings, console, &mut keep)?;
+            |film: &Film, n| if whole { file.write(scene, film, settings, Some(n)) } else { Ok(()) };
+        let (film, rounds) = rounds::take(args, scene, settings, console, state.as_mut(), &mut keep)?;
         file.write(scene, &film, settings, Some(rounds))?;
+        state.map_or(Ok(()), Kept::done)?;
         return Ok((film, None));
     }
     let maps = kept.map_or_else(|| maps(args, scene, console), Ok)?;

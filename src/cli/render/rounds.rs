@@ -5,6 +5,7 @@ use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
 use crate::render::{Film, Progressive, Settings};
 use crate::scene::Scene;
+use crate::store::kept::Kept;
 use std::time::{Duration, Instant};
 
 /// Seconds between two writings of a picture that is still getting better.
@@ -40,38 +41,50 @@ impl Stops {
     /// Noise at which a picture is good enough if nothing is said.
     const NOISE: f64 = 0.02;
 
-    fn reached(&self, picture: &Progressive, since: Instant) -> bool {
+    /// - `taken`: time that the picture has taken so far
+    fn reached(&self, picture: &Progressive, taken: Duration) -> bool {
         let none = self.rounds.is_none() && self.time.is_none() && self.noise.is_none();
         let noise = if none { Some(Self::NOISE) } else { self.noise };
         self.rounds.is_some_and(|most| picture.rounds() >= most)
-            || self.time.is_some_and(|time| since.elapsed() >= time)
+            || self.time.is_some_and(|time| taken >= time)
             || noise.is_some_and(|noise| picture.noise() <= noise)
     }
 }
 
-/// Takes rounds until a stop. Returns the picture and their number.
+/// Takes rounds until a stop, from where an earlier start of the same command was. Returns the picture
+/// and the number of its rounds.
 ///
+/// - `kept`: where its state is kept, if it can be
 /// - `keep`: writes the picture as it is so far, now and then
 pub fn take(
     args: &Args,
     scene: &Scene,
     settings: &Settings,
     console: &Console,
+    mut kept: Option<&mut Kept>,
     keep: &mut dyn FnMut(&Film, u32) -> Result<(), Failure>,
 ) -> Result<(Film, u32), Failure> {
-    let since = Instant::now();
-    let mut kept = since;
+    let mut since = Instant::now();
+    let mut written = since;
     let sign = console.spinner("round 1");
     let mut picture = Progressive::new(scene, &scene.camera, *settings, args.photons());
-    loop {
-        picture.round(&|| ());
-        if args.stops.reached(&picture, since) {
-            break;
+    let earlier = kept.as_ref().and_then(|kept| kept.load());
+    if let Some((seconds, state)) = earlier.as_ref().and_then(|state| state.split_first_chunk()) {
+        let taken = Duration::try_from_secs_f64(f64::from_le_bytes(*seconds)).unwrap_or_default();
+        if picture.go_on_from(state) {
+            since = since.checked_sub(taken).unwrap_or(since);
+            console.note(&format!("going on after {} rounds", picture.rounds()));
         }
+    }
+    while picture.rounds() == 0 || !args.stops.reached(&picture, since.elapsed()) {
+        picture.round(&|| ());
         sign.set_message(format!("round {}, noise {:.1} %", picture.rounds() + 1, 100.0 * picture.noise()));
-        if kept.elapsed() > WRITE_EVERY {
+        if let Some(kept) = &mut kept {
+            kept.save(|| [&since.elapsed().as_secs_f64().to_le_bytes()[..], &picture.state()].concat())?;
+        }
+        if written.elapsed() > WRITE_EVERY {
             keep(picture.film(), picture.rounds())?;
-            kept = Instant::now();
+            written = Instant::now();
         }
     }
     sign.finish_and_clear();
