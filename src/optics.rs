@@ -3,6 +3,7 @@
 
 pub mod absorption;
 pub mod colour;
+pub mod daylight;
 pub mod dispersion;
 pub mod fresnel;
 pub mod illuminants;

@@ -2,6 +2,7 @@
 
 pub mod animation;
 pub mod film;
+pub mod glare;
 mod inside;
 pub mod progressive;
 pub mod tone;

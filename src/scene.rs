@@ -47,6 +47,8 @@ pub static SCENES: &[(&str, &str)] = &[
     ("cornell", include_str!("scene/presets/cornell.toml")),
     ("studio", include_str!("scene/presets/studio.toml")),
     ("spot", include_str!("scene/presets/spot.toml")),
+    ("sun", include_str!("scene/presets/sun.toml")),
+    ("office", include_str!("scene/presets/office.toml")),
     ("daylight", include_str!("scene/presets/daylight.toml")),
     ("face-up", include_str!("scene/presets/face-up.toml")),
     ("aset", include_str!("scene/presets/aset.toml")),

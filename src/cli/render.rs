@@ -82,6 +82,10 @@ pub struct Args {
     /// Tone curve: filmic or linear
     #[arg(long, default_value = "filmic", value_parser = curve)]
     tone: Curve,
+    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; an
+    /// EXR and the passes stay without
+    #[arg(long, value_name = "F", num_args = 0..=1, require_equals = true, default_missing_value = "16", value_parser = f_number)]
+    glare: Option<f32>,
     /// Bits a channel of a PNG: 8 or 16
     #[arg(long, default_value = "8", value_parser = ["8", "16"])]
     bits: String,
@@ -130,6 +134,13 @@ fn turn(name: &str) -> Result<Turn, String> {
 
 fn curve(name: &str) -> Result<Curve, String> {
     one_of(&Curve::ALL, name)
+}
+
+fn f_number(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(n) if (1.0..=64.0).contains(&n) => Ok(n),
+        _ => Err("an f-number from 1 to 64 is needed".into()),
+    }
 }
 
 fn counted(text: &str) -> Result<usize, String> {

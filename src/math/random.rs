@@ -45,6 +45,8 @@ pub enum Purpose {
     Hue = 23,
     /// Places where camera rays cross the lens, one stream a pixel.
     Lens = 24,
+    /// Points by which glare is averaged, one stream a pixel of its spread.
+    Glare = 25,
 }
 
 /// A stream of random numbers: Philox 4×32-10 keyed by seed and purpose, counted by index.

@@ -8,6 +8,7 @@ use super::surface::{Finish, Plate, Shape};
 use super::{Camera, Lens, Light, PlacedStone, Pose, Reflectance, Surface};
 use crate::cut::Design;
 use crate::formats::{scenery, stone};
+use crate::optics::daylight::ClearSky;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
 use crate::optics::viewers::{VIEWERS, Viewer};
@@ -285,7 +286,7 @@ impl SurfaceEntry {
 
 /// `[[light]]`
 #[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LightEntry {
     kind: String,
     at: Option<[f32; 3]>,
@@ -295,6 +296,9 @@ pub struct LightEntry {
     cone: Option<f32>,
     viewer: Option<String>,
     panorama: Option<String>,
+    sun_elevation: Option<f32>,
+    sun_azimuth: Option<f32>,
+    turbidity: Option<f32>,
     turn: Option<[f64; 3]>,
     radiance: Option<f32>,
     power: Option<f32>,
@@ -354,6 +358,20 @@ impl LightEntry {
         let sky = Panorama::open(&place.folder.join(file)).map_err(|e| wrong("panorama", e))?;
         place.count_pixels(sky.pixel_count()).map_err(|e| wrong("panorama", e.to_string()))?;
         Ok(Some(sky))
+    }
+
+    /// The clear sky that it is a part of.
+    pub(super) fn clear_sky(&self) -> Result<ClearSky, Wrong> {
+        let within = |key: &'static str, value: Option<f32>, low: f32, high: f32| match value {
+            Some(x) if (low..=high).contains(&x) => Ok(x),
+            Some(x) => Err(wrong(key, format!("{key} = {x} is not from {low} to {high}"))),
+            None => Err(wrong(key, format!("{key} is missing"))),
+        };
+        Ok(ClearSky::new(
+            within("sun-elevation", self.sun_elevation, 0.0, 90.0)?,
+            within("sun-azimuth", self.sun_azimuth, -360.0, 360.0)?,
+            within("turbidity", Some(self.turbidity.unwrap_or(3.0)), 2.0, 10.0)?,
+        ))
     }
 
     /// How it is turned.

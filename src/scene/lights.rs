@@ -2,9 +2,11 @@
 
 pub mod disc;
 pub mod dome;
+pub mod sky;
 pub mod sphere;
 pub mod spot;
 pub mod square;
+pub mod sun;
 
 use super::Aim;
 use super::entries::{LightEntry, Wrong};
@@ -122,7 +124,8 @@ pub struct Kind {
 }
 
 /// Every kind of light.
-pub static LIGHTS: &[&Kind] = &[&square::KIND, &disc::KIND, &sphere::KIND, &dome::KIND, &spot::KIND];
+pub static LIGHTS: &[&Kind] =
+    &[&square::KIND, &disc::KIND, &sphere::KIND, &dome::KIND, &spot::KIND, &sky::KIND, &sun::KIND];
 
 impl Kind {
     /// The kind called `name`.
@@ -137,6 +140,7 @@ mod tests {
     use super::dome::Dome;
     use super::sphere::Sphere;
     use super::square::Square;
+    use super::sun::Sun;
     use super::*;
     use crate::math::random::{Purpose, Stream};
     use crate::scene::aim::Ball;
@@ -150,6 +154,7 @@ mod tests {
             ("spot", Arc::new(Disc::facing(at, Vec3::ZERO, 0.6, 20.0))),
             ("sphere", Arc::new(Sphere { centre: at, radius: 0.6 })),
             ("dome", Arc::new(Dome::uniform())),
+            ("sun", Arc::new(Sun { direction: Vec3::new(0.0, 0.6, 0.8), colour: Vec3::ONE })),
         ]
     }
 

@@ -66,6 +66,24 @@ impl Panorama {
         Ok(Panorama::new(width as usize, height as usize, pixels, crc32fast::hash(bytes)))
     }
 
+    /// A table of what a function says of the middle of each pixel.
+    ///
+    /// - `colour`: parts of [`rgb::basis`] in a unit direction; `checksum`: what tells it from others
+    pub fn painted(
+        (width, height): (usize, usize),
+        colour: impl Fn(Vec3) -> Vec3,
+        checksum: u32,
+    ) -> Panorama {
+        let pixel = |i: usize| {
+            let (theta, phi) = (
+                PI * ((i / width) as f32 + 0.5) / height as f32,
+                TAU * ((i % width) as f32 + 0.5) / width as f32 - PI,
+            );
+            colour(Vec3::new(theta.sin() * phi.sin(), theta.sin() * phi.cos(), theta.cos()))
+        };
+        Panorama::new(width, height, (0..width * height).map(pixel).collect(), checksum)
+    }
+
     fn new(width: usize, height: usize, pixels: Vec<Vec3>, checksum: u32) -> Panorama {
         // cos a − cos b by the sine of half their difference: near the zenith `f32` has no digits for it
         let step = std::f64::consts::PI / height as f64;

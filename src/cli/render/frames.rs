@@ -9,7 +9,7 @@ use crate::cli::outcome::{self, Failure};
 use crate::photons::file;
 use crate::render::animation::{self, Turn};
 use crate::render::write::{self, Bits, Made};
-use crate::render::{self, Film, Maps, Pass, Settings, tracer};
+use crate::render::{self, Film, Maps, Pass, Settings, glare, tracer};
 use crate::scene::Scene;
 use crate::store::kept::Kept;
 use crate::store::replace::{self, WriteError};
@@ -252,9 +252,15 @@ fn picture(
         let to_a_file = !replace::is_stream(file.target);
         let whole = to_a_file && matches!(file.kind, Kind::Png | Kind::Exr);
         let mut state = to_a_file.then(|| Kept::beside(file.target, identity));
-        let mut keep =
-            |film: &Film, n| if whole { file.write(scene, film, settings, Some(n)) } else { Ok(()) };
+        let mut keep = |film: &Film, n| {
+            if whole {
+                file.write(scene, &with_glare(args, film, settings), settings, Some(n))
+            } else {
+                Ok(())
+            }
+        };
         let (film, rounds) = rounds::take(args, scene, settings, console, state.as_mut(), &mut keep)?;
+        let film = with_glare(args, &film, settings);
         file.write(scene, &film, settings, Some(rounds))?;
         state.map_or(Ok(()), Kept::done)?;
         return Ok((film, None));
@@ -263,8 +269,18 @@ fn picture(
     let bar = console.progress(settings.height as usize, "rendering");
     let film = render::render(scene, &scene.camera, &maps, settings, &|| bar.inc(1));
     bar.finish_and_clear();
+    let film = with_glare(args, &film, settings);
     file.write(scene, &film, settings, None)?;
     Ok((film, Some(maps)))
+}
+
+/// The film as it is shown: with glare, if asked for.
+fn with_glare(args: &Args, film: &Film, settings: &Settings) -> Film {
+    let mut film = film.clone();
+    if let Some(f_number) = args.glare {
+        glare::add(&mut film, &settings.tone, f_number);
+    }
+    film
 }
 
 /// Where a picture goes, and its passes.

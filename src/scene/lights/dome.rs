@@ -43,6 +43,11 @@ impl Dome {
         Dome { sky: Sky::Uniform, world_from_sky: Mat3::IDENTITY }
     }
 
+    /// A panorama's radiance from everywhere.
+    pub fn showing(panorama: Panorama, world_from_sky: Mat3) -> Dome {
+        Dome { sky: Sky::Panorama(Arc::new(panorama)), world_from_sky }
+    }
+
     fn colour(&self, direction: Vec3) -> Vec3 {
         let d = self.world_from_sky.transpose() * direction;
         match &self.sky {
