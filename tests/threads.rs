@@ -86,6 +86,8 @@ fn pictures() {
         "render --scene spot --material ruby --size 6 --polarisation off -o p.png",
         "render octahedron --scene arrows --frames 3 --turn stone --rock -o a.gif",
         "render octahedron --frames 2 --turn light -o a.apng",
+        "render --scene spot --glare -o glare.png",
+        "render --scene office --progressive --rounds 3 -o rounds.exr",
     ]
     .iter()
     .map(|line| format!("{line} {small}"))
