@@ -81,21 +81,22 @@ impl Scene {
         }
     }
 
-    /// Where photons are sent.
+    /// Where photons are sent: at the stones, and at balls around each that double in width up to the
+    /// whole world. What lies within r of a stone sends it light as 1/r², so each of them matters about
+    /// as much as the next; without one, a photon that lands there by chance counts for very many.
     ///
-    /// - `share`: of photons sent at the stones and at what lies near them; `halos`: how many balls,
-    ///   each twice as wide as the one before, around each stone: what lies within r of a stone
-    ///   sends it light as 1/r², so each of them matters about as much as the next
-    pub fn aim(&self, share: f32, halos: u32) -> Aim {
+    /// - `share`: of photons sent at any of them
+    pub fn aim(&self, share: f32) -> Aim {
         let stones: Vec<Ball> = self.stones.iter().map(PlacedStone::ball).collect();
-        let wider = |b: &Ball, halo: u32| Ball { radius: b.radius * 2f32.powi(halo as i32), ..*b };
-        let targets = stones.iter().flat_map(|b| (0..=halos).map(move |halo| wider(b, halo))).collect();
         let corners = |b: &Ball| [b.centre - Vec3::splat(b.radius), b.centre + Vec3::splat(b.radius)];
         let mut points: Vec<Vec3> = stones.iter().flat_map(corners).collect();
         points.extend(self.surfaces.iter().flat_map(|s| <[Vec3; 2]>::from(s.bounds())));
         let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let world = Ball { centre: 0.5 * (low + high), radius: 0.5 * low.distance(high) };
+        let wider =
+            |b: &Ball| Some(Ball { radius: 2.0 * b.radius, ..*b }).filter(|b| b.radius < world.radius);
+        let targets = stones.iter().flat_map(|b| std::iter::successors(Some(*b), wider)).collect();
         Aim { share: if stones.is_empty() { 0.0 } else { share }, targets, world }
     }
 }

@@ -21,14 +21,11 @@ const ROUND: u64 = 16;
 /// Give up a class of which nothing is found after emitting this many times the photons asked for
 /// (the global map of a scene with a single plane is empty), and any class after `PATIENCE`² times.
 const PATIENCE: u64 = 8;
-/// Balls around a stone at which photons are aimed too. Light by way of table and stone is over half of
-/// what is in a stone's shadow: with 200,000 photons the error there is 15.3 % with none, 9.1 % with
-/// two, 9.6 % with three (`tools/peers`).
-const HALOS: u32 = 2;
-/// Share of caustic photons aimed at the stones and what is near them, at each emission and diffuse
-/// reflection. The rest go as the surface sends them, so that light that reaches a stone by way of what
-/// is far from it is found too; the balance of both densities keeps powers within a factor of two of each other's class.
-const AIMED: f32 = 0.5;
+/// Share of caustic photons aimed at the stones and the balls around them, at each emission and diffuse
+/// reflection. The rest go as the surface sends them, so that light that reaches a stone by any other
+/// way is found too; the balance of both densities makes no photon count for more than five. Light by way
+/// of table and stone is over half of what is in a stone's shadow (`reports/peers.md`).
+const AIMED: f32 = 0.8;
 /// A light gets at least this share of the photons that an even split would give it.
 const LEAST: f32 = 0.1;
 /// Mirrors in a row, after which a photon is given up: two that face each other without loss keep
@@ -51,7 +48,7 @@ struct Room<'a> {
 
 impl Room<'_> {
     fn new(scene: &Scene, class: Class, seed: u64) -> Room<'_> {
-        let aim = scene.aim(if class == Class::Caustic { AIMED } else { 0.0 }, HALOS);
+        let aim = scene.aim(if class == Class::Caustic { AIMED } else { 0.0 });
         let reach = |l: &crate::scene::Light| l.emitter.reach(&aim) * (l.radiance.element_sum() / 3.0);
         let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
         let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
