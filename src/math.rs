@@ -4,4 +4,5 @@ pub mod histogram;
 pub mod points;
 pub mod random;
 pub mod sample;
+pub mod statistic;
 pub mod stats;

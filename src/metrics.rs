@@ -37,6 +37,7 @@ mod windowing;
 mod wlr;
 
 use crate::experiments;
+pub use crate::math::statistic::Statistic;
 use crate::solid::Polyhedron;
 
 /// One score.
@@ -72,17 +73,17 @@ pub struct Metric {
 #[derive(Debug, Clone, Copy)]
 pub enum Reading {
     /// A dome of light: [`experiments::hemisphere`].
-    Hemisphere(fn(&experiments::hemisphere::Tally) -> f64),
+    Hemisphere(Statistic<experiments::hemisphere::Tally>),
     /// A parallel eye: [`experiments::view`].
-    View(fn(&experiments::view::Tally) -> f64),
+    View(Statistic<experiments::view::Tally>),
     /// A parallel eye by the rules of faceters: [`experiments::iso`].
-    Iso(fn(&experiments::iso::Tally) -> f64),
+    Iso(Statistic<experiments::iso::Tally>),
     /// Cells of the picture: [`experiments::contrast`].
-    Contrast(fn(&experiments::contrast::Tally) -> f64),
+    Contrast(Statistic<experiments::contrast::Tally>),
     /// Cells of the rocked picture: [`experiments::scintillation`].
-    Scintillation(fn(&experiments::scintillation::Tally) -> f64),
+    Scintillation(Statistic<experiments::scintillation::Tally>),
     /// A point light at infinity: [`experiments::beam`].
-    Beam(fn(&experiments::beam::Tally) -> f64),
+    Beam(Statistic<experiments::beam::Tally>),
     /// The solid itself: a closed form.
     Solid(fn(&Polyhedron) -> Option<f64>),
 }

@@ -5,7 +5,7 @@ mod brilliants;
 
 use bench::Bench;
 use brilliants::{SEED, diamond, named, plan, subject};
-use cutlab::study::compare::{SIGNIFICANT, compare, is_significant};
+use cutlab::study::compare::{SIGNIFICANT, compare};
 use cutlab::study::score::{Plan, score};
 
 /// The difference of two stones is that of long runs of each, and sharper than their errors.
@@ -39,7 +39,7 @@ fn equal_stones_rarely_differ() {
         let subjects = [subject("a", &still, diamond()), subject("b", &turned, diamond())];
         let plan = Plan { seed: SEED + run as u64, ..plan(&["wlr", "leakage", "glare"], 1 << 13) };
         let compared = compare(&subjects, &plan, &|| ());
-        found += compared.differences[0].iter().flatten().filter(|d| is_significant(**d)).count();
+        found += (0..3).filter(|m| compared.is_significant(0, *m) == Some(true)).count();
     }
     println!("{found} of 60 beyond {SIGNIFICANT} errors");
     assert!(found <= 2, "{found}");

@@ -11,7 +11,7 @@ use cutlab::experiments::{
     view,
 };
 use cutlab::math::stats::Estimate;
-use cutlab::metrics::{METRICS, Reading};
+use cutlab::metrics::{METRICS, Reading, Statistic};
 use cutlab::optics::Material;
 use cutlab::photons::{Settings, Shots};
 use cutlab::render::{self, Maps, Tone};
@@ -37,18 +37,18 @@ fn cut(name: &str) -> Design {
 /// Name, score, and score by batch.
 type Scores = Vec<(String, Estimate, Vec<f64>)>;
 
-fn take<E: Experiment, F: Fn(&E::Tally) -> f64>(
+fn take<E: Experiment>(
     scores: &mut Scores,
     experiment: E,
     samples: u64,
-    of: impl Fn(Reading) -> Option<F>,
+    of: impl Fn(Reading) -> Option<Statistic<E::Tally>>,
 ) {
     let mut traced = Traced::new(experiment, SEED);
     traced.extend_to(samples);
     for metric in METRICS {
         let Some(of) = of(metric.reading) else { continue };
-        let batches = traced.tallies().iter().map(&of).collect();
-        scores.push((metric.name.into(), traced.estimate(of), batches));
+        let batches = traced.tallies().iter().map(|t| of.of(t)).collect();
+        scores.push((metric.name.into(), traced.score(&of).expect("something is seen"), batches));
     }
 }
 

@@ -9,7 +9,7 @@ use crate::math::stats::Estimate;
 use crate::report::page::number;
 use crate::report::{Request, versus};
 use crate::store::replace;
-use crate::study::compare::{Comparison, RUNS, compare, is_significant};
+use crate::study::compare::{Comparison, RUNS, compare};
 use crate::study::score::{Plan, Subject};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -22,7 +22,9 @@ Examples:
   cutlab compare tolkowsky scan-dn eppler -o out       and a page with pictures and tilt curves
 
 Every stone is scored with the same random numbers in 32 runs, and the error of a difference is the
-spread of the runs' differences. A difference beyond three of its errors is called significant.")]
+spread of the runs' differences. A difference is called significant if it is beyond three of its
+errors and not negligible: more than 1e-6 of the metric's scale (1, or 100 for percentages), or 1e-4
+where photons are traced, because they are followed until 1e-4 of their light is left.")]
 pub struct Args {
     /// The stones; differences are from the first
     #[arg(required = true, num_args = 2.., value_name = "STONE")]
@@ -39,6 +41,8 @@ pub struct Args {
 struct Entry<'a> {
     metric: &'static str,
     unit: &'static str,
+    /// Differences up to this are never significant.
+    negligible: f64,
     scores: Vec<Scored<'a>>,
     differences: Vec<Differs<'a>>,
 }
@@ -48,6 +52,9 @@ struct Scored<'a> {
     stone: &'a str,
     #[serde(flatten)]
     score: Option<Estimate>,
+    /// Why there is no score.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -114,15 +121,19 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
     let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| Entry {
         metric: metric.name,
         unit: metric.unit,
-        scores: rows.iter().map(|r| Scored { stone: &r.stone, score: r.scores[m] }).collect(),
+        negligible: comparison.negligible[m],
+        scores: rows
+            .iter()
+            .map(|r| Scored { stone: &r.stone, score: r.scores[m], left_out: r.why_left_out(metric) })
+            .collect(),
         differences: rows[1..]
             .iter()
-            .zip(&comparison.differences)
-            .map(|(row, d)| Differs {
+            .enumerate()
+            .map(|(other, row)| Differs {
                 stone: &row.stone,
                 from: &rows[0].stone,
-                difference: d[m],
-                significant: d[m].map(is_significant),
+                difference: comparison.differences[other][m],
+                significant: comparison.is_significant(other, m),
             })
             .collect(),
     };
@@ -146,8 +157,8 @@ fn text(comparison: &Comparison, plan: &Plan) -> String {
     for (m, metric) in plan.metrics.iter().enumerate() {
         let mut line = vec![metric.name.to_string()];
         line.extend(rows.iter().map(|r| shown(r.scores[m])));
-        line.extend(comparison.differences.iter().map(|d| {
-            let mark = if d[m].is_some_and(is_significant) { " *" } else { "" };
+        line.extend(comparison.differences.iter().enumerate().map(|(other, d)| {
+            let mark = if comparison.is_significant(other, m) == Some(true) { " *" } else { "" };
             let sign = if d[m].is_some_and(|e| e.value > 0.0) { "+" } else { "" };
             format!("{sign}{}{mark}", shown(d[m]))
         }));
@@ -165,5 +176,8 @@ fn text(comparison: &Comparison, plan: &Plan) -> String {
     for line in versus::explained(&names) {
         out += &format!("{line}\n");
     }
-    out + "after ± one standard error; * a difference beyond three of its errors\n"
+    for line in versus::left_out(comparison) {
+        out += &format!("{line}\n");
+    }
+    out + "after ± one standard error; * a difference beyond three of its errors, and not negligible\n"
 }

@@ -46,6 +46,8 @@ struct Summary {
     folder: PathBuf,
     files: Vec<PathBuf>,
     scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
+    /// Why scores that are null are.
+    left_out: BTreeMap<String, &'static str>,
 }
 
 /// Makes the report and writes it.
@@ -73,10 +75,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             .sections
             .iter()
             .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
+        let every = bundle.sections.iter().flat_map(|s| &s.scores);
+        let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out?)));
         console.print_json(&Summary {
             folder: args.output.clone(),
             files: bundle.files.iter().map(|(name, _)| args.output.join(name)).collect(),
             scores: scores.collect(),
+            left_out: left_out.collect(),
         })?;
         return Ok(Code::Done);
     }
@@ -88,7 +93,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let value = match score.value.map(number) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
-                None => "does not apply: the material has no dispersion".into(),
+                None => format!("– ({})", score.left_out.unwrap_or("does not apply")),
             };
             text += &format!("  {:<16} {value}\n", score.name);
         }

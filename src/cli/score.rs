@@ -77,6 +77,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
                 text: form.row(&columns, &table::cells(leading, &row))?,
                 complaint: tables::complaint(spec, &row),
+                note: row.omissions(),
             })
         },
         columns: columns.clone(),

@@ -9,7 +9,9 @@ use crate::study::meta::Meta;
 use crate::study::score::{Plan, Row};
 use crate::study::shard::Shard;
 use crate::study::table::{Form, TableError};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 /// The options of a table.
 #[derive(Debug, Clone, clap::Args)]
@@ -54,6 +56,7 @@ impl Study<'_> {
         let stream = replace::is_stream(&table.output);
         let form = if stream && console.json { Form::Json } else { Form::of(&table.output)? };
         let bar = console.progress(0, self.what);
+        let noted = Mutex::new(BTreeSet::new());
         let tell = |event: Event| match event {
             Event::Remark(Remark::Waiting) => bar.suspend(|| {
                 console.note(&format!(
@@ -75,6 +78,11 @@ impl Study<'_> {
             Event::Row(line) => {
                 if let Some(complaint) = &line.complaint {
                     bar.suspend(|| console.complain(complaint));
+                }
+                if let Some(note) = &line.note
+                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(note.clone())
+                {
+                    bar.suspend(|| console.note(&format!("note: {note}")));
                 }
                 bar.inc(1);
             }

@@ -1,5 +1,6 @@
 //! Independent batches of one experiment, traced side by side.
 
+use crate::math::statistic::Statistic;
 use crate::math::stats::{self, Estimate, Sum};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -64,6 +65,17 @@ impl<E: Experiment> Traced<E> {
     /// What the batches have added up, in their order.
     pub fn tallies(&self) -> &[E::Tally] {
         &self.tallies
+    }
+
+    /// A score, with the error that its kind of statistic has; none if nothing was seen that it could be
+    /// a score of.
+    pub fn score(&self, of: &Statistic<E::Tally>) -> Option<Estimate> {
+        of.sampled(&self.tallies)
+    }
+
+    /// The same where directions are random and the rest is known: see [`Statistic::computed`].
+    pub fn computed(&self, of: &Statistic<E::Tally>) -> Option<Estimate> {
+        of.computed(&self.tallies)
     }
 
     /// A smooth function of the sums over all batches, with its standard error (see

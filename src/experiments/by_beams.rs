@@ -30,20 +30,22 @@ pub fn view(
     const COS2: usize = Band::Below as usize + 1;
     const SCOPE: usize = COS2 + 1;
     const DOME: usize = COS2 + 2;
+    const HIDDEN: usize = COS2 + 3;
     let (direction, index) = (-aspect.axis, medium.material.index_d());
     let Surroundings { scope, dome } = surroundings;
     let lit = Lit { direction, indices: [index] };
-    let weighed: Weighed<7> = weigh(beams, &lit, medium.polarised, effort, |l| {
+    let weighed: Weighed<8> = weigh(beams, &lit, medium.polarised, effort, |l| {
         let up = l.up as f32;
-        let mut weights = [0.0; 7];
+        let mut weights = [0.0; 8];
         weights[band(up) as usize] = 1.0;
         weights[COS2] = l.up.max(0.0).powi(2);
         weights[SCOPE] = f64::from(u8::from(scope.is_bright(up)));
+        weights[HIDDEN] = f64::from(u8::from(scope.is_hidden(up)));
         weights[DOME] = f64::from(u8::from(dome.is_bright(up)));
         weights
     })?;
     let shares = strongest(beams, direction, index, medium.polarised, STRONGEST_POWER)?;
-    let tally = |(sums, lost): ([f64; 7], f64)| view::Tally {
+    let tally = |(sums, lost): ([f64; 8], f64)| view::Tally {
         rays: 1.0,
         reflected: weighed.reflected,
         bands: std::array::from_fn(|b| sums[b]),
@@ -52,6 +54,7 @@ pub fn view(
         lost,
         strongest: shares.bands,
         scope_bright: sums[SCOPE],
+        scope_dark: sums[HIDDEN],
         luminance: weighed.glare[DOME] + sums[DOME],
         windowed: shares.windowed,
         dark: 0.0,

@@ -163,6 +163,7 @@ impl Experiment for Gaze<'_> {
                     tally.bands[band(z as f32) as usize] += m.power;
                     tally.up_cos2 += m.power * z.max(0.0).powi(2);
                     tally.scope_bright += bright(scope);
+                    tally.scope_dark += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
                 } else {
                     tally.reflected += m.power;
                 }

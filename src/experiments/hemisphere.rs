@@ -96,7 +96,7 @@ struct Dome<'a> {
     tally: &'a mut Tally,
     returned: Lanes,
     returned_cos2: Lanes,
-    left: Lanes,
+    leaked: Lanes,
     absorbed: Lanes,
 }
 
@@ -137,17 +137,16 @@ impl Rays for Dome<'_> {
             let returned = if up > 0.0 { through_crown } else { 0.0 };
             self.returned[l] += returned;
             self.returned_cos2[l] += returned * up * up;
-            self.left[l] += m.power[l];
+            self.leaked[l] += m.power[l] - returned;
             self.absorbed[l] += m.absorbed[l];
         }
     }
 
     fn ended(&mut self, lane: usize) {
         let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
-        let returned = take(&mut self.returned);
-        self.tally.returned += returned;
+        self.tally.returned += take(&mut self.returned);
         self.tally.returned_cos2 += take(&mut self.returned_cos2);
-        self.tally.leaked += take(&mut self.left) - returned;
+        self.tally.leaked += take(&mut self.leaked);
         self.tally.absorbed += take(&mut self.absorbed);
     }
 }
@@ -163,7 +162,7 @@ impl Experiment for Hemisphere<'_> {
             tally,
             returned: zero,
             returned_cos2: zero,
-            left: zero,
+            leaked: zero,
             absorbed: zero,
         };
         let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);

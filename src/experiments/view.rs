@@ -55,6 +55,12 @@ impl Sky {
         height > 0.0 && height < self.dark_from
     }
 
+    /// Whether light comes from the dark cone about the viewer.
+    #[inline(always)]
+    pub fn is_hidden(&self, height: f32) -> bool {
+        height >= self.dark_from.max(f32::MIN_POSITIVE)
+    }
+
     /// The height at which the outer side of a facet mirrors the viewer's line of sight.
     pub fn mirror_height(entry: &Entry) -> f32 {
         2.0 * entry.cos_outside * entry.cos_outside - 1.0
@@ -116,6 +122,8 @@ pub struct Tally {
     pub strongest: [f64; 4],
     /// Power from above the horizon outside the cone of the Ideal-Scope.
     pub scope_bright: f64,
+    /// Power from above the horizon inside that cone.
+    pub scope_dark: f64,
     /// Luminance under the dome, reflection at entry included.
     pub luminance: f64,
     /// Rays whose strongest path leaves through the first pavilion facet that it meets.
@@ -134,6 +142,7 @@ impl Sum for Tally {
         self.lost += other.lost;
         self.strongest.add(&other.strongest);
         self.scope_bright += other.scope_bright;
+        self.scope_dark += other.scope_dark;
         self.luminance += other.luminance;
         self.windowed += other.windowed;
         self.dark += other.dark;
@@ -196,6 +205,7 @@ struct Gaze<'a> {
     strongest: Lanes,
     strongest_z: Lanes,
     scope_bright: Lanes,
+    scope_dark: Lanes,
     luminance: Lanes,
     /// 1 once a lane has met the pavilion.
     been_below: Lanes,
@@ -244,6 +254,7 @@ impl Rays for Gaze<'_> {
             self.bands[Band::Blue as usize][l] += zenith;
             self.bands[Band::Below as usize][l] += power - sky;
             self.scope_bright[l] += above(scope.is_bright(z));
+            self.scope_dark[l] += above(scope.is_hidden(z));
             self.luminance[l] += above(dome.is_bright(z));
             let below = pavilion[m.facet[l] as usize];
             let first = if self.been_below[l] > 0.0 { 0.0 } else { below };
@@ -263,6 +274,7 @@ impl Rays for Gaze<'_> {
         self.tally.up_cos2 += take(&mut self.up_cos2);
         self.tally.absorbed += take(&mut self.absorbed);
         self.tally.scope_bright += take(&mut self.scope_bright);
+        self.tally.scope_dark += take(&mut self.scope_dark);
         let (luminance, windowed) = (take(&mut self.luminance), take(&mut self.windowed));
         self.tally.luminance += luminance;
         self.tally.windowed += windowed;
@@ -288,6 +300,7 @@ impl Experiment for View<'_> {
             strongest: zero,
             strongest_z: zero,
             scope_bright: zero,
+            scope_dark: zero,
             luminance: zero,
             been_below: zero,
             windowed: zero,

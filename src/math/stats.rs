@@ -18,6 +18,9 @@ impl Estimate {
     }
 }
 
+/// Of a normal law, 95 in 100 lie within so many standard errors.
+pub const NORMAL_95: f64 = 1.959_964;
+
 /// Estimates a ratio of sums from independent batches.
 ///
 /// - `batches`: one (numerator, denominator) a batch; for a plain mean the denominator is the
@@ -108,8 +111,8 @@ pub fn jackknife<T: Sum>(batches: &[T], of: impl Fn(&T) -> f64) -> Estimate {
 
 /// By how much wider ±1.96 standard errors must be that come from `k` batches, to hold the truth 95
 /// times in 100: Student's t over the normal's 1.96, by Cornish and Fisher's expansion.
-fn student(k: usize) -> f64 {
-    let (z, nu) = (1.959_964f64, (k - 1) as f64);
+pub(super) fn student(k: usize) -> f64 {
+    let (z, nu) = (NORMAL_95, (k - 1) as f64);
     let z2 = z * z;
     let second = (5.0 * z2 + 16.0) * z2 + 3.0;
     let third = ((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0;

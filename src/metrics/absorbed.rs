@@ -1,6 +1,6 @@
 //! Light that the stone absorbs.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Absorbed light.
 pub static ABSORBED: Metric = Metric {
@@ -18,5 +18,5 @@ pub static ABSORBED: Metric = Metric {
         arriving. Directions are cosine-distributed about the crown facets' normals, points uniform \
         by crown area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| t.absorbed / t.arrived),
+    reading: Reading::Hemisphere(Statistic::Smooth(|t| t.absorbed / t.arrived)),
 };

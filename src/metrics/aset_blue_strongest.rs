@@ -1,6 +1,6 @@
 //! ASET by the strongest path: light from 75 to 90° above the girdle plane.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by the strongest path: light from 75 to 90° above the girdle plane.
@@ -18,5 +18,5 @@ pub static ASET_BLUE_STRONGEST: Metric = Metric {
         off), D line. Share of the outline whose strongest path comes from 75 to 90° above the \
         girdle plane, as a photograph shows it; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.strongest[Band::Blue as usize] / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Blue as usize], t.rays])),
 };

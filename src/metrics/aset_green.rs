@@ -1,6 +1,6 @@
 //! ASET by energy: light from 0 to 45° above the girdle plane.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by energy: light from 0 to 45° above the girdle plane.
@@ -18,5 +18,5 @@ pub static ASET_GREEN: Metric = Metric {
         off), D line. Share of the sight lines' power that comes from 0 to 45° above the girdle \
         plane, by whatever facet; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.bands[Band::Green as usize] / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.bands[Band::Green as usize], t.rays], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! ASET by the strongest path: light from 0 to 45° above the girdle plane.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by the strongest path: light from 0 to 45° above the girdle plane.
@@ -18,5 +18,5 @@ pub static ASET_GREEN_STRONGEST: Metric = Metric {
         off), D line. Share of the outline whose strongest path comes from 0 to 45° above the girdle \
         plane, as a photograph shows it; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.strongest[Band::Green as usize] / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Green as usize], t.rays])),
 };

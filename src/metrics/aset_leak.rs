@@ -1,6 +1,6 @@
 //! ASET by energy: light from below the horizon.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by energy: light from below the horizon.
@@ -18,5 +18,5 @@ pub static ASET_LEAK: Metric = Metric {
         off), D line. Share of the sight lines' power that comes from below the horizon, by whatever \
         facet; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.bands[Band::Below as usize] / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.bands[Band::Below as usize], t.rays], 1.0)),
 };

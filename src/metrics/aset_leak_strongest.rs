@@ -1,6 +1,6 @@
 //! ASET by the strongest path: light from below the horizon.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by the strongest path: light from below the horizon.
@@ -18,5 +18,5 @@ pub static ASET_LEAK_STRONGEST: Metric = Metric {
         observer's head. Share of the outline whose strongest path comes from below the horizon, as \
         a photograph shows it; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.strongest[Band::Below as usize] / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Below as usize], t.rays])),
 };

@@ -1,6 +1,6 @@
 //! Brightness.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::OBSERVER_DEG;
 
 /// Brightness.
@@ -18,5 +18,5 @@ pub static BRIGHTNESS: Metric = Metric {
         above the horizon with a dark observer cone of 23° half-angle, or --observer. Mean luminance \
         over the outline per luminance of the dome, by whatever facet, reflection at entry included.",
     source: "dome with a dark cone of 23°: T. Moses et al., Gems & Gemology 40 (2004) 202; the mean is cutlab's",
-    reading: Reading::View(|t| t.luminance / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.luminance, t.rays], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! Contrast.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::{cells::OBSERVER_DEG, contrast::Tally};
 
 /// Contrast.
@@ -20,5 +20,5 @@ pub static CONTRAST: Metric = Metric {
         (what of them lies in the outline; mean over all ways to lay the grid). Standard deviation \
         per mean of the cells, by their area in the outline.",
     source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem Society; the figure is cutlab's",
-    reading: Reading::Contrast(Tally::contrast),
+    reading: Reading::Contrast(Statistic::Smooth(Tally::contrast)),
 };

@@ -1,6 +1,6 @@
 //! COS of the whole stone.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::iso::{OBSERVER_DEG, Weight};
 
 /// COS of the whole stone.
@@ -21,5 +21,5 @@ pub static COS: Metric = Metric {
         above 1e-4). Mean over the whole outline, in percent. The light stays with the viewer when \
         the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
-    reading: Reading::Iso(|t| t.percent(Weight::Cos)),
+    reading: Reading::Iso(Statistic::Mean(|t| [t.all[Weight::Cos as usize], t.rays], 100.0)),
 };

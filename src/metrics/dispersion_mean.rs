@@ -1,6 +1,6 @@
 //! Mean separation of the colours.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Mean separation of the colours.
 pub static DISPERSION_MEAN: Metric = Metric {
@@ -17,5 +17,5 @@ pub static DISPERSION_MEAN: Metric = Metric {
         crown. Angle between lines B and G where both leave by the same facets as D, mean weighted \
         by the power at D. High for stones that return little: read it beside light return.",
     source: "defined by cutlab",
-    reading: Reading::Beam(|t| t.power_angle_deg / t.paired_power),
+    reading: Reading::Beam(Statistic::Smooth(|t| t.power_angle_deg / t.paired_power)),
 };

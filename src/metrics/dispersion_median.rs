@@ -1,6 +1,6 @@
 //! Median separation of the colours.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::beam::CLASS_DEG;
 
 /// Median separation of the colours.
@@ -19,5 +19,5 @@ pub static DISPERSION_MEDIAN: Metric = Metric {
         at D leaves with less. Median of grouped data: the power of each class of 0.05° counts as \
         spread evenly over it, because facets give a few sharp angles.",
     source: "defined by cutlab",
-    reading: Reading::Beam(|t| t.power_by_angle.median() * CLASS_DEG),
+    reading: Reading::Beam(Statistic::Median(|t| &t.power_by_angle, CLASS_DEG)),
 };

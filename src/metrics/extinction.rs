@@ -1,6 +1,6 @@
 //! Extinction.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::OBSERVER_DEG;
 
 /// Extinction.
@@ -19,5 +19,5 @@ pub static EXTINCTION: Metric = Metric {
         outline, windowing aside, whose luminance is under a tenth of the dome's, by whatever facet, \
         reflection at entry included.",
     source: "the faceters' extinction, as defined by cutlab",
-    reading: Reading::View(|t| t.dark / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.dark, t.rays])),
 };

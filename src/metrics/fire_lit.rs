@@ -1,6 +1,6 @@
 //! Fire: what is lit.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Fire: what is lit.
 pub static FIRE_LIT: Metric = Metric {
@@ -17,5 +17,5 @@ pub static FIRE_LIT: Metric = Metric {
         crown. Area of the exiting beams brighter than 1e-3 of the incident irradiance, weighted by \
         cos² of the angle from zenith, per outline area; mean of the lines B C D e F G. A surrogate.",
     source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
-    reading: Reading::Beam(|t| t.lit / t.points),
+    reading: Reading::Beam(Statistic::Mean(|t| [t.lit, t.points], 1.0)),
 };

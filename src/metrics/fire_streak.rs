@@ -1,6 +1,6 @@
 //! Fire: length of the streaks.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Fire: length of the streaks.
 pub static FIRE_STREAK: Metric = Metric {
@@ -18,5 +18,5 @@ pub static FIRE_STREAK: Metric = Metric {
         weighted by cos² of the angle from zenith and by the angle between lines B and G where both \
         leave by the same facets, per outline area. A surrogate.",
     source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
-    reading: Reading::Beam(|t| t.streak_deg / t.points),
+    reading: Reading::Beam(Statistic::Mean(|t| [t.streak_deg, t.points], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! Glare.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Glare.
 pub static GLARE: Metric = Metric {
@@ -18,5 +18,5 @@ pub static GLARE: Metric = Metric {
         the crown facets' normals, points uniform by crown area; those from below the horizon are \
         not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| t.glare / t.arrived),
+    reading: Reading::Hemisphere(Statistic::Smooth(|t| t.glare / t.arrived)),
 };

@@ -1,6 +1,6 @@
 //! Ideal-Scope: light that comes from the viewer himself.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::SCOPE_DEG;
 
 /// Ideal-Scope: light that comes from the viewer himself.
@@ -19,5 +19,5 @@ pub static IDEAL_SCOPE_BLACK: Metric = Metric {
         reflection at entry not counted. The cone's half-angle is 12° (about 24° are blocked in \
         all), or --observer.",
     source: "colours of the Ideal-Scope (K. Okuda, 1984; G. Holloway): red return, white leakage, black viewer",
-    reading: Reading::View(|t| (t.up() - t.scope_bright) / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.scope_dark, t.rays], 1.0)),
 };

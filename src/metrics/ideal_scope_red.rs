@@ -1,6 +1,6 @@
 //! Ideal-Scope: light that comes back from around the viewer.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::SCOPE_DEG;
 
 /// Ideal-Scope: light that comes back from around the viewer.
@@ -19,5 +19,5 @@ pub static IDEAL_SCOPE_RED: Metric = Metric {
         viewer, by whatever facet; reflection at entry not counted. The cone's half-angle is 12° \
         (about 24° are blocked in all), or --observer.",
     source: "colours of the Ideal-Scope (K. Okuda, 1984; G. Holloway): red return, white leakage, black viewer",
-    reading: Reading::View(|t| t.scope_bright / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.scope_bright, t.rays], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! Ideal-Scope: leakage.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// Ideal-Scope: leakage.
@@ -18,5 +18,5 @@ pub static IDEAL_SCOPE_WHITE: Metric = Metric {
         sight lines' power that comes from below the horizon, by whatever facet: what an Ideal-Scope \
         shows white; reflection at entry not counted. Equal to aset_leak.",
     source: "colours of the Ideal-Scope (K. Okuda, 1984; G. Holloway): red return, white leakage, black viewer",
-    reading: Reading::View(|t| t.bands[Band::Below as usize] / t.rays),
+    reading: Reading::View(Statistic::Mean(|t| [t.bands[Band::Below as usize], t.rays], 1.0)),
 };

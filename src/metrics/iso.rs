@@ -1,6 +1,6 @@
 //! ISO of the whole stone.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::iso::{OBSERVER_DEG, Weight};
 
 /// ISO of the whole stone.
@@ -21,5 +21,5 @@ pub static ISO: Metric = Metric {
         above 1e-4). Mean over the whole outline, in percent. The light stays with the viewer when \
         the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
-    reading: Reading::Iso(|t| t.percent(Weight::Iso)),
+    reading: Reading::Iso(Statistic::Mean(|t| [t.all[Weight::Iso as usize], t.rays], 100.0)),
 };

@@ -1,6 +1,6 @@
 //! Leakage.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Leakage.
 pub static LEAKAGE: Metric = Metric {
@@ -18,5 +18,5 @@ pub static LEAKAGE: Metric = Metric {
         Directions are cosine-distributed about the crown facets' normals, points uniform by crown \
         area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| t.leaked / t.arrived),
+    reading: Reading::Hemisphere(Statistic::Mean(|t| [t.leaked, t.arrived], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! Leakage by the strongest path: the outline that looks down through the stone.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// Leakage by the strongest path: the outline that looks down through the stone.
@@ -18,5 +18,5 @@ pub static LEAKAGE_STRONGEST: Metric = Metric {
         off), D line. Share of the outline whose strongest path comes from below the horizon, as a \
         photograph shows it; reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
-    reading: Reading::View(|t| t.strongest[Band::Below as usize] / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Below as usize], t.rays])),
 };

@@ -1,6 +1,6 @@
 //! Light given up.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Light given up.
 pub static LOST: Metric = Metric {
@@ -19,5 +19,5 @@ pub static LOST: Metric = Metric {
         about the crown facets' normals, points uniform by crown area; those from below the horizon \
         are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(|t| t.lost / t.arrived),
+    reading: Reading::Hemisphere(Statistic::Smooth(|t| t.lost / t.arrived)),
 };

@@ -1,6 +1,6 @@
 //! SC2 of the whole stone.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::iso::{OBSERVER_DEG, Weight};
 
 /// SC2 of the whole stone.
@@ -21,5 +21,5 @@ pub static SC2: Metric = Metric {
         (cosine above 1e-4). Mean over the whole outline, in percent. The light stays with the \
         viewer when the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
-    reading: Reading::Iso(|t| t.percent(Weight::Sc2)),
+    reading: Reading::Iso(Statistic::Mean(|t| [t.all[Weight::Sc2 as usize], t.rays], 100.0)),
 };

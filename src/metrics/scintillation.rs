@@ -1,6 +1,6 @@
 //! Scintillation.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::cells::OBSERVER_DEG;
 
 /// Scintillation.
@@ -22,5 +22,5 @@ pub static SCINTILLATION: Metric = Metric {
         dome stays with the viewer. Mean |change of a cell's luminance| in a step, per mean \
         luminance, by the cells' area in the outline.",
     source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem Society; the figure is cutlab's",
-    reading: Reading::Scintillation(|t| t.change / t.luminance),
+    reading: Reading::Scintillation(Statistic::Smooth(|t| t.change / t.luminance)),
 };

@@ -1,6 +1,6 @@
 //! ISO of the table.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 use crate::experiments::iso::{OBSERVER_DEG, Weight};
 
 /// ISO of the table.
@@ -21,5 +21,5 @@ pub static TABLE_ISO: Metric = Metric {
         above 1e-4). Mean over the table alone, in percent. The light stays with the viewer when the \
         stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
-    reading: Reading::Iso(|t| t.table_percent(Weight::Iso)),
+    reading: Reading::Iso(Statistic::Mean(|t| [t.table[Weight::Iso as usize], t.table_rays], 100.0)),
 };

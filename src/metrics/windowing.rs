@@ -1,6 +1,6 @@
 //! Windowing.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Windowing.
 pub static WINDOWING: Metric = Metric {
@@ -17,5 +17,5 @@ pub static WINDOWING: Metric = Metric {
         observer's head. Share of the outline whose strongest path leaves through the first pavilion \
         facet (or culet) that it meets; reflection at entry not counted.",
     source: "the faceters' window, as defined by cutlab",
-    reading: Reading::View(|t| t.windowed / t.rays),
+    reading: Reading::View(Statistic::Share(|t| [t.windowed, t.rays])),
 };

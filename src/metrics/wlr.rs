@@ -1,6 +1,6 @@
 //! Weighted light return.
 
-use super::{Metric, Reading};
+use super::{Metric, Reading, Statistic};
 
 /// Weighted light return.
 pub static WLR: Metric = Metric {
@@ -20,5 +20,5 @@ pub static WLR: Metric = Metric {
         counted.",
     source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
         which tests/scores.rs holds",
-    reading: Reading::Hemisphere(|t| t.returned_cos2 / t.arrived),
+    reading: Reading::Hemisphere(Statistic::Mean(|t| [t.returned_cos2, t.arrived], 1.0)),
 };

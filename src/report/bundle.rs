@@ -6,8 +6,6 @@ use super::{chart, diagram, scopes, sections, tilts};
 use crate::cut::proportions::{self, Proportions};
 use crate::cut::{CutError, Design, families};
 use crate::formats::{self, FormatError};
-use crate::math::stats::Estimate;
-use crate::metrics::Metric;
 use crate::optics::Material;
 use crate::photons::{self, Shots};
 use crate::render::{self, Maps, Tone, write};
@@ -105,12 +103,10 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         tilt: None,
     };
     let row = score(&subject, &plan);
-    if let Some(why) = row.error {
-        return Err(ReportError::Scores(why));
+    if let Some(why) = &row.error {
+        return Err(ReportError::Scores(why.clone()));
     }
-    let scored: Vec<(&'static Metric, Option<Estimate>)> =
-        plan.metrics.iter().copied().zip(row.scores.iter().copied()).collect();
-    let sections = sections::sections(&scored, &References::read()?);
+    let sections = sections::sections(&plan.metrics, &row, &References::read()?);
 
     step("scopes");
     let index = request.material.index_d() as f32;

@@ -21,6 +21,8 @@ pub struct Score {
     pub unit: String,
     /// Value with standard error; none if the metric has no value here.
     pub value: Option<Estimate>,
+    /// Why it has none.
+    pub left_out: Option<&'static str>,
     /// The same of the reference stones.
     pub references: [Option<Estimate>; STONES.len()],
 }
@@ -171,7 +173,10 @@ impl Score {
 
     fn value_html(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
-        cell(self.value, &unit)
+        match self.left_out {
+            Some(why) => format!("<span title=\"{0}\">–</span> <span class=\"se\">{0}</span>", escaped(why)),
+            None => cell(self.value, &unit),
+        }
     }
 }
 

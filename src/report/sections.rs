@@ -4,6 +4,7 @@ use super::page::{Score, Section};
 use super::references::References;
 use crate::math::stats::Estimate;
 use crate::metrics::{Metric, Reading};
+use crate::study::score::Row;
 
 /// A head, and under it the scores that are shown large, then those that follow.
 struct Head {
@@ -60,13 +61,16 @@ const HEADS: [Head; 6] = [
 
 /// The sections of a report.
 ///
-/// - `scores`: every metric of the catalogue with its value, none where it does not apply
-pub fn sections(scores: &[(&'static Metric, Option<Estimate>)], references: &References) -> Vec<Section> {
+/// - `row`: a score, or why there is none, for each of `metrics`
+pub fn sections(metrics: &[&'static Metric], row: &Row, references: &References) -> Vec<Section> {
+    let scores: Vec<(&'static Metric, Option<Estimate>)> =
+        metrics.iter().copied().zip(row.scores.iter().copied()).collect();
     let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| Score {
         name: metric.name.into(),
         about: metric.about.into(),
         unit: metric.unit.into(),
         value,
+        left_out: row.why_left_out(metric),
         references: references.of(metric),
     };
     let home = |m: &Metric| HEADS.iter().position(|head| (head.takes)(m));
@@ -92,11 +96,19 @@ pub fn sections(scores: &[(&'static Metric, Option<Estimate>)], references: &Ref
 mod tests {
     use super::*;
     use crate::metrics::METRICS;
+    use crate::optics::Material;
+    use crate::study::score::{Plan, Subject, score};
 
     #[test]
     fn every_metric_stands_under_one_head() {
-        let scores: Vec<_> = METRICS.iter().map(|m| (*m, None)).collect();
-        let sections = sections(&scores, &References::read().expect("can be read"));
+        let nothing = Subject {
+            stone: String::new(),
+            material: Material::of_index(1.5),
+            shape: Err("none".into()),
+            tilt: None,
+        };
+        let row = score(&nothing, &Plan::default());
+        let sections = sections(METRICS, &row, &References::read().expect("can be read"));
         let names: Vec<&str> = sections.iter().flat_map(|s| &s.scores).map(|s| s.name.as_str()).collect();
         for metric in METRICS {
             assert_eq!(names.iter().filter(|n| **n == metric.name).count(), 1, "{}", metric.name);

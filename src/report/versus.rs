@@ -5,8 +5,8 @@ use super::diagram::projection::{self, View};
 use super::page::{cell, data_uri, escaped, head, scope_figure, tilt_section};
 use super::{scopes, tilts};
 use crate::solid::{Polyhedron, SolidError};
-use crate::study::compare::{Comparison, is_significant};
-use crate::study::score::Plan;
+use crate::study::compare::Comparison;
+use crate::study::score::{Plan, Row};
 use crate::walk::Stone;
 use std::fmt::Write;
 
@@ -34,6 +34,12 @@ pub fn explained(names: &[&str]) -> Vec<String> {
     let labels = labels(names);
     let other = labels.iter().zip(names).filter(|(label, name)| label != *name);
     other.map(|(label, name)| format!("{label}: {name}")).collect()
+}
+
+/// What has no score, and why, stone by stone.
+pub fn left_out(comparison: &Comparison) -> Vec<String> {
+    let said = |row: &Row| Some(format!("{}: {}", row.stone, row.omissions()?));
+    comparison.rows.iter().filter_map(said).collect()
 }
 
 /// The page.
@@ -123,14 +129,18 @@ fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut Strin
         let _ = write!(out, "<tr title=\"{}\"><th scope=\"row\">{}</th>", escaped(metric.about), metric.name);
         let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", cell(value, ""));
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
-        for differences in &comparison.differences {
+        for (other, differences) in comparison.differences.iter().enumerate() {
             let d = differences[m];
-            let text = cell(d, if d.is_some_and(is_significant) { "value differs" } else { "value same" });
+            let differs = comparison.is_significant(other, m) == Some(true);
+            let text = cell(d, if differs { "value differs" } else { "value same" });
             let sign = if d.is_some_and(|e| e.value > 0.0) { "<b>+" } else { "<b>" };
             *out += &text.replacen("<b>", sign, 1);
         }
         *out += "</tr>\n";
     }
     *out += "</tbody></table></div>\n<p class=\"note\">After ± stands one standard error. Differences are of \
-             paired runs with the same random numbers; bold ones are beyond three of their errors.</p>\n</section>\n";
+             paired runs with the same random numbers; bold ones are beyond three of their errors, and more \
+             than 1e-6 of the metric’s scale (1, or 100 for percentages), or 1e-4 where photons are traced.";
+    left_out(comparison).iter().for_each(|line| *out += &format!(" {}.", escaped(line)));
+    *out += "</p>\n</section>\n";
 }

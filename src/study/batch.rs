@@ -46,6 +46,8 @@ pub struct Line {
     pub text: Vec<u8>,
     /// What to say when it is done, if something went wrong.
     pub complaint: Option<String>,
+    /// What to say once, however many rows say it: scores that do not apply.
+    pub note: Option<String>,
 }
 
 impl Line {
@@ -67,7 +69,7 @@ impl Line {
             Some((of.to_owned(), n.parse().ok()?))
         };
         let samples = words.map(sample).collect::<Option<_>>()?;
-        Some(Line { outcome, samples, text: record[cut + 1..].to_vec(), complaint: None })
+        Some(Line { outcome, samples, text: record[cut + 1..].to_vec(), complaint: None, note: None })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::score::{Effort, Plan, Row, Subject, score};
 use crate::math::stats::Estimate;
+use crate::metrics::{Metric, Reading, Statistic};
 
 /// Short runs that a comparison is made of. Each has other random numbers, the same for every
 /// stone, so the spread of the differences is an honest error of them, and smaller than the errors
@@ -12,6 +13,14 @@ pub const RUNS: u64 = 32;
 /// 1 in 190 is (Student's t with 31 degrees of freedom).
 pub const SIGNIFICANT: f64 = 3.0;
 
+/// A closed form or a sum of beams decides about differences larger than this times the metric's scale:
+/// a millionth, as files with seven digits hold a stone's planes.
+const OF_STORAGE: f64 = 1e-6;
+
+/// Photons decide about differences larger than this times the metric's scale: a ray is followed until
+/// it has 1e-4 of its light, and what is given up is never more.
+const OF_TRACING: f64 = 1e-4;
+
 /// The scores of several stones.
 #[derive(Debug, Clone)]
 pub struct Comparison {
@@ -19,11 +28,36 @@ pub struct Comparison {
     pub rows: Vec<Row>,
     /// For each stone but the first, one a metric: its score less the first stone's.
     pub differences: Vec<Vec<Option<Estimate>>>,
+    /// One a metric: smaller differences are never significant ([`negligible`]).
+    pub negligible: Vec<f64>,
 }
 
-/// Whether a difference is beyond chance.
-pub fn is_significant(difference: Estimate) -> bool {
-    difference.value.abs() > SIGNIFICANT * difference.error
+impl Comparison {
+    /// Whether the difference between a stone and the first in a metric is significant, both by number:
+    /// beyond [`SIGNIFICANT`] of its errors, and not negligible. None if there is no difference.
+    ///
+    /// - `other`: from 0, without the first stone
+    pub fn is_significant(&self, other: usize, metric: usize) -> Option<bool> {
+        let difference = self.differences[other][metric]?;
+        Some(is_significant(difference, self.negligible[metric]))
+    }
+}
+
+/// Whether a difference is beyond chance, and beyond what is negligible.
+pub fn is_significant(difference: Estimate, negligible: f64) -> bool {
+    difference.value.abs() > negligible.max(SIGNIFICANT * difference.error)
+}
+
+/// Differences of this metric that say nothing of the stones: those that come of the digits in which a
+/// stone is stored, and, where photons are traced, of the light that they give up.
+pub fn negligible(metric: &Metric, plan: &Plan) -> f64 {
+    let closed = matches!(metric.reading, Reading::Solid(_)) || (plan.exact && metric.by_beams);
+    metric.scale * if closed { OF_STORAGE } else { OF_TRACING }
+}
+
+/// Whether the mean of short runs is not what a long one gives: a median that jumps from peak to peak.
+fn is_for_long_runs(metric: &Metric) -> bool {
+    matches!(metric.reading, Reading::Beam(Statistic::Median(..)))
 }
 
 /// Scores the stones and takes their differences.
@@ -31,26 +65,34 @@ pub fn is_significant(difference: Estimate) -> bool {
 /// - `plan`: its effort is that of all runs together
 /// - `step`: called after each of the [`RUNS`] runs
 ///
-/// With exact metrics there is one run, and errors of differences are those of both scores together.
-/// Checked in `tests/compare.rs`.
+/// With exact metrics there is one run, and errors of differences are those of both scores together; so
+/// it is for medians, which have a run of their own. Checked in `tests/compare.rs`.
 pub fn compare(subjects: &[Subject], plan: &Plan, step: &dyn Fn()) -> Comparison {
     let runs = if plan.exact { 1 } else { RUNS };
     let effort = match plan.effort {
         Effort::Samples(n) => Effort::Samples((n / runs).max(1)),
         Effort::Error(e) => Effort::Error(e * (runs as f64).sqrt()),
     };
+    let (long, short): (Vec<&Metric>, Vec<&Metric>) =
+        plan.metrics.iter().copied().partition(|m| !plan.exact && is_for_long_runs(m));
+    let all = |plan: Plan| subjects.iter().map(|s| score(s, &plan)).collect::<Vec<Row>>();
     let each: Vec<Vec<Row>> = (0..runs)
         .map(|run| {
             let seed = plan.seed.wrapping_mul(RUNS).wrapping_add(run);
-            let plan = Plan { seed, effort, ..plan.clone() };
-            let rows = subjects.iter().map(|s| score(s, &plan)).collect();
+            let rows = all(Plan { seed, effort, metrics: short.clone(), ..plan.clone() });
             step();
             rows
         })
         .collect();
-    let metrics = plan.metrics.len();
-    let mean = |of: &dyn Fn(&[Row]) -> Option<Estimate>| -> Option<Estimate> {
-        let values: Vec<Estimate> = each.iter().map(|rows| of(rows)).collect::<Option<_>>()?;
+    let once = [all(Plan { metrics: long.clone(), ..plan.clone() })];
+    // where a metric's runs are, and its column there
+    let place = |m: &Metric| {
+        let (metrics, runs) =
+            if long.iter().any(|l| l.name == m.name) { (&long, &once[..]) } else { (&short, &each[..]) };
+        (runs, metrics.iter().position(|o| o.name == m.name).unwrap_or_default())
+    };
+    let mean = |runs: &[Vec<Row>], of: &dyn Fn(&[Row]) -> Option<Estimate>| -> Option<Estimate> {
+        let values: Vec<Estimate> = runs.iter().map(|rows| of(rows)).collect::<Option<_>>()?;
         let first = *values.first()?;
         if values.iter().all(|e| *e == first) {
             return Some(first); // one run, or a closed form
@@ -60,20 +102,36 @@ pub fn compare(subjects: &[Subject], plan: &Plan, step: &dyn Fn()) -> Comparison
         let spread = values.iter().map(|e| (e.value - value).powi(2)).sum::<f64>();
         Some(Estimate { value, error: (spread / (n * (n - 1.0))).sqrt() })
     };
-    let rows = (0..subjects.len())
-        .map(|s| Row {
-            scores: (0..metrics).map(|m| mean(&|rows| rows[s].scores[m])).collect(),
-            samples: each[0][s].samples.iter().map(|(of, n)| (*of, n * runs)).collect(),
-            error: each.iter().find_map(|rows| rows[s].error.clone()),
+    let metrics = || plan.metrics.iter().map(|m| place(m));
+    let row = |s: usize| {
+        let samples = each[0][s].samples.iter().map(|(of, n)| (*of, n * runs));
+        let every = || each.iter().chain(&once).map(|rows| &rows[s]);
+        Row {
+            scores: metrics().map(|(runs, m)| mean(runs, &|rows| rows[s].scores[m])).collect(),
+            samples: samples.chain(once[0][s].samples.iter().copied()).collect(),
+            error: every().find_map(|row| row.error.clone()),
+            left_out: left_out(every(), &plan.metrics),
             ..each[0][s].clone()
-        })
-        .collect();
-    let difference = |s: usize, m: usize| {
-        mean(&|rows| {
+        }
+    };
+    let difference = |s: usize, (runs, m): (&[Vec<Row>], usize)| {
+        mean(runs, &|rows| {
             let (first, other) = (rows[0].scores[m]?, rows[s].scores[m]?);
             Some(Estimate { value: other.value - first.value, error: other.error.hypot(first.error) })
         })
     };
-    let differences = (1..subjects.len()).map(|s| (0..metrics).map(|m| difference(s, m)).collect()).collect();
-    Comparison { rows, differences }
+    Comparison {
+        rows: (0..subjects.len()).map(row).collect(),
+        differences: (1..subjects.len()).map(|s| metrics().map(|at| difference(s, at)).collect()).collect(),
+        negligible: plan.metrics.iter().map(|m| negligible(m, plan)).collect(),
+    }
+}
+
+/// What any of the runs leaves out, each metric once.
+fn left_out<'a>(
+    rows: impl Iterator<Item = &'a Row> + Clone,
+    metrics: &[&Metric],
+) -> Vec<(&'static str, &'static str)> {
+    let why = |m: &&Metric| Some((m.name, rows.clone().find_map(|row| row.why_left_out(m))?));
+    metrics.iter().filter_map(why).collect()
 }

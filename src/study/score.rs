@@ -1,13 +1,14 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
 use super::sheet::Sheet;
+use crate::cut::Zone;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
     Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, Scintillation, View,
     by_beams, cells, dented, hemisphere, iso, view,
 };
 use crate::math::stats::Estimate;
-use crate::metrics::{METRICS, Metric, Reading};
+use crate::metrics::{METRICS, Metric, Reading, Statistic};
 use crate::optics::Material;
 use crate::solid::{Body, Polyhedron};
 use crate::walk::Stone;
@@ -140,14 +141,51 @@ pub struct Row {
     pub material: String,
     /// Number of its facets; none if it has no shape.
     pub facets: Option<usize>,
-    /// One a metric of the plan; none where the metric does not apply (no dispersion, a stone with
-    /// dents) or the stone failed.
+    /// One a metric of the plan; none where the metric does not apply (see [`Row::left_out`]) or the
+    /// stone failed.
     pub scores: Vec<Option<Estimate>>,
     /// Points traced, by experiment.
     pub samples: Vec<(&'static str, u64)>,
     /// What went wrong: no shape, no light, or an error not reached (the scores then stand).
     pub error: Option<String>,
+    /// Metrics of the plan that do not apply to the stone, with the reason: nothing went wrong.
+    pub left_out: Vec<(&'static str, &'static str)>,
 }
+
+impl Row {
+    /// Leaves the score of a metric empty, for a reason.
+    pub(super) fn leave_out(&mut self, metric: &Metric, why: &'static str) {
+        self.left_out.push((metric.name, why));
+    }
+
+    /// What is left out and why, in words: metrics of one reason together. None if every score is there.
+    pub fn omissions(&self) -> Option<String> {
+        let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+        for (metric, why) in &self.left_out {
+            match reasons.iter_mut().find(|(reason, _)| reason == why) {
+                Some((_, metrics)) => metrics.push(metric),
+                None => reasons.push((why, vec![metric])),
+            }
+        }
+        let said: Vec<String> =
+            reasons.iter().map(|(why, metrics)| format!("{} left out: {why}", metrics.join(", "))).collect();
+        (!said.is_empty()).then(|| said.join("; "))
+    }
+
+    /// The reason for which a metric is left out, if it is.
+    pub fn why_left_out(&self, metric: &Metric) -> Option<&'static str> {
+        self.left_out.iter().find(|(name, _)| *name == metric.name).map(|(_, why)| *why)
+    }
+}
+
+/// Why scores of colours are left out.
+const NO_DISPERSION: &str = "one refractive index has no dispersion; a material has";
+
+/// Why scores that look at single rays are left out.
+const DENTED: &str = "not known for stones that are not convex";
+
+/// Why scores that compare with the Tolkowsky stone are left out.
+const NO_OUTLINE: &str = "the stone has no outline to compare";
 
 /// Scores one stone.
 ///
@@ -162,6 +200,7 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
         scores: vec![None; plan.metrics.len()],
         samples: Vec::new(),
         error: None,
+        left_out: Vec::new(),
     };
     let filled = match &subject.shape {
         Ok(Shape::Convex(solid)) => {
@@ -198,10 +237,14 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     for (column, metric) in plan.metrics.iter().enumerate() {
         if let Reading::Solid(of) = metric.reading {
             row.scores[column] = of(&stone.solid).map(Estimate::exact);
+            if row.scores[column].is_none() {
+                row.leave_out(metric, NO_OUTLINE);
+            }
         }
     }
     let exact = plan.exact && subject.material.is_clear();
-    let mut sheet = Sheet { row, plan, exact, dented: false };
+    let table = stone.planes.iter().any(|p| Zone::of(p.normal) == Zone::Table);
+    let mut sheet = Sheet { row, plan, exact, dented: false, table };
     sheet.fill("hemisphere", of_hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
     let surroundings = plan.surroundings();
     sheet.fill("view", of_view, false, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
@@ -219,7 +262,12 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     })?;
     let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
     let dispersive = subject.material.is_dispersive();
-    if dispersive {
+    if !dispersive {
+        plan.metrics
+            .iter()
+            .filter(|m| m.needs_dispersion())
+            .for_each(|m| sheet.row.leave_out(m, NO_DISPERSION));
+    } else {
         sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
     }
     if exact {
@@ -244,7 +292,8 @@ fn fill_dented(
     plan: &Plan,
 ) -> Result<(), ExperimentError> {
     let (medium, aspect) = (subject.medium(plan), subject.aspect());
-    let mut sheet = Sheet { row, plan, exact: false, dented: true };
+    plan.metrics.iter().filter(|m| !m.dented).for_each(|m| row.leave_out(m, DENTED));
+    let mut sheet = Sheet { row, plan, exact: false, dented: true, table: true };
     sheet.fill("hemisphere", of_hemisphere, false, DENTED_COST, || {
         dented::Dome::new(stone, &medium, aspect)
     })?;
@@ -253,11 +302,11 @@ fn fill_dented(
     })
 }
 
-fn of_hemisphere(reading: Reading) -> Option<fn(&hemisphere::Tally) -> f64> {
+fn of_hemisphere(reading: Reading) -> Option<Statistic<hemisphere::Tally>> {
     if let Reading::Hemisphere(f) = reading { Some(f) } else { None }
 }
 
-fn of_view(reading: Reading) -> Option<fn(&view::Tally) -> f64> {
+fn of_view(reading: Reading) -> Option<Statistic<view::Tally>> {
     if let Reading::View(f) = reading { Some(f) } else { None }
 }
 

@@ -3,7 +3,8 @@
 use super::score::{Effort, Plan, Row};
 use crate::experiments::weigh::Effort as Work;
 use crate::experiments::{BATCHES, Experiment, ExperimentError, Traced};
-use crate::math::stats::{self, Estimate, Sum};
+use crate::math::statistic::Statistic;
+use crate::math::stats::{Estimate, Sum};
 use crate::metrics::{Metric, Reading};
 
 /// So many points of the hemisphere are as dear as one photon that finishes beams, which then outweigh it.
@@ -12,6 +13,12 @@ const PHOTON_COST: u64 = 16;
 /// Points of the hemisphere, or as much of other experiments, before its error is looked at: enough for
 /// every batch to have seen something.
 const FIRST_SAMPLES: u64 = 1 << 13;
+
+/// Why scores of the table are left out.
+const NO_TABLE: &str = "the stone has no table";
+
+/// Why a score is left out that nothing was seen for: a share of no light has no value.
+const NOTHING_SEEN: &str = "no light is seen that it could be measured on";
 
 /// By how much samples grow from one look at the error to the next.
 const LEAST_STEP: f64 = 1.1;
@@ -25,16 +32,18 @@ pub(super) struct Sheet<'a> {
     pub exact: bool,
     /// Whether the stone is not convex.
     pub dented: bool,
+    /// Whether the stone has a table.
+    pub table: bool,
 }
 
 /// A column: its number, its metric's scale, and what it reads from a tally.
-type Column<F> = (usize, f64, F);
+type Column<T> = (usize, f64, Statistic<T>);
 
 impl Sheet<'_> {
     /// The columns that read a tally.
     ///
     /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
-    fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
+    fn columns<T>(&self, of: impl Fn(Reading) -> Option<Statistic<T>>, by_beams: bool) -> Vec<Column<T>> {
         let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams && (m.dented || !self.dented);
         let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
         metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
@@ -45,10 +54,10 @@ impl Sheet<'_> {
     ///
     /// - `of`, `by_beams`: as [`Sheet::columns`] has them
     /// - `cost`: so many points of the hemisphere are as dear as one of this experiment
-    pub fn fill<E: Experiment, F: Fn(&E::Tally) -> f64>(
+    pub fn fill<E: Experiment>(
         &mut self,
         name: &'static str,
-        of: impl Fn(Reading) -> Option<F>,
+        of: impl Fn(Reading) -> Option<Statistic<E::Tally>>,
         by_beams: bool,
         cost: u64,
         make: impl FnOnce() -> Result<E, ExperimentError>,
@@ -58,26 +67,29 @@ impl Sheet<'_> {
             return Ok(());
         }
         let mut traced = Traced::new(make()?, self.plan.seed);
+        let estimate = |t: &Traced<E>, of: &Statistic<E::Tally>| {
+            if by_beams { t.computed(of) } else { t.score(of) }
+        };
         match self.plan.effort {
             Effort::Samples(samples) => traced.extend_to((samples / cost).max(1)),
             Effort::Error(target) => {
-                let worst = |t: &Traced<E>| worst(&columns, |f| t.estimate(f));
+                let worst = |t: &Traced<E>| worst(&columns, |of| estimate(t, of));
                 let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
                 if let Some(error) = reach(&mut traced, target, first.max(1), cap, worst) {
                     self.complain(name, target, error, traced.samples());
                 }
             }
         }
-        self.take(name, traced.samples(), &columns, |f| traced.estimate(f));
+        self.take(name, traced.samples(), &columns, |of| estimate(&traced, of));
         Ok(())
     }
 
     /// Fills in the columns that beams of one direction give, with photons for what is left over as
     /// far as the plan asks.
-    pub fn finish<T: Sum, F: Fn(&T) -> f64>(
+    pub fn finish<T: Sum>(
         &mut self,
         name: &'static str,
-        of: impl Fn(Reading) -> Option<F>,
+        of: impl Fn(Reading) -> Option<Statistic<T>>,
         tallies: impl Fn(&Work) -> Result<Vec<T>, ExperimentError>,
     ) -> Result<(), ExperimentError> {
         let columns = self.columns(of, true);
@@ -94,10 +106,7 @@ impl Sheet<'_> {
             photons = photons.max(2 * BATCHES as u64);
             let work = Work { photons: photons as usize, seed: self.plan.seed, ..Work::default() };
             let found = tallies(&work)?;
-            let estimate = |f: &F| match &found[..] {
-                [only] => Estimate::exact(f(only)),
-                all => stats::jackknife(all, f),
-            };
+            let estimate = |of: &Statistic<T>| of.computed(&found);
             let error = worst(&columns, estimate);
             match self.plan.effort {
                 Effort::Error(target) if error > target && photons < cap => {
@@ -112,16 +121,27 @@ impl Sheet<'_> {
         }
     }
 
-    fn take<F>(
+    fn take<T>(
         &mut self,
         name: &'static str,
         samples: u64,
-        columns: &[Column<F>],
-        estimate: impl Fn(&F) -> Estimate,
+        columns: &[Column<T>],
+        estimate: impl Fn(&Statistic<T>) -> Option<Estimate>,
     ) {
-        for (column, _, f) in columns {
-            let score = estimate(f);
-            self.row.scores[*column] = Some(score).filter(|e| e.value.is_finite() && e.error.is_finite());
+        for (column, _, of) in columns {
+            let (least, most) = self.plan.metrics[*column].range;
+            match estimate(of).filter(|e| e.error.is_finite()) {
+                // sums may be out by their rounding; + 0 takes the sign from a zero
+                Some(e) => {
+                    self.row.scores[*column] =
+                        Some(Estimate { value: e.value.clamp(least, most) + 0.0, ..e });
+                }
+                None => {
+                    let metric = self.plan.metrics[*column];
+                    let tableless = !self.table && matches!(metric.reading, Reading::Iso(_));
+                    self.row.leave_out(metric, if tableless { NO_TABLE } else { NOTHING_SEEN });
+                }
+            }
         }
         self.row.samples.push((name, samples));
     }
@@ -136,8 +156,8 @@ impl Sheet<'_> {
 }
 
 /// The largest error of any column, measured against its scale.
-fn worst<F>(columns: &[Column<F>], estimate: impl Fn(&F) -> Estimate) -> f64 {
-    columns.iter().map(|(_, scale, f)| estimate(f).error / scale).fold(0.0, f64::max)
+fn worst<T>(columns: &[Column<T>], estimate: impl Fn(&Statistic<T>) -> Option<Estimate>) -> f64 {
+    columns.iter().filter_map(|(_, scale, of)| Some(estimate(of)?.error / scale)).fold(0.0, f64::max)
 }
 
 /// How many samples are likely to bring an error down that is `times` too large: the errors of evenly

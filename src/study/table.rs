@@ -260,7 +260,7 @@ pub fn columns(leading: &[&str], metrics: &[&Metric]) -> Vec<String> {
 }
 
 /// The cells of [`columns`]: those in `leading`, the row's scores and its error. A score that does
-/// not apply leaves its two cells empty.
+/// not apply leaves its two cells empty, and the last cell says why.
 pub fn cells(mut leading: Vec<Cell>, row: &Row) -> Vec<Cell> {
     for score in &row.scores {
         leading.extend(match score {
@@ -268,7 +268,8 @@ pub fn cells(mut leading: Vec<Cell>, row: &Row) -> Vec<Cell> {
             None => [Cell::Empty(()), Cell::Empty(())],
         });
     }
-    leading.push(row.error.as_deref().into());
+    let remarks: Vec<String> = row.error.clone().into_iter().chain(row.omissions()).collect();
+    leading.push(if remarks.is_empty() { Cell::Empty(()) } else { Cell::Text(remarks.join("; ")) });
     leading
 }
 
