@@ -18,6 +18,7 @@ pub mod dented;
 mod entrance;
 pub mod exact;
 pub mod hemisphere;
+pub mod horizon;
 pub mod iso;
 pub mod quadrature;
 pub mod scintillation;

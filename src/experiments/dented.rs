@@ -9,6 +9,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown};
+use super::horizon::is_up;
 use super::view::{Surroundings, band};
 use super::{Aspect, ExperimentError, Medium, Optics, hemisphere, view};
 use crate::math::points::Points;
@@ -100,7 +101,7 @@ impl Experiment for Dome<'_> {
             let sky = sky.as_dvec3().normalize();
             let from = point + FAR * sky;
             let in_sight = || stone.next_facet(from, -sky, Side::Outside).is_some_and(|(f, _)| f == facet);
-            if sky.dot(aspect.axis) <= 0.0 || !in_sight() {
+            if !is_up(sky.dot(aspect.axis) as f32) || !in_sight() {
                 continue;
             }
             tally.arrived += 1.0;
@@ -109,7 +110,7 @@ impl Experiment for Dome<'_> {
                 tally.absorbed += m.absorbed;
                 if !entered {
                     tally.glare += m.power;
-                } else if up > 0.0 && self.crown[m.facet] {
+                } else if is_up(up as f32) && self.crown[m.facet] {
                     tally.returned += m.power;
                     tally.returned_cos2 += m.power * up * up;
                 } else {

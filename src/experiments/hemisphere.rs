@@ -2,6 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
+use super::horizon::is_up;
 use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::{random::Purpose, sample, stats::Sum};
@@ -117,7 +118,7 @@ impl Rays for Dome<'_> {
             self.tally.drawn += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
-            if aspect.height(sky) > 0.0 {
+            if is_up(aspect.height(sky)) {
                 let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
@@ -134,7 +135,7 @@ impl Rays for Dome<'_> {
         for l in 0..LANES {
             let up = (m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z).max(0.0);
             let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];
-            let returned = if up > 0.0 { through_crown } else { 0.0 };
+            let returned = if is_up(up) { through_crown } else { 0.0 };
             self.returned[l] += returned;
             self.returned_cos2[l] += returned * up * up;
             self.left[l] += m.power[l];

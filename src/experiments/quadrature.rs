@@ -1,6 +1,7 @@
 //! Quadrature: the dome of the hemisphere, direction by direction, each by beams.
 
 use super::batches::Experiment;
+use super::horizon::is_up;
 use super::{Aspect, ExperimentError, Medium, check_index, entrance, hemisphere};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -139,7 +140,7 @@ struct Sums {
 
 impl Sums {
     fn exit(&mut self, through_crown: bool, up: f64, power: f64) {
-        if through_crown && up > 0.0 {
+        if through_crown && is_up(up as f32) {
             self.returned += power;
             self.returned_cos2 += power * up * up;
         } else {

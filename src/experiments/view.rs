@@ -2,6 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
+use super::horizon::{self, LEVEL, is_above, is_up};
 use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -46,13 +47,15 @@ impl Sky {
     /// - `half_angle`: of the cone, degrees; 0 for no cone at all
     pub fn behind(half_angle: f64) -> Sky {
         let cos = half_angle.to_radians().cos() as f32;
-        Sky { dark_from: if half_angle > 0.0 { cos } else { f32::INFINITY } }
+        // light along the edge of the cone is bright; but no cone is too small to hold the zenith
+        let edge = cos + LEVEL.min(0.5 * (1.0 - cos));
+        Sky { dark_from: if half_angle > 0.0 { edge } else { f32::INFINITY } }
     }
 
     /// Whether light comes from the height (sine of the elevation).
     #[inline(always)]
     pub fn is_bright(&self, height: f32) -> bool {
-        height > 0.0 && height < self.dark_from
+        horizon::is_up(height) && height < self.dark_from
     }
 
     /// The height at which the outer side of a facet mirrors the viewer's line of sight.
@@ -174,11 +177,11 @@ impl<'a> View<'a> {
 
 /// The band of a direction whose z is `z`.
 pub fn band(z: f32) -> Band {
-    if z >= BAND_ENDS[1] {
+    if is_above(z, BAND_ENDS[1]) {
         Band::Blue
-    } else if z >= BAND_ENDS[0] {
+    } else if is_above(z, BAND_ENDS[0]) {
         Band::Red
-    } else if z > 0.0 {
+    } else if is_up(z) {
         Band::Green
     } else {
         Band::Below
@@ -238,7 +241,8 @@ impl Rays for Gaze<'_> {
             self.up_cos2[l] += power * up * up;
             self.absorbed[l] += m.absorbed[l];
             let above = |counts: bool| if counts { power } else { 0.0 };
-            let (sky, high, zenith) = (above(z > 0.0), above(z >= BAND_ENDS[0]), above(z >= BAND_ENDS[1]));
+            let sky = above(is_up(z));
+            let (high, zenith) = (above(is_above(z, BAND_ENDS[0])), above(is_above(z, BAND_ENDS[1])));
             self.bands[Band::Green as usize][l] += sky - high;
             self.bands[Band::Red as usize][l] += high - zenith;
             self.bands[Band::Blue as usize][l] += zenith;
