@@ -126,6 +126,10 @@ impl Rays for Shine<'_> {
         self.optics.iter().any(Optics::absorbs)
     }
 
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Beam { stone, outline, aspect, .. } = self.experiment;
