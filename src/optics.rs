@@ -7,6 +7,7 @@ pub mod daylight;
 pub mod dispersion;
 pub mod fresnel;
 pub mod illuminants;
+pub mod luminance;
 pub mod materials;
 pub mod rgb;
 pub mod stokes;

@@ -2,6 +2,7 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
+use super::horizon::is_up;
 use super::together::Together;
 use super::{Aspect, ExperimentError, Medium, Optics};
 use crate::math::histogram::Histogram;
@@ -125,6 +126,10 @@ impl Rays for Shine<'_> {
         self.optics.iter().any(Optics::absorbs)
     }
 
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
+    }
+
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Beam { stone, outline, aspect, .. } = self.experiment;
@@ -150,14 +155,14 @@ impl Rays for Shine<'_> {
             let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
             *height = z;
             let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
-            let visible = m.power[l] > THRESHOLD * width && z > 0.0;
+            let visible = m.power[l] > THRESHOLD * width && is_up(z);
             let weight = width * z * z * self.experiment.crown[m.facet[l] as usize];
             *seen = if visible { weight } else { 0.0 };
         }
         let six = lines::SIX.len() as f64;
         self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
         for d in Together::<LINES>::lanes() {
-            let up = height[d] > 0.0 && self.experiment.crown[m.facet[d] as usize] > 0.0;
+            let up = is_up(height[d]) && self.experiment.crown[m.facet[d] as usize] > 0.0;
             if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);

@@ -6,7 +6,8 @@
 
 use super::entrance::Outline;
 use super::view::Sky;
-use super::{Aspect, Optics};
+use super::wavelengths::{TOGETHER, Wavelengths};
+use super::{Aspect, ExperimentError, Medium, STOP_POWER};
 use crate::math::random::{Purpose, Stream};
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
@@ -23,9 +24,6 @@ pub(super) fn side_for(stone: &Stone) -> f64 {
 
 /// Half-angle of the observer under the dome, degrees (AGS; 20° gives its contrast map).
 pub const OBSERVER_DEG: f64 = 15.0;
-
-/// A lane with less than this share of its light is given up; see the hemisphere's.
-const STOP_POWER: f32 = 1e-4;
 
 /// Draws for a point of a cell within the outline. Less than one cell in a thousand has so little
 /// of it inside that this may not do.
@@ -79,6 +77,9 @@ impl Sight {
 
 /// Lines of sight that belong together.
 pub(super) trait Groups {
+    /// Sights of one point, next to each other in a group: they are seen in the same wavelengths.
+    const OF_A_POINT: usize;
+
     /// Fills in the next group; false if there is none.
     fn next(&mut self, group: &mut Vec<Sight>) -> bool;
 
@@ -100,12 +101,41 @@ struct Seat {
     member: usize,
 }
 
-/// The groups' lines of sight on their way through the lanes.
-struct Gaze<'a, G> {
-    stone: &'a Stone,
-    polarised: bool,
-    optics: Optics,
-    sky: Sky,
+/// How the cells of a stone are seen.
+#[derive(Debug, Clone)]
+pub(super) struct Seen<'a> {
+    pub(super) stone: &'a Stone,
+    pub(super) polarised: bool,
+    pub(super) light: Wavelengths,
+    pub(super) sky: Sky,
+    /// A ray with less than this share of its light is given up.
+    pub(super) stop_power: f32,
+}
+
+impl<'a> Seen<'a> {
+    pub(super) fn new(stone: &'a Stone, medium: &Medium, sky: Sky) -> Result<Self, ExperimentError> {
+        let light = Wavelengths::new(medium, stone.unit)?;
+        Ok(Seen { stone, polarised: medium.polarised, light, sky, stop_power: STOP_POWER })
+    }
+
+    /// Walks all groups.
+    ///
+    /// - `hues`: what the wavelengths of a stone that absorbs are drawn from
+    pub(super) fn walk(&self, groups: &mut impl Groups, hues: Stream) {
+        if self.light.absorb() {
+            Gaze::<_, TOGETHER>::new(self, groups, hues).walk();
+        } else {
+            Gaze::<_, 1>::new(self, groups, hues).walk();
+        }
+    }
+}
+
+/// The groups' lines of sight on their way through the lanes, in `K` wavelengths each.
+struct Gaze<'a, G, const K: usize> {
+    seen: &'a Seen<'a>,
+    hues: Stream,
+    /// Where in their parts of the light the wavelengths of the present point lie.
+    hue: f64,
     groups: &'a mut G,
     /// The last group's sights, and how many of them are on their way.
     sights: Vec<Sight>,
@@ -118,28 +148,29 @@ struct Gaze<'a, G> {
     luminance: Lanes,
 }
 
-/// Walks all groups.
-pub(super) fn walk_all(stone: &Stone, optics: Optics, polarised: bool, sky: Sky, groups: &mut impl Groups) {
-    let zero = [0.0; LANES];
-    let mut gaze = Gaze {
-        stone,
-        optics,
-        polarised,
-        sky,
-        groups,
-        sights: Vec::new(),
-        begun: 0,
-        group: 0,
-        pending: Vec::new(),
-        free: Vec::new(),
-        seats: [Seat::default(); LANES],
-        axis: [zero; 3],
-        luminance: zero,
-    };
-    feed::walk_all(stone, STOP_POWER, &mut gaze);
-}
+impl<'a, G: Groups, const K: usize> Gaze<'a, G, K> {
+    fn new(seen: &'a Seen<'a>, groups: &'a mut G, hues: Stream) -> Self {
+        let zero = [0.0; LANES];
+        Gaze {
+            seen,
+            hues,
+            hue: 0.0,
+            groups,
+            sights: Vec::new(),
+            begun: 0,
+            group: 0,
+            pending: Vec::new(),
+            free: Vec::new(),
+            seats: [Seat::default(); LANES],
+            axis: [zero; 3],
+            luminance: zero,
+        }
+    }
 
-impl<G: Groups> Gaze<'_, G> {
+    fn walk(mut self) {
+        feed::walk_all(self.seen.stone, self.seen.stop_power, &mut self);
+    }
+
     /// Takes up the next group.
     fn begin(&mut self) -> bool {
         self.sights.clear();
@@ -159,15 +190,19 @@ impl<G: Groups> Gaze<'_, G> {
     }
 }
 
-impl<G: Groups> Rays for Gaze<'_, G> {
-    const WIDTH: usize = 1;
+impl<G: Groups, const K: usize> Rays for Gaze<'_, G, K> {
+    const WIDTH: usize = K;
 
     fn polarised(&self) -> bool {
-        self.polarised
+        self.seen.polarised
     }
 
     fn absorbing(&self) -> bool {
-        self.optics.absorbs()
+        self.seen.light.absorb()
+    }
+
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
@@ -175,12 +210,18 @@ impl<G: Groups> Rays for Gaze<'_, G> {
             return false;
         }
         let Some(sight) = self.sights.get(self.begun) else { return false };
-        let entry = self.stone.enter(sight.facet, -sight.axis, self.optics.index);
-        packet.enter(lane, sight.point, &entry, self.optics.index);
-        packet.absorption[lane] = self.optics.absorption;
-        self.luminance[lane] = self.sky.mirrored(&entry);
-        for (axis, value) in self.axis.iter_mut().zip(sight.axis.to_array()) {
-            axis[lane] = value;
+        let Seen { stone, light, sky, .. } = self.seen;
+        if light.absorb() && self.begun.is_multiple_of(G::OF_A_POINT) {
+            self.hue = self.hues.unit64();
+        }
+        for (lane, optics) in (lane..).zip(light.spread::<K>(self.hue)) {
+            let entry = stone.enter(sight.facet, -sight.axis, optics.index);
+            packet.enter(lane, sight.point, &entry, optics.index);
+            packet.absorption[lane] = optics.absorption;
+            self.luminance[lane] = sky.mirrored(&entry);
+            for (axis, value) in self.axis.iter_mut().zip(sight.axis.to_array()) {
+                axis[lane] = value;
+            }
         }
         self.seats[lane] = Seat { group: self.group, member: self.begun };
         self.begun += 1;
@@ -191,14 +232,16 @@ impl<G: Groups> Rays for Gaze<'_, G> {
         let [x, y, z] = &self.axis;
         for l in 0..LANES {
             let height = m.dx[l] * x[l] + m.dy[l] * y[l] + m.dz[l] * z[l];
-            self.luminance[l] += if self.sky.is_bright(height) { m.power[l] } else { 0.0 };
+            self.luminance[l] += if self.seen.sky.is_bright(height) { m.power[l] } else { 0.0 };
         }
     }
 
     fn ended(&mut self, lane: usize) {
         let Seat { group, member } = self.seats[lane];
         let pending = &mut self.pending[group];
-        pending.luminances[member] = std::mem::take(&mut self.luminance[lane]);
+        let luminances = &mut self.luminance[lane..lane + K];
+        pending.luminances[member] = luminances.iter().sum::<f32>() / K as f32;
+        luminances.fill(0.0);
         pending.missing -= 1;
         if pending.missing == 0 {
             self.groups.take(&pending.luminances);

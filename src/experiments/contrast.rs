@@ -1,14 +1,13 @@
 //! Contrast: two points of each cell of the face-up picture.
 
 use super::batches::Experiment;
-use super::cells::{self, Cell, Groups, Sight};
+use super::cells::{self, Cell, Groups, Seen, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, Optics};
+use super::{Aspect, ExperimentError, Medium};
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::stats::Sum;
-use crate::optics::dispersion::lines;
 use crate::walk::Stone;
 use std::ops::Range;
 
@@ -18,10 +17,7 @@ use std::ops::Range;
 /// mean as its expectation, so the variance of the cells comes out without the noise of the points.
 #[derive(Debug, Clone)]
 pub struct Contrast<'a> {
-    stone: &'a Stone,
-    polarised: bool,
-    optics: Optics,
-    sky: Sky,
+    seen: Seen<'a>,
     aspect: Aspect,
     outline: Outline,
     side: f64,
@@ -55,7 +51,7 @@ impl Sum for Tally {
 }
 
 impl<'a> Contrast<'a> {
-    /// Looks at a stone at the material's D line.
+    /// Looks at a stone.
     pub fn seen_from(
         stone: &'a Stone,
         medium: &Medium,
@@ -63,14 +59,17 @@ impl<'a> Contrast<'a> {
         sky: Sky,
     ) -> Result<Self, ExperimentError> {
         Ok(Self {
-            stone,
-            polarised: medium.polarised,
-            optics: medium.optics(stone.unit, lines::D)?,
-            sky,
+            seen: Seen::new(stone, medium, sky)?,
             aspect,
             outline: Outline::new(stone, aspect)?,
             side: cells::side_for(stone),
         })
+    }
+
+    /// Gives rays up below `power` instead of [`super::STOP_POWER`].
+    pub fn followed_to(mut self, power: f32) -> Self {
+        self.seen.stop_power = power;
+        self
     }
 }
 
@@ -83,6 +82,8 @@ struct Pairs<'a> {
 }
 
 impl Groups for Pairs<'_> {
+    const OF_A_POINT: usize = 1;
+
     fn next(&mut self, group: &mut Vec<Sight>) -> bool {
         let Some(u) = self.points.next() else { return false };
         let Contrast { aspect, outline, side, .. } = self.experiment;
@@ -106,12 +107,13 @@ impl Experiment for Contrast<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        let hues = cells::stream(seed, Purpose::ScoreHue, batch, points.start);
         let mut pairs = Pairs {
             experiment: self,
             stream: cells::stream(seed, Purpose::Contrast, batch, points.start),
             points: Points::new(seed, Purpose::Contrast, batch, points),
             tally,
         };
-        cells::walk_all(self.stone, self.optics, self.polarised, self.sky, &mut pairs);
+        self.seen.walk(&mut pairs, hues);
     }
 }

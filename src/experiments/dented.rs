@@ -9,20 +9,22 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown};
+use super::horizon::is_up;
 use super::view::{Surroundings, band};
-use super::{Aspect, ExperimentError, Medium, Optics, hemisphere, view};
+use super::wavelengths::Wavelengths;
+use super::{Aspect, ExperimentError, Medium, STOP_POWER, hemisphere, view};
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::sample;
-use crate::optics::dispersion::lines;
 use crate::optics::stokes::Stokes;
 use crate::walk::mesh::{MeshStone, Side};
 use crate::walk::scalar::{Meeting, Ray};
 use glam::DVec3;
 use std::ops::Range;
 
-/// A ray with less than this share of its light is given up; see the hemisphere's.
-const STOP_POWER: f64 = 1e-4;
+/// A ray of a stone that absorbs is given up below this share of its light: of a dark stone little
+/// comes out. It is soon reached there.
+const FAINTEST: f64 = 1e-9;
 
 /// Rays start so far from the stone's middle, or from where they meet it: outside its sphere.
 const FAR: f64 = 2.5;
@@ -33,30 +35,45 @@ struct Lit<'a> {
     stone: &'a MeshStone,
     aspect: Aspect,
     polarised: bool,
-    optics: Optics,
+    light: Wavelengths,
+    stop_power: f64,
 }
 
-impl Lit<'_> {
-    /// Follows a ray of unpolarised light of power 1 from outside. `visit` also learns whether the
+impl<'a> Lit<'a> {
+    fn new(stone: &'a MeshStone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
+        let light = Wavelengths::new(medium, stone.unit)?;
+        let stop_power = if light.absorb() { FAINTEST } else { STOP_POWER.into() };
+        Ok(Lit { stone, aspect, polarised: medium.polarised, light, stop_power })
+    }
+
+    /// Gives rays up below `power`, or before.
+    fn followed_to(&mut self, power: f32) {
+        self.stop_power = self.stop_power.min(power.into());
+    }
+
+    /// Follows a ray of unpolarised light of power 1 from outside, at the wavelength numbered by
+    /// `hue` ([`Wavelengths::at`]). `visit` also learns whether the
     /// light has been inside.
     fn follow(
         &self,
         point: DVec3,
         direction: DVec3,
+        hue: f64,
         mut stream: Stream,
         mut visit: impl FnMut(&Meeting, bool),
     ) -> f64 {
         let axis = direction.any_orthonormal_vector();
+        let optics = self.light.at(hue);
         let ray = Ray {
             point,
             direction,
             power: 1.0,
-            index: self.optics.index.into(),
-            absorption: self.optics.absorption.into(),
+            index: optics.index.into(),
+            absorption: optics.absorption.into(),
             stokes: self.polarised.then(|| Stokes::unpolarised(1.0, axis)),
         };
         let mut entered = false;
-        self.stone.walk(ray, Side::Outside, STOP_POWER, &mut stream, |meeting, side| {
+        self.stone.walk(ray, Side::Outside, self.stop_power, &mut stream, |meeting, side| {
             entered |= side == Side::Inside;
             visit(meeting, entered);
         })
@@ -77,12 +94,16 @@ pub struct Dome<'a> {
 }
 
 impl<'a> Dome<'a> {
-    /// Lights a stone at the material's D line.
+    /// Lights a stone.
     pub fn new(stone: &'a MeshStone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
-        let optics = medium.optics(stone.unit, lines::D)?;
         let crown = stone.planes.iter().map(|p| entrance::is_crown(p.normal)).collect();
-        let lit = Lit { stone, aspect, polarised: medium.polarised, optics };
-        Ok(Self { lit, entrance: Crown::of_mesh(stone)?, crown })
+        Ok(Self { lit: Lit::new(stone, medium, aspect)?, entrance: Crown::of_mesh(stone)?, crown })
+    }
+
+    /// Gives rays up below `power` instead of [`STOP_POWER`].
+    pub fn followed_to(mut self, power: f32) -> Self {
+        self.lit.followed_to(power);
+        self
     }
 }
 
@@ -91,8 +112,10 @@ impl Experiment for Dome<'_> {
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
         let Lit { stone, aspect, .. } = &self.lit;
-        let numbers = points.clone();
-        for (number, [a, b, c, d]) in numbers.zip(Points::new(seed, Purpose::Hemisphere, batch, points)) {
+        let hues = Points::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let numbers = points.clone().zip(hues);
+        let places = Points::new(seed, Purpose::Hemisphere, batch, points);
+        for ((number, [hue]), [a, b, c, d]) in numbers.zip(places) {
             tally.drawn += 1.0;
             let (facet, point) = self.entrance.sample([a, b]);
             let normal = stone.planes[facet].normal.as_vec3();
@@ -100,16 +123,16 @@ impl Experiment for Dome<'_> {
             let sky = sky.as_dvec3().normalize();
             let from = point + FAR * sky;
             let in_sight = || stone.next_facet(from, -sky, Side::Outside).is_some_and(|(f, _)| f == facet);
-            if sky.dot(aspect.axis) <= 0.0 || !in_sight() {
+            if !is_up(sky.dot(aspect.axis) as f32) || !in_sight() {
                 continue;
             }
             tally.arrived += 1.0;
-            tally.lost += self.lit.follow(from, -sky, chance(seed, batch, number), |m, entered| {
+            tally.lost += self.lit.follow(from, -sky, hue, chance(seed, batch, number), |m, entered| {
                 let up = m.direction.dot(aspect.axis);
                 tally.absorbed += m.absorbed;
                 if !entered {
                     tally.glare += m.power;
-                } else if up > 0.0 && self.crown[m.facet] {
+                } else if is_up(up as f32) && self.crown[m.facet] {
                     tally.returned += m.power;
                     tally.returned_cos2 += m.power * up * up;
                 } else {
@@ -117,6 +140,10 @@ impl Experiment for Dome<'_> {
                 }
             });
         }
+    }
+
+    fn if_followed(tally: &Self::Tally) -> Vec<Self::Tally> {
+        tally.if_followed()
     }
 }
 
@@ -128,15 +155,20 @@ pub struct Gaze<'a> {
 }
 
 impl<'a> Gaze<'a> {
-    /// Looks at a stone at the material's D line.
+    /// Looks at a stone.
     pub fn new(
         stone: &'a MeshStone,
         medium: &Medium,
         aspect: Aspect,
         surroundings: Surroundings,
     ) -> Result<Self, ExperimentError> {
-        let optics = medium.optics(stone.unit, lines::D)?;
-        Ok(Self { lit: Lit { stone, aspect, polarised: medium.polarised, optics }, surroundings })
+        Ok(Self { lit: Lit::new(stone, medium, aspect)?, surroundings })
+    }
+
+    /// Gives rays up below `power` instead of [`STOP_POWER`].
+    pub fn followed_to(mut self, power: f32) -> Self {
+        self.lit.followed_to(power);
+        self
     }
 }
 
@@ -146,15 +178,16 @@ impl Experiment for Gaze<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
         let Aspect { axis, right, top } = self.lit.aspect;
         let Surroundings { scope, dome } = self.surroundings;
-        let numbers = points.clone();
-        for (number, [a, b]) in numbers.zip(Points::new(seed, Purpose::View, batch, points)) {
+        let hues = Points::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let numbers = points.clone().zip(hues);
+        for ((number, [hue]), [a, b]) in numbers.zip(Points::new(seed, Purpose::View, batch, points)) {
             // the stone lies within the unit sphere
             let from = axis * FAR + right * (2.0 * a - 1.0) + top * (2.0 * b - 1.0);
             if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
                 continue;
             }
             tally.rays += 1.0;
-            tally.lost += self.lit.follow(from, -axis, chance(seed, batch, number), |m, entered| {
+            tally.lost += self.lit.follow(from, -axis, hue, chance(seed, batch, number), |m, entered| {
                 let z = m.direction.dot(axis);
                 let bright = |sky: view::Sky| if sky.is_bright(z as f32) { m.power } else { 0.0 };
                 tally.absorbed += m.absorbed;
@@ -169,5 +202,9 @@ impl Experiment for Gaze<'_> {
                 }
             });
         }
+    }
+
+    fn if_followed(tally: &Self::Tally) -> Vec<Self::Tally> {
+        tally.if_followed()
     }
 }

@@ -1,6 +1,7 @@
 //! Exact: the view by beams, its remainder finished by photons. Scores of one direction without
 //! noise, or all but.
 
+use super::horizon::is_above;
 use super::view::{Band, band};
 use super::weigh::{Effort, Leaving, Weighed, weigh};
 use super::{ExperimentError, check_index, entrance};
@@ -74,7 +75,9 @@ pub fn between<const N: usize>(limits_deg: [f64; N]) -> impl Fn(&Leaving<1>) -> 
     let sines = limits_deg.map(|limit| limit.to_radians().sin());
     move |l| {
         let mut weights = [0.0; N];
-        if let Some(last) = sines.iter().rposition(|s| l.up >= *s) {
+        let above = |limit: &f64| is_above(l.up as f32, *limit as f32);
+        let lowest = sines.first().is_some_and(|limit| l.up >= *limit).then_some(0);
+        if let Some(last) = sines.iter().rposition(above).or(lowest) {
             weights[last] = 1.0;
         }
         weights

@@ -2,29 +2,27 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Crown, Outline};
-use super::{Aspect, ExperimentError, Medium, Optics};
+use super::horizon::is_up;
+use super::wavelengths::Wavelengths;
+use super::{Aspect, ExperimentError, Medium, STOP_POWER};
 use crate::math::points::Points;
 use crate::math::{random::Purpose, sample, stats::Sum};
-use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
-
-/// A lane with less than this share of its light is given up. Smaller costs time; larger shows:
-/// what is given up is counted in [`Tally::lost`], 3e-5 in all for a round brilliant.
-const STOP_POWER: f32 = 1e-4;
 
 /// The dome over one stone.
 ///
 /// Points of the crown uniform by area, directions cosine-distributed about the facet's normal;
 /// directions from below the horizon are drawn but not lit. The dome stays with the viewer when the
-/// stone is tilted. D line, unpolarised outside.
+/// stone is tilted. D line, or daylight for a stone that absorbs; unpolarised outside.
 #[derive(Debug, Clone)]
 pub struct Hemisphere<'a> {
     stone: &'a Stone,
     aspect: Aspect,
     polarised: bool,
-    optics: Optics,
+    light: Wavelengths,
+    stop_power: f32,
     entrance: Crown,
     crown: Vec<f32>,
     /// Area of the crown, walking units squared.
@@ -67,25 +65,47 @@ impl Sum for Tally {
     }
 }
 
+impl Tally {
+    /// The tallies of [`Experiment::if_followed`].
+    pub(super) fn if_followed(&self) -> Vec<Tally> {
+        let with = |change: fn(&mut Tally, f64)| {
+            let mut tally = self.clone();
+            change(&mut tally, self.lost);
+            tally
+        };
+        let returned = |t: &mut Tally, lost| {
+            t.returned += lost;
+            t.returned_cos2 += lost;
+        };
+        vec![with(returned), with(|t, lost| t.leaked += lost), with(|t, lost| t.absorbed += lost)]
+    }
+}
+
 impl<'a> Hemisphere<'a> {
-    /// Lights a face-up stone at the material's D line.
+    /// Lights a face-up stone.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
         Self::seen_from(stone, medium, Aspect::FACE_UP)
     }
 
-    /// Lights a stone at the material's D line.
+    /// Lights a stone.
     pub fn seen_from(stone: &'a Stone, medium: &Medium, aspect: Aspect) -> Result<Self, ExperimentError> {
         let entrance = Crown::new(stone)?;
         Ok(Self {
             stone,
             aspect,
             polarised: medium.polarised,
-            optics: medium.optics(stone.unit, lines::D)?,
+            light: Wavelengths::new(medium, stone.unit)?,
+            stop_power: STOP_POWER,
             crown_area: entrance.area(),
             outline_area: Outline::new(stone, aspect)?.area(),
             entrance,
             crown: entrance::crown_flags(stone),
         })
+    }
+
+    /// Gives rays up below `power` instead of [`STOP_POWER`].
+    pub fn followed_to(self, power: f32) -> Self {
+        Self { stop_power: power, ..self }
     }
 }
 
@@ -93,6 +113,7 @@ impl<'a> Hemisphere<'a> {
 struct Dome<'a> {
     experiment: &'a Hemisphere<'a>,
     points: Points<4>,
+    hues: Points<1>,
     tally: &'a mut Tally,
     returned: Lanes,
     returned_cos2: Lanes,
@@ -108,16 +129,21 @@ impl Rays for Dome<'_> {
     }
 
     fn absorbing(&self) -> bool {
-        self.experiment.optics.absorbs()
+        self.experiment.light.absorb()
+    }
+
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Hemisphere { stone, aspect, optics, entrance, .. } = self.experiment;
-        for [a, b, c, d] in &mut self.points {
+        let Hemisphere { stone, aspect, light, entrance, .. } = self.experiment;
+        for ([a, b, c, d], [hue]) in self.points.by_ref().zip(&mut self.hues) {
             self.tally.drawn += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere([c as f32, d as f32]));
-            if aspect.height(sky) > 0.0 {
+            if is_up(aspect.height(sky)) {
+                let optics = light.at(hue);
                 let entry = stone.enter(facet, -sky, optics.index);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
@@ -134,7 +160,7 @@ impl Rays for Dome<'_> {
         for l in 0..LANES {
             let up = (m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z).max(0.0);
             let through_crown = m.power[l] * self.experiment.crown[m.facet[l] as usize];
-            let returned = if up > 0.0 { through_crown } else { 0.0 };
+            let returned = if is_up(up) { through_crown } else { 0.0 };
             self.returned[l] += returned;
             self.returned_cos2[l] += returned * up * up;
             self.leaked[l] += m.power[l] - returned;
@@ -158,6 +184,7 @@ impl Experiment for Hemisphere<'_> {
         let zero = [0.0; LANES];
         let mut dome = Dome {
             experiment: self,
+            hues: Points::new(seed, Purpose::ScoreHue, batch, points.clone()),
             points: Points::new(seed, Purpose::Hemisphere, batch, points),
             tally,
             returned: zero,
@@ -165,7 +192,11 @@ impl Experiment for Hemisphere<'_> {
             leaked: zero,
             absorbed: zero,
         };
-        let lost = feed::walk_all(self.stone, STOP_POWER, &mut dome);
+        let lost = feed::walk_all(self.stone, self.stop_power, &mut dome);
         tally.lost += lost;
+    }
+
+    fn if_followed(tally: &Tally) -> Vec<Tally> {
+        tally.if_followed()
     }
 }

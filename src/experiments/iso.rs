@@ -3,11 +3,11 @@
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, Optics};
+use super::wavelengths::Wavelengths;
+use super::{Aspect, ExperimentError, Medium};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::math::stats::Sum;
-use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
@@ -24,12 +24,12 @@ const FACING: f64 = 1e-4;
 /// A lane with less than this share of its light is given up: nothing of what counts.
 const STOP_POWER: f32 = 1e-7;
 
-/// The parallel view of one stone, D line, unpolarised at every facet; what counts leaves through
+/// The parallel view of one stone, D line or daylight for a stone that absorbs, unpolarised at every facet; what counts leaves through
 /// facets that face the viewer, into the sky outside his head's shadow.
 #[derive(Debug, Clone)]
 pub struct Iso<'a> {
     stone: &'a Stone,
-    optics: Optics,
+    light: Wavelengths,
     sky: Sky,
     aspect: Aspect,
     outline: Outline,
@@ -94,7 +94,7 @@ pub(super) fn weights(h: f32) -> [f32; 3] {
 }
 
 impl<'a> Iso<'a> {
-    /// Looks at a stone at the material's D line, without polarisation.
+    /// Looks at a stone, without polarisation.
     pub fn seen_from(
         stone: &'a Stone,
         medium: &Medium,
@@ -103,7 +103,7 @@ impl<'a> Iso<'a> {
     ) -> Result<Self, ExperimentError> {
         Ok(Self {
             stone,
-            optics: medium.optics(stone.unit, lines::D)?,
+            light: Wavelengths::new(medium, stone.unit)?,
             sky,
             aspect,
             outline: Outline::new(stone, aspect)?,
@@ -117,6 +117,7 @@ impl<'a> Iso<'a> {
 struct Gaze<'a> {
     experiment: &'a Iso<'a>,
     points: Points<2>,
+    hues: Points<1>,
     tally: &'a mut Tally,
     power: [Lanes; 3],
     table: Lanes,
@@ -127,13 +128,18 @@ impl Rays for Gaze<'_> {
     const WIDTH: usize = 1;
 
     fn absorbing(&self) -> bool {
-        self.experiment.optics.absorbs()
+        self.experiment.light.absorb()
+    }
+
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(u) = self.points.next() else { return false };
-        let Iso { stone, optics, sky, aspect, outline, facing, table } = self.experiment;
+        let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
+        let Iso { stone, light, sky, aspect, outline, facing, table } = self.experiment;
         let (facet, point) = outline.sample(u);
+        let optics = light.at(hue);
         let entry = stone.enter(facet, -aspect.axis.as_vec3(), optics.index);
         packet.enter(lane, point, &entry, optics.index);
         packet.absorption[lane] = optics.absorption;
@@ -183,6 +189,7 @@ impl Experiment for Iso<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let mut gaze = Gaze {
             experiment: self,
+            hues: Points::new(seed, Purpose::ScoreHue, batch, points.clone()),
             points: Points::new(seed, Purpose::Iso, batch, points),
             tally,
             power: [[0.0; LANES]; 3],

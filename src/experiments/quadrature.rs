@@ -1,6 +1,7 @@
 //! Quadrature: the dome of the hemisphere, direction by direction, each by beams.
 
 use super::batches::Experiment;
+use super::horizon::is_up;
 use super::{Aspect, ExperimentError, Medium, check_index, entrance, hemisphere};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -94,6 +95,10 @@ impl Experiment for Quadrature<'_> {
             self.add(axis * u + (right * cos + top * sin) * across, photons, tally);
         }
     }
+
+    fn if_followed(tally: &hemisphere::Tally) -> Vec<hemisphere::Tally> {
+        tally.if_followed()
+    }
 }
 
 /// Light that goes on only if it entered through the crown.
@@ -139,7 +144,7 @@ struct Sums {
 
 impl Sums {
     fn exit(&mut self, through_crown: bool, up: f64, power: f64) {
-        if through_crown && up > 0.0 {
+        if through_crown && is_up(up as f32) {
             self.returned += power;
             self.returned_cos2 += power * up * up;
         } else {

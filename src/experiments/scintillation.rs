@@ -1,14 +1,13 @@
 //! Scintillation: cells of the picture while the stone is rocked.
 
 use super::batches::Experiment;
-use super::cells::{self, Cell, Groups, Sight};
+use super::cells::{self, Cell, Groups, Seen, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
-use super::{Aspect, ExperimentError, Medium, Optics};
+use super::{Aspect, ExperimentError, Medium};
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::stats::Sum;
-use crate::optics::dispersion::lines;
 use crate::walk::Stone;
 use std::ops::Range;
 
@@ -35,10 +34,7 @@ const RARER: f64 = 1.25;
 /// 63 (2015) 1026).
 #[derive(Debug, Clone)]
 pub struct Scintillation<'a> {
-    stone: &'a Stone,
-    polarised: bool,
-    optics: Optics,
-    sky: Sky,
+    seen: Seen<'a>,
     /// Before and after each step.
     steps: Vec<[(Aspect, Outline); 2]>,
     side: f64,
@@ -67,7 +63,7 @@ impl Sum for Tally {
 }
 
 impl<'a> Scintillation<'a> {
-    /// Rocks a stone about an aspect, at the material's D line.
+    /// Rocks a stone about an aspect.
     pub fn seen_from(
         stone: &'a Stone,
         medium: &Medium,
@@ -84,14 +80,13 @@ impl<'a> Scintillation<'a> {
                 steps.push([seen(axle, degrees)?, seen(axle, degrees + 1)?]);
             }
         }
-        Ok(Self {
-            stone,
-            polarised: medium.polarised,
-            optics: medium.optics(stone.unit, lines::D)?,
-            sky,
-            steps,
-            side: cells::side_for(stone),
-        })
+        Ok(Self { seen: Seen::new(stone, medium, sky)?, steps, side: cells::side_for(stone) })
+    }
+
+    /// Gives rays up below `power` instead of [`super::STOP_POWER`].
+    pub fn followed_to(mut self, power: f32) -> Self {
+        self.seen.stop_power = power;
+        self
     }
 }
 
@@ -106,6 +101,8 @@ struct Changes<'a> {
 }
 
 impl Groups for Changes<'_> {
+    const OF_A_POINT: usize = 2;
+
     fn next(&mut self, group: &mut Vec<Sight>) -> bool {
         let Scintillation { steps, side, .. } = self.experiment;
         for [u, v, w] in &mut self.points {
@@ -168,6 +165,7 @@ impl Experiment for Scintillation<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        let hues = cells::stream(seed, Purpose::ScoreHue, batch, points.start);
         let mut changes = Changes {
             experiment: self,
             stream: cells::stream(seed, Purpose::Scintillation, batch, points.start),
@@ -175,7 +173,7 @@ impl Experiment for Scintillation<'_> {
             tally,
             changes: Vec::new(),
         };
-        cells::walk_all(self.stone, self.optics, self.polarised, self.sky, &mut changes);
+        self.seen.walk(&mut changes, hues);
     }
 }
 

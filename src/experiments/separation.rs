@@ -2,6 +2,7 @@
 //! once, the remainder finished by photons.
 
 use super::beam::angle_deg;
+use super::horizon::is_up;
 use super::weigh::{Effort, Weighed, weigh};
 use super::{ExperimentError, Medium, entrance};
 use crate::math::stats::Estimate;
@@ -49,7 +50,7 @@ pub(super) fn weighed(
     let lit = Lit { direction, indices: LINES.map(|um| medium.material.index(um)) };
     let crown = entrance::crown_flags(beams.stone());
     weigh(beams, &lit, medium.polarised, effort, |l| {
-        let counts = l.up > 0.0 && crown[l.facet] > 0.0;
+        let counts = is_up(l.up as f32) && crown[l.facet] > 0.0;
         if counts { [angle_deg(l.directions[1], l.directions[2]), 1.0] } else { [0.0; 2] }
     })
 }

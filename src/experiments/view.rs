@@ -2,18 +2,16 @@
 
 use super::batches::Experiment;
 use super::entrance::{self, Outline};
-use super::{Aspect, ExperimentError, Medium, Optics};
+use super::horizon::{self, LEVEL, is_above, is_up};
+use super::wavelengths::{TOGETHER, Wavelengths};
+use super::{Aspect, ExperimentError, Medium, STOP_POWER};
 use crate::math::points::Points;
 use crate::math::random::Purpose;
 use crate::math::stats::Sum;
-use crate::optics::dispersion::lines;
 pub use crate::optics::viewers::{OBSERVER_DEG, SCOPE_DEG};
 use crate::walk::feed::{self, Rays};
 use crate::walk::{Entry, LANES, Lanes, Meeting, Packet, Stone};
 use std::ops::Range;
-
-/// A lane with less than this share of its light is given up; see the hemisphere's.
-const STOP_POWER: f32 = 1e-4;
 
 /// sin 45° and sin 75°: where the bands of the ASET end.
 const BAND_ENDS: [f32; 2] = [std::f32::consts::FRAC_1_SQRT_2, 0.965_925_8];
@@ -46,13 +44,15 @@ impl Sky {
     /// - `half_angle`: of the cone, degrees; 0 for no cone at all
     pub fn behind(half_angle: f64) -> Sky {
         let cos = half_angle.to_radians().cos() as f32;
-        Sky { dark_from: if half_angle > 0.0 { cos } else { f32::INFINITY } }
+        // light along the edge of the cone is bright; but no cone is too small to hold the zenith
+        let edge = cos + LEVEL.min(0.5 * (1.0 - cos));
+        Sky { dark_from: if half_angle > 0.0 { edge } else { f32::INFINITY } }
     }
 
     /// Whether light comes from the height (sine of the elevation).
     #[inline(always)]
     pub fn is_bright(&self, height: f32) -> bool {
-        height > 0.0 && height < self.dark_from
+        horizon::is_up(height) && height < self.dark_from
     }
 
     /// Whether light comes from the dark cone about the viewer.
@@ -91,12 +91,13 @@ impl Default for Surroundings {
 pub const DARK: f32 = 0.1;
 
 /// The view of one stone: points uniform over the outline, parallel rays, every facet that faces
-/// the viewer. D line, unpolarised outside.
+/// the viewer. D line, or daylight for a stone that absorbs; unpolarised outside.
 #[derive(Debug, Clone)]
 pub struct View<'a> {
     stone: &'a Stone,
     polarised: bool,
-    optics: Optics,
+    light: Wavelengths,
+    stop_power: f32,
     aspect: Aspect,
     surroundings: Surroundings,
     outline: Outline,
@@ -154,15 +155,32 @@ impl Tally {
     pub fn up(&self) -> f64 {
         self.bands[..3].iter().sum()
     }
+
+    /// The tallies of [`Experiment::if_followed`]: all from one band, or from within the observer's
+    /// cone.
+    pub(super) fn if_followed(&self) -> Vec<Tally> {
+        let from = |band: usize, bright: f64| {
+            let mut tally = self.clone();
+            tally.bands[band] += self.lost;
+            tally.up_cos2 += if band < Band::Below as usize { self.lost } else { 0.0 };
+            tally.scope_bright += bright * self.lost;
+            tally.luminance += bright * self.lost;
+            tally
+        };
+        let absorbed = Tally { absorbed: self.absorbed + self.lost, ..self.clone() };
+        let zenith = Band::Blue as usize;
+        let sky = (0..=zenith).map(|band| from(band, 1.0));
+        sky.chain([from(zenith, 0.0), from(Band::Below as usize, 0.0), absorbed]).collect()
+    }
 }
 
 impl<'a> View<'a> {
-    /// Looks at a face-up stone at the material's D line, with the usual surroundings.
+    /// Looks at a face-up stone, with the usual surroundings.
     pub fn new(stone: &'a Stone, medium: &Medium) -> Result<Self, ExperimentError> {
         Self::seen_from(stone, medium, Aspect::FACE_UP, Surroundings::default())
     }
 
-    /// Looks at a stone at the material's D line.
+    /// Looks at a stone.
     pub fn seen_from(
         stone: &'a Stone,
         medium: &Medium,
@@ -172,32 +190,39 @@ impl<'a> View<'a> {
         Ok(Self {
             stone,
             polarised: medium.polarised,
-            optics: medium.optics(stone.unit, lines::D)?,
+            light: Wavelengths::new(medium, stone.unit)?,
+            stop_power: STOP_POWER,
             aspect,
             surroundings,
             outline: Outline::new(stone, aspect)?,
             pavilion: entrance::pavilion_flags(stone),
         })
     }
+
+    /// Gives rays up below `power` instead of [`STOP_POWER`].
+    pub fn followed_to(self, power: f32) -> Self {
+        Self { stop_power: power, ..self }
+    }
 }
 
 /// The band of a direction whose z is `z`.
 pub fn band(z: f32) -> Band {
-    if z >= BAND_ENDS[1] {
+    if is_above(z, BAND_ENDS[1]) {
         Band::Blue
-    } else if z >= BAND_ENDS[0] {
+    } else if is_above(z, BAND_ENDS[0]) {
         Band::Red
-    } else if z > 0.0 {
+    } else if is_up(z) {
         Band::Green
     } else {
         Band::Below
     }
 }
 
-/// The rays of a run of points.
-struct Gaze<'a> {
+/// The rays of a run of points, `K` wavelengths each; what is said of a ray stands in its first lane.
+struct Gaze<'a, const K: usize> {
     experiment: &'a View<'a>,
     points: Points<2>,
+    hues: Points<1>,
     tally: &'a mut Tally,
     bands: [Lanes; 4],
     up_cos2: Lanes,
@@ -213,34 +238,41 @@ struct Gaze<'a> {
     windowed: Lanes,
 }
 
-impl Rays for Gaze<'_> {
-    const WIDTH: usize = 1;
+impl<const K: usize> Rays for Gaze<'_, K> {
+    const WIDTH: usize = K;
 
     fn polarised(&self) -> bool {
         self.experiment.polarised
     }
 
     fn absorbing(&self) -> bool {
-        self.experiment.optics.absorbs()
+        self.experiment.light.absorb()
+    }
+
+    fn ends_by_what_came_out(&self) -> bool {
+        self.absorbing()
     }
 
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(u) = self.points.next() else { return false };
-        let View { stone, optics, aspect, outline, surroundings, .. } = self.experiment;
+        let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
+        let View { stone, light, aspect, outline, surroundings, .. } = self.experiment;
         let (facet, point) = outline.sample(u);
-        let entry = stone.enter(facet, -aspect.axis.as_vec3(), optics.index);
-        self.luminance[lane] = surroundings.dome.mirrored(&entry);
-        self.been_below[lane] = 0.0;
         self.tally.rays += 1.0;
-        self.tally.reflected += f64::from(entry.reflectance);
-        packet.enter(lane, point, &entry, optics.index);
-        packet.absorption[lane] = optics.absorption;
+        for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
+            let entry = stone.enter(facet, -aspect.axis.as_vec3(), optics.index);
+            self.luminance[lane] = surroundings.dome.mirrored(&entry);
+            self.been_below[lane] = 0.0;
+            self.tally.reflected += f64::from(entry.reflectance) / K as f64;
+            packet.enter(lane, point, &entry, optics.index);
+            packet.absorption[lane] = optics.absorption;
+        }
         true
     }
 
     fn meet(&mut self, m: &Meeting, _: &Packet) {
         let View { aspect, surroundings: Surroundings { scope, dome }, pavilion, .. } = self.experiment;
         let axis = aspect.axis.as_vec3();
+        let (mut height, mut straight) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
             let power = m.power[l];
             let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
@@ -248,7 +280,8 @@ impl Rays for Gaze<'_> {
             self.up_cos2[l] += power * up * up;
             self.absorbed[l] += m.absorbed[l];
             let above = |counts: bool| if counts { power } else { 0.0 };
-            let (sky, high, zenith) = (above(z > 0.0), above(z >= BAND_ENDS[0]), above(z >= BAND_ENDS[1]));
+            let sky = above(is_up(z));
+            let (high, zenith) = (above(is_above(z, BAND_ENDS[0])), above(is_above(z, BAND_ENDS[1])));
             self.bands[Band::Green as usize][l] += sky - high;
             self.bands[Band::Red as usize][l] += high - zenith;
             self.bands[Band::Blue as usize][l] += zenith;
@@ -259,15 +292,27 @@ impl Rays for Gaze<'_> {
             let below = pavilion[m.facet[l] as usize];
             let first = if self.been_below[l] > 0.0 { 0.0 } else { below };
             self.been_below[l] += below;
-            let stronger = power > self.strongest[l];
-            self.windowed[l] = if stronger { first } else { self.windowed[l] };
-            self.strongest[l] = if stronger { power } else { self.strongest[l] };
-            self.strongest_z[l] = if stronger { z } else { self.strongest_z[l] };
+            (height[l], straight[l]) = (z, first);
+        }
+        // the strongest path of the eye: where most of all wavelengths together leaves, as the one
+        // that brings the most of it leaves
+        for ray in (0..LANES).step_by(K) {
+            let powers = &m.power[ray..ray + K];
+            let power = powers.iter().sum::<f32>();
+            let most = (1..K).fold(0, |most, k| if powers[k] > powers[most] { k } else { most });
+            let stronger = power > self.strongest[ray];
+            self.windowed[ray] = if stronger { straight[ray + most] } else { self.windowed[ray] };
+            self.strongest[ray] = if stronger { power } else { self.strongest[ray] };
+            self.strongest_z[ray] = if stronger { height[ray + most] } else { self.strongest_z[ray] };
         }
     }
 
     fn ended(&mut self, lane: usize) {
-        let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
+        let of_ray = |of: &mut Lanes| f64::from(std::mem::take(&mut of[lane]));
+        let take = |sums: &mut Lanes| {
+            let all = sums[lane..lane + K].iter_mut().map(|sum| f64::from(std::mem::take(sum)));
+            all.sum::<f64>() / K as f64
+        };
         for (sum, lanes) in self.tally.bands.iter_mut().zip(&mut self.bands) {
             *sum += take(lanes);
         }
@@ -275,23 +320,23 @@ impl Rays for Gaze<'_> {
         self.tally.absorbed += take(&mut self.absorbed);
         self.tally.scope_bright += take(&mut self.scope_bright);
         self.tally.scope_dark += take(&mut self.scope_dark);
-        let (luminance, windowed) = (take(&mut self.luminance), take(&mut self.windowed));
+        let (luminance, windowed) = (take(&mut self.luminance), of_ray(&mut self.windowed));
         self.tally.luminance += luminance;
         self.tally.windowed += windowed;
         self.tally.dark += if luminance < f64::from(DARK) { 1.0 - windowed } else { 0.0 };
-        if take(&mut self.strongest) > 0.0 {
+        if of_ray(&mut self.strongest) > 0.0 {
             self.tally.strongest[band(self.strongest_z[lane]) as usize] += 1.0;
         }
     }
 }
 
-impl Experiment for View<'_> {
-    type Tally = Tally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+impl View<'_> {
+    /// Traces points in `K` wavelengths each.
+    fn trace_in<const K: usize>(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let zero = [0.0; LANES];
-        let mut gaze = Gaze {
+        let mut gaze = Gaze::<K> {
             experiment: self,
+            hues: Points::new(seed, Purpose::ScoreHue, batch, points.clone()),
             points: Points::new(seed, Purpose::View, batch, points),
             tally,
             bands: [zero; 4],
@@ -305,8 +350,24 @@ impl Experiment for View<'_> {
             been_below: zero,
             windowed: zero,
         };
-        let lost = feed::walk_all(self.stone, STOP_POWER, &mut gaze);
-        tally.lost += lost;
+        let lost = feed::walk_all(self.stone, self.stop_power, &mut gaze);
+        tally.lost += lost / K as f64;
+    }
+}
+
+impl Experiment for View<'_> {
+    type Tally = Tally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+        if self.light.absorb() {
+            self.trace_in::<TOGETHER>(seed, batch, points, tally);
+        } else {
+            self.trace_in::<1>(seed, batch, points, tally);
+        }
+    }
+
+    fn if_followed(tally: &Tally) -> Vec<Tally> {
+        tally.if_followed()
     }
 }
 

@@ -35,6 +35,8 @@ pub enum Purpose {
     Scintillation = 11,
     /// Which way light goes on in a dent, one stream a ray.
     Dents = 13,
+    /// Wavelengths of the scores of stones that absorb, one stream a batch.
+    ScoreHue = 14,
     /// Scattered points of a sweep, one stream.
     Scatter = 20,
     /// Places of camera rays, one stream a pixel.

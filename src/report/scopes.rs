@@ -7,6 +7,7 @@
 //! with a dark observer, reflection at entry included.
 
 use crate::cut::Zone;
+use crate::experiments::horizon::is_up;
 use crate::experiments::view::{DARK, OBSERVER_DEG, SCOPE_DEG, Sky, band};
 use crate::optics::colour::srgb_encode;
 use crate::render::write::{EncodeError, encode_rgb};
@@ -94,7 +95,7 @@ pub static IDEAL_SCOPE: Scope = Scope {
         Key { name: "white", colour: [255, 255, 255], about: "leakage: light from below" },
     ],
     key: |p| {
-        if p.height <= 0.0 { 2 } else { usize::from(!Sky::behind(SCOPE_DEG).is_bright(p.height)) }
+        if !is_up(p.height) { 2 } else { usize::from(!Sky::behind(SCOPE_DEG).is_bright(p.height)) }
     },
     grey: false,
 };

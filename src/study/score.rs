@@ -4,8 +4,8 @@ use super::sheet::Sheet;
 use crate::cut::Zone;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
-    Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, Scintillation, View,
-    by_beams, cells, dented, hemisphere, iso, view,
+    Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, STOP_POWER, Scintillation,
+    View, by_beams, cells, dented, hemisphere, iso, view,
 };
 use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading, Statistic};
@@ -245,20 +245,25 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     let exact = plan.exact && subject.material.is_clear();
     let table = stone.planes.iter().any(|p| Zone::of(p.normal) == Zone::Table);
     let mut sheet = Sheet { row, plan, exact, dented: false, table };
-    sheet.fill("hemisphere", of_hemisphere, false, 1, || Hemisphere::seen_from(stone, &medium, aspect))?;
+    let (stop, wavelengths) = (plan.stop_power(), medium.wavelengths_a_point());
+    sheet.fill("hemisphere", of_hemisphere, false, 1, || {
+        Ok(Hemisphere::seen_from(stone, &medium, aspect)?.followed_to(stop))
+    })?;
     let surroundings = plan.surroundings();
-    sheet.fill("view", of_view, false, 1, || View::seen_from(stone, &medium, aspect, surroundings))?;
+    sheet.fill("view", of_view, false, wavelengths, || {
+        Ok(View::seen_from(stone, &medium, aspect, surroundings)?.followed_to(stop))
+    })?;
     let iso = |r| if let Reading::Iso(f) = r { Some(f) } else { None };
     let head = sky(iso::OBSERVER_DEG);
     sheet.fill("iso", iso, false, 1, || Iso::seen_from(stone, &medium, aspect, head))?;
     let cells = sky(cells::OBSERVER_DEG);
     let contrast = |r| if let Reading::Contrast(f) = r { Some(f) } else { None };
-    sheet.fill("contrast", contrast, false, CONTRAST_COST, || {
-        Contrast::seen_from(stone, &medium, aspect, cells)
+    sheet.fill("contrast", contrast, false, CONTRAST_COST * wavelengths, || {
+        Ok(Contrast::seen_from(stone, &medium, aspect, cells)?.followed_to(stop))
     })?;
     let scintillation = |r| if let Reading::Scintillation(f) = r { Some(f) } else { None };
-    sheet.fill("scintillation", scintillation, false, ROCKING_COST, || {
-        Scintillation::seen_from(stone, &medium, aspect, cells)
+    sheet.fill("scintillation", scintillation, false, ROCKING_COST * wavelengths, || {
+        Ok(Scintillation::seen_from(stone, &medium, aspect, cells)?.followed_to(stop))
     })?;
     let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
     let dispersive = subject.material.is_dispersive();
@@ -295,10 +300,11 @@ fn fill_dented(
     plan.metrics.iter().filter(|m| !m.dented).for_each(|m| row.leave_out(m, DENTED));
     let mut sheet = Sheet { row, plan, exact: false, dented: true, table: true };
     sheet.fill("hemisphere", of_hemisphere, false, DENTED_COST, || {
-        dented::Dome::new(stone, &medium, aspect)
+        Ok(dented::Dome::new(stone, &medium, aspect)?.followed_to(plan.stop_power()))
     })?;
     sheet.fill("view", of_view, false, DENTED_COST, || {
-        dented::Gaze::new(stone, &medium, aspect, plan.surroundings())
+        let gaze = dented::Gaze::new(stone, &medium, aspect, plan.surroundings())?;
+        Ok(gaze.followed_to(plan.stop_power()))
     })
 }
 
@@ -311,6 +317,17 @@ fn of_view(reading: Reading) -> Option<Statistic<view::Tally>> {
 }
 
 impl Plan {
+    /// The share of a ray's light below which it is given up: no more than half of an error that is
+    /// asked for, so that what is given up does not stand in the way of it.
+    fn stop_power(&self) -> f32 {
+        /// Below this the roundings of `f32` count for as much.
+        const LEAST: f32 = 1e-8;
+        match self.effort {
+            Effort::Samples(_) => STOP_POWER,
+            Effort::Error(target) => ((0.5 * target) as f32).clamp(LEAST, STOP_POWER),
+        }
+    }
+
     /// The dome of a metric whose own observer has a cone of half-angle `own`, in degrees.
     fn sky(&self, own: f64) -> Sky {
         Sky::behind(self.observer.unwrap_or(own))

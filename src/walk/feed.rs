@@ -24,6 +24,13 @@ pub trait Rays {
         false
     }
 
+    /// Whether a ray is at its end when it holds less than the stop power times what it has let out so
+    /// far, instead of what it began with: of a dark stone so little comes out that what is given up
+    /// would exceed it. For rays of power 1.
+    fn ends_by_what_came_out(&self) -> bool {
+        false
+    }
+
     /// After so many meetings a ray is at its end whatever power it holds, which counts as given up.
     fn most_meetings(&self) -> u32 {
         u32::MAX
@@ -44,34 +51,45 @@ pub trait Rays {
     fn ended(&mut self, _lane: usize) {}
 }
 
+/// A ray that ends by what came out is given up below this all the same.
+const FAINTEST: f32 = 1e-9;
+
 /// Walks all rays until each holds less than `stop_power` in every lane; returns the power given
 /// up.
 pub fn walk_all<R: Rays>(stone: &Stone, stop_power: f32, rays: &mut R) -> f64 {
     let mut lost = 0.0;
     let mut more = true;
+    let by_what_came_out = rays.ends_by_what_came_out();
+    let floor = if by_what_came_out { FAINTEST.min(stop_power) } else { stop_power };
     while more {
         let mut packet = Packet { absorbing: rays.absorbing(), ..Packet::new(rays.polarised()) };
         let mut fed = 0;
         let lanes = || (0..LANES / R::WIDTH).map(|i| i * R::WIDTH);
         let mut alive = [false; LANES];
         let mut meetings = [0; LANES];
+        let mut came_out = [0.0f32; LANES];
         let most = rays.most_meetings();
         for lane in lanes() {
             more = more && rays.next(&mut packet, lane);
             alive[lane] = more;
             fed += 1;
         }
-        let rest = stone.walk(&mut packet, stop_power, |meeting, packet| {
+        let rest = stone.walk(&mut packet, floor, |meeting, packet| {
             rays.meet(meeting, packet);
             for lane in lanes() {
                 let powers = &mut packet.power[lane..lane + R::WIDTH];
                 meetings[lane] += 1;
-                let lit = powers.iter().any(|p| *p >= stop_power);
+                let lit = if by_what_came_out {
+                    came_out[lane] += meeting.power[lane..lane + R::WIDTH].iter().sum::<f32>();
+                    powers.iter().sum::<f32>() > stop_power * came_out[lane]
+                } else {
+                    powers.iter().any(|p| *p >= stop_power)
+                };
                 let goes_on = lit && meetings[lane] < most && !rays.is_done(lane);
                 if !alive[lane] || goes_on {
                     continue;
                 }
-                meetings[lane] = 0;
+                (meetings[lane], came_out[lane]) = (0, 0.0);
                 lost += powers.iter().map(|p| f64::from(*p)).sum::<f64>();
                 powers.fill(0.0);
                 rays.ended(lane);
