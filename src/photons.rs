@@ -4,6 +4,7 @@
 //! caustic (last from the stone), indirect (last from another surface). The caustic map holds the
 //! second, the global map the third.
 
+mod cells;
 pub mod emission;
 pub mod file;
 mod light;
@@ -12,6 +13,7 @@ pub mod map;
 use crate::math::random::Purpose;
 use crate::optics::colour::BANDS;
 use crate::scene::Scene;
+use crate::transport::SurfacePoint;
 use glam::Vec3;
 
 /// Which class of light a map holds.
@@ -45,13 +47,29 @@ pub struct Photon {
     pub tint: [u8; BANDS],
     /// Number of the surface.
     pub surface: u16,
+    /// Whether it fell on the surface's front.
+    pub front: bool,
+    /// Unit normal on the side where it fell, in 127ths: a mesh has many.
+    pub normal: [i8; 3],
 }
 
 impl Photon {
-    fn new(point: Vec3, surface: usize, spectrum: &Spectrum) -> Photon {
+    /// A photon that falls on a surface.
+    pub fn new(at: &SurfacePoint, spectrum: &Spectrum) -> Photon {
         let power = spectrum.iter().copied().fold(0.0, f32::max);
         let tint = spectrum.map(|p| (255.0 * p / power.max(f32::MIN_POSITIVE)).round() as u8);
-        Photon { point, power, tint, surface: surface as u16 }
+        let normal = at.normal.to_array().map(|x| (127.0 * x).round() as i8);
+        Photon { point: at.point, power, tint, surface: at.surface as u16, front: at.front, normal }
+    }
+
+    /// Unit normal on the side where it fell.
+    pub fn normal(&self) -> Vec3 {
+        Vec3::from(self.normal.map(f32::from)).normalize_or_zero()
+    }
+
+    /// Power in a band.
+    pub fn in_band(&self, band: usize) -> f32 {
+        self.power * f32::from(self.tint[band]) / 255.0
     }
 }
 

@@ -2,20 +2,48 @@
 
 pub mod crossing;
 
-use crate::scene::{Light, Scene};
+use crate::scene::surface::Shape;
+use crate::scene::{Light, Scene, Surface};
 use glam::Vec3;
 
 /// What a ray in the world meets first.
 #[derive(Debug, Clone, Copy)]
 pub enum Event {
-    /// A surface: its number, the place, and its unit normal on the ray's side.
-    Surface(usize, Vec3, Vec3),
-    /// The shining side of a light: its number, and the colour its emitter shows.
+    /// A surface.
+    Surface(SurfacePoint),
+    /// A light: its number, and the colour its emitter shows; black behind it, which takes in all light.
     Light(usize, Vec3),
     /// A stone: its number, and how the ray arrives.
     Stone(usize, Arrival),
-    /// Nothing.
+    /// Nothing: the ray sees what shines from infinity, [`Scene::from_afar`].
     Nothing,
+}
+
+/// A point of a surface, on one of its sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Number of the surface.
+    pub surface: usize,
+    /// The place.
+    pub point: Vec3,
+    /// Unit normal on that side.
+    pub normal: Vec3,
+    /// Whether the side is the surface's front.
+    pub front: bool,
+}
+
+/// What a ray has just left. A stone, a light and a plate are convex and cannot be met again; a mesh
+/// only at some distance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Past {
+    /// None of these.
+    Nothing,
+    /// The stone of this number.
+    Stone(usize),
+    /// The surface of this number.
+    Surface(usize),
+    /// The light of this number.
+    Light(usize),
 }
 
 /// A ray at a stone's surface, in its walking frame.
@@ -31,6 +59,9 @@ pub struct Arrival {
 
 /// A shadow ray sees a light that is not nearer than this share of the way to it.
 const ALL_THE_WAY: f32 = 1.0 - 1e-4;
+/// A lamp may lie in a surface: light that leaves it does not meet what is nearer than this share of its
+/// distance from the origin, in which rounding decides what lies before and behind.
+const IN_A_SURFACE: f32 = 1e-5;
 
 impl Scene {
     /// Meetings with facets inside a stone after which a path is too long for the scene.
@@ -40,26 +71,42 @@ impl Scene {
         self.depth.map_or(u32::MAX, |depth| depth.saturating_sub(others).max(1))
     }
 
-    /// The first meeting of a ray.
+    /// The first meeting of a ray of light.
     ///
     /// - `origin`, `direction` (unit): world frame
-    /// - `past`: the stone that the ray has just left, which is convex and cannot be met again
-    pub fn first(&self, origin: Vec3, direction: Vec3, past: Option<usize>) -> Event {
+    /// - `past`: what the ray has just left
+    pub fn first(&self, origin: Vec3, direction: Vec3, past: Past) -> Event {
+        self.meet(origin, direction, past, false)
+    }
+
+    /// The first thing that the camera sees along a ray, straight or by mirrors: backs of plates and of
+    /// lamps are cut away, so that it can look into a room from outside.
+    pub fn first_seen(&self, origin: Vec3, direction: Vec3, past: Past) -> Event {
+        self.meet(origin, direction, past, true)
+    }
+
+    fn meet(&self, origin: Vec3, direction: Vec3, past: Past, cut_away: bool) -> Event {
         let mut nearest = f32::INFINITY;
         let mut event = Event::Nothing;
         for (i, surface) in self.surfaces.iter().enumerate() {
-            if let Some((t, normal)) = surface.hit(origin, direction).filter(|h| h.0 < nearest) {
-                nearest = t;
-                event = Event::Surface(i, origin + direction * t, normal);
+            let Some(near) = self.nearest_meeting(i, origin, past) else { continue };
+            let Some(hit) = surface.hit(origin, direction, near) else { continue };
+            let hidden = cut_away && !hit.front && matches!(surface.shape, Shape::Plate(_));
+            if hit.distance < nearest && !hidden {
+                nearest = hit.distance;
+                let point = origin + direction * hit.distance;
+                event =
+                    Event::Surface(SurfacePoint { surface: i, point, normal: hit.normal, front: hit.front });
             }
         }
-        for (i, light) in self.lights.iter().enumerate() {
-            if let Some((t, colour)) = light.emitter.hit(origin, direction).filter(|h| h.0 < nearest) {
+        for (i, light) in self.lights.iter().enumerate().filter(|(i, _)| Past::Light(*i) != past) {
+            let Some((t, colour)) = light.emitter.hit(origin, direction) else { continue };
+            if t < nearest && !(cut_away && colour.is_none()) {
                 nearest = t;
-                event = Event::Light(i, colour);
+                event = Event::Light(i, colour.unwrap_or(Vec3::ZERO));
             }
         }
-        for (i, placed) in self.stones.iter().enumerate().filter(|(i, _)| Some(*i) != past) {
+        for (i, placed) in self.stones.iter().enumerate().filter(|(i, _)| Past::Stone(*i) != past) {
             let (o, d) = (placed.point_to_stone(origin), placed.direction_to_stone(direction));
             if let Some(hit) = placed.stone.hit(o, d).filter(|h| h.distance * placed.radius < nearest) {
                 nearest = hit.distance * placed.radius;
@@ -70,35 +117,64 @@ impl Scene {
         event
     }
 
+    /// The distance from which on a ray can meet a surface; none if it cannot.
+    fn nearest_meeting(&self, surface: usize, origin: Vec3, past: Past) -> Option<f32> {
+        match past {
+            Past::Surface(s) if s == surface => self.surfaces[s].near(origin),
+            Past::Light(_) => Some(IN_A_SURFACE * origin.abs().max_element()),
+            _ => Some(0.0),
+        }
+    }
+
+    /// Every light that shines from infinity along a ray that meets nothing, and the colour seen there:
+    /// none hides another.
+    pub fn from_afar(&self, direction: Vec3) -> impl Iterator<Item = (&Light, Vec3)> {
+        let far = self.lights.iter().filter(|light| light.emitter.is_far());
+        far.filter_map(move |light| Some((light, light.emitter.hit(Vec3::ZERO, direction)?.1?)))
+    }
+
     /// Irradiance that comes straight from one light at a place, unoccluded rays only: as a colour
     /// for [`Light::at`].
     ///
+    /// - `light`: its number
     /// - `places`: pairs of uniforms, one for each shadow ray
     pub fn direct_irradiance(
         &self,
-        light: &Light,
-        point: Vec3,
-        normal: Vec3,
+        light: usize,
+        at: &SurfacePoint,
         places: impl IntoIterator<Item = [f32; 2]>,
     ) -> Vec3 {
         let (mut sum, mut count) = (Vec3::ZERO, 0);
         for u in places {
             count += 1;
-            let Some(glimpse) = light.emitter.seen_from(point, normal, u) else { continue };
-            let cos = normal.dot(glimpse.direction);
-            if cos > 0.0 && !self.hidden(point, glimpse.direction, glimpse.distance * ALL_THE_WAY) {
+            let Some(glimpse) = self.lights[light].emitter.seen_from(at.point, at.normal, u) else {
+                continue;
+            };
+            let cos = at.normal.dot(glimpse.direction);
+            if cos > 0.0 && !self.hidden(at, glimpse.direction, glimpse.distance * ALL_THE_WAY, light) {
                 sum += glimpse.radiance * cos;
             }
         }
         sum / count.max(1) as f32
     }
 
-    /// Whether a stone or a surface stands in the way of a shadow ray.
-    fn hidden(&self, point: Vec3, direction: Vec3, distance: f32) -> bool {
+    /// Whether anything stands in the way of a shadow ray to a light.
+    fn hidden(&self, at: &SurfacePoint, direction: Vec3, distance: f32, light: usize) -> bool {
         let by_stone = self.stones.iter().any(|placed| {
-            let (o, d) = (placed.point_to_stone(point), placed.direction_to_stone(direction));
+            let (o, d) = (placed.point_to_stone(at.point), placed.direction_to_stone(direction));
             placed.stone.hit(o, d).is_some_and(|h| h.distance * placed.radius < distance)
         });
-        by_stone || self.surfaces.iter().any(|s| s.hides(point, direction, distance))
+        let by_surface = |(i, surface): (usize, &Surface)| {
+            let near = self.nearest_meeting(i, at.point, Past::Surface(at.surface));
+            let hit = near.and_then(|near| surface.hit(at.point, direction, near));
+            hit.is_some_and(|hit| hit.distance < distance)
+        };
+        let by_lamp = |(i, other): (usize, &Light)| {
+            let lamp = i != light && !other.emitter.is_far();
+            lamp && other.emitter.hit(at.point, direction).is_some_and(|(t, _)| t < distance)
+        };
+        by_stone
+            || self.surfaces.iter().enumerate().any(by_surface)
+            || self.lights.iter().enumerate().any(by_lamp)
     }
 }

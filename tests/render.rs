@@ -11,7 +11,7 @@ use cutlab::render::{self, Maps, Pass, Tone};
 use cutlab::scene::lights::square::Square;
 use cutlab::scene::surface::{Plate, Shape};
 use cutlab::scene::{Cast, Finish, Lens, Light, Reflectance, Scene, SceneFile, Surface, preset};
-use cutlab::transport::Event;
+use cutlab::transport::{Event, Past, SurfacePoint};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,6 +32,13 @@ fn plate(surface: &Surface) -> Plate {
         Shape::Plate(plate) => plate,
         Shape::Mesh(_) => unreachable!("the room has flat walls"),
     }
+}
+
+/// A place on the front of a plate, at shares of its edges.
+fn on(surfaces: &[Surface], surface: usize, [s, t]: [f32; 2]) -> SurfacePoint {
+    let plate = plate(&surfaces[surface]);
+    let point = plate.corner + plate.u * s + plate.v * t;
+    SurfacePoint { surface, point, normal: plate.normal(), front: true }
 }
 
 /// The Cornell room with its front closed, all walls of one grey, and a small light.
@@ -71,7 +78,7 @@ fn first_meetings(room: &Scene) -> (f64, f64) {
     for _ in 0..n {
         let origin = light.point(stream.pair());
         let direction = sample::about(light.normal(), sample::cosine_hemisphere(stream.pair()));
-        match room.first(origin, direction, None) {
+        match room.first(origin, direction, Past::Light(0)) {
             Event::Stone(..) => on_stone += 1,
             Event::Surface(..) => on_wall += 1,
             Event::Light(..) | Event::Nothing => {}
@@ -113,9 +120,8 @@ fn the_estimate_is_uniform_to_the_edges() {
     let area = floor.u.cross(floor.v).length();
     let photons = (0..n)
         .map(|_| {
-            let [s, t] = stream.pair();
-            let point = floor.corner + floor.u * s + floor.v * t;
-            Photon { point, power: area / n as f32, tint: [255; BANDS], surface: 0 }
+            let at = on(&room.surfaces, 0, stream.pair());
+            Photon::new(&at, &[area / n as f32; BANDS])
         })
         .collect();
     let map = render::Maps::new(
@@ -125,7 +131,7 @@ fn the_estimate_is_uniform_to_the_edges() {
     )
     .caustic;
     for [s, t] in [[0.5, 0.5], [0.001, 0.5], [0.5, 0.999], [0.002, 0.002], [0.98, 0.01]] {
-        let e = map.irradiance(0, floor.corner + floor.u * s + floor.v * t).0[3];
+        let e = map.irradiance(&on(&room.surfaces, 0, [s, t])).0[3];
         // 2000 photons under this kernel: 2.6 %, and up to 3 % from the edge's quadrature
         assert!((e - 1.0).abs() < 0.11, "at {s} {t}: {e}");
     }
@@ -142,9 +148,8 @@ fn a_stone_in_uniform_light_disappears() {
     for (number, wall) in room.surfaces.iter().map(plate).enumerate() {
         for i in 0..grid * grid {
             let [s, t] = [i % grid, i / grid].map(|k| (k as f32 + 0.5) / grid as f32);
-            let point = wall.corner + wall.u * s + wall.v * t;
             let power = wall.u.cross(wall.v).length() / (grid * grid) as f32;
-            photons.push(Photon { point, power, tint: [255; BANDS], surface: number as u16 });
+            photons.push(Photon::new(&on(&room.surfaces, number, [s, t]), &[power; BANDS]));
         }
     }
     let shots = Shots { caustic: Shot { photons, emitted: 1 }, indirect: Shot::default() };
@@ -169,9 +174,10 @@ fn a_stone_in_uniform_light_disappears() {
 fn direct_light_follows_the_square_of_the_distance() {
     let mut room = closed_room(0.5);
     room.stones[0].position = Vec3::new(0.0, 0.0, -50.0);
-    let light = Light::white(Square::facing_down(Vec3::new(0.0, 0.0, 4.0), 0.05), 10.0);
+    room.lights = vec![Light::white(Square::facing_down(Vec3::new(0.0, 0.0, 4.0), 0.05), 10.0)];
     for x in [0.0f32, 1.0, 2.5] {
-        let e = room.direct_irradiance(&light, Vec3::new(x, 0.0, 0.0), Vec3::Z, grid()).x * 10.0;
+        let at = SurfacePoint { point: Vec3::new(x, 0.0, 0.0), ..on(&room.surfaces, 0, [0.5, 0.5]) };
+        let e = room.direct_irradiance(0, &at, grid()).x * 10.0;
         let cos = 4.0 / x.hypot(4.0);
         let expected = 10.0 * 0.0025 / 16.0 * cos.powi(4);
         assert!((e / expected - 1.0).abs() < 1e-3, "{e} {expected}");
@@ -267,17 +273,17 @@ fn the_brilliant_is_as_bright_as_other_renderers_have_it() {
     for (i, pixel) in picture.iter().enumerate() {
         let (u, v) = ((i as u32 % width) as f32 + 0.5, (i as u32 / width) as f32 + 0.5);
         let (origin, direction) = s.camera.ray(u / width as f32, v / height as f32);
-        let event = s.first(origin, direction, None);
-        let Event::Surface(_, at, _) = event else {
+        let event = s.first_seen(origin, direction, Past::Nothing);
+        let Event::Surface(at) = event else {
             if let Event::Stone(..) = event {
                 stone.push(*pixel);
             }
             continue;
         };
-        let lit = s.direct_irradiance(&s.lights[0], at, Vec3::Z, grid()).x * 10.0;
+        let lit = s.direct_irradiance(0, &at, grid()).x * 10.0;
         if lit == 0.0 {
             shadow.push(*pixel);
-        } else if at.truncate().length() > 1.2 {
+        } else if at.point.truncate().length() > 1.2 {
             open.push(pixel.y / (0.5 / std::f32::consts::PI * lit));
         }
     }

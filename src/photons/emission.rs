@@ -9,8 +9,8 @@ use super::{Class, Photon, Settings, Shot};
 use crate::math::points::Points;
 use crate::math::random::Stream;
 use crate::scene::{Aim, Finish, Scene};
-use crate::transport::Event;
 use crate::transport::crossing::{self, Entering};
+use crate::transport::{Event, Past};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -112,15 +112,24 @@ type Place = [f64; 7];
 /// Number of the stream that shifts the places; photons have the numbers from 0.
 const PLACES: u64 = u64::MAX;
 
-/// What a photon met last.
+/// What a photon met last: a light, a surface, a stone or a mirror, of that number. What comes from a
+/// mirror counts as caustic, for no shadow ray finds it.
 #[derive(Clone, Copy, PartialEq)]
 enum Last {
-    Light,
-    Surface,
-    /// A stone, of that number.
+    Light(usize),
+    Surface(usize),
     Stone(usize),
-    /// A mirror; the light counts as caustic, for no shadow ray finds it.
-    Mirror,
+    Mirror(usize),
+}
+
+impl Last {
+    fn past(self) -> Past {
+        match self {
+            Last::Light(i) => Past::Light(i),
+            Last::Surface(i) | Last::Mirror(i) => Past::Surface(i),
+            Last::Stone(i) => Past::Stone(i),
+        }
+    }
 }
 
 /// A photon under way.
@@ -170,7 +179,7 @@ fn emit(room: &Room, number: u64, place: Place) -> Option<Flight> {
     let mut stream = Stream::new(room.seed, room.class.purpose(), number);
     let light = Light::new(|nm| lights[i].at(power, nm), stream.unit());
     let (point, direction) = (start.point, start.direction);
-    Some(Flight { stream, number, point, direction, light, hue, last: Last::Light })
+    Some(Flight { stream, number, point, direction, light, hue, last: Last::Light(i) })
 }
 
 /// Carries a photon through the world until it ends or reaches a stone.
@@ -182,41 +191,40 @@ fn fly(
     let scene = room.scene;
     let mut mirrors = 0;
     loop {
-        let past = if let Last::Stone(stone) = flight.last { Some(stone) } else { None };
-        match scene.first(flight.point, flight.direction, past) {
+        match scene.first(flight.point, flight.direction, flight.last.past()) {
             Event::Stone(stone, arrival) => {
                 let nm = flight.light.single_wavelength(flight.hue);
                 let choice = flight.stream.unit64();
                 return Some((stone, (flight, Entering { arrival, nm, choice })));
             }
-            Event::Surface(number, point, normal) => match &scene.surfaces[number].finish {
+            Event::Surface(at) => match &scene.surfaces[at.surface].finish {
                 Finish::Diffuse(reflectance) => {
                     let wanted = match flight.last {
-                        Last::Light => false,
-                        Last::Stone(_) | Last::Mirror => room.class == Class::Caustic,
-                        Last::Surface => room.class == Class::Indirect,
+                        Last::Light(_) => false,
+                        Last::Stone(_) | Last::Mirror(_) => room.class == Class::Caustic,
+                        Last::Surface(_) => room.class == Class::Indirect,
                     };
                     if wanted {
-                        landed.push((flight.number, Photon::new(point, number, flight.light.spectrum())));
+                        landed.push((flight.number, Photon::new(&at, flight.light.spectrum())));
                     }
                     if !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
                     }
                     let (pick, u) = (flight.stream.unit(), flight.stream.pair());
-                    let (direction, weight) = room.aim.direction(point, normal, 1.0, pick, u)?;
-                    flight.point = point;
+                    let (direction, weight) = room.aim.direction(at.point, at.normal, 1.0, pick, u)?;
+                    flight.point = at.point;
                     flight.direction = direction;
                     flight.light.weigh(weight);
-                    flight.last = Last::Surface;
+                    flight.last = Last::Surface(at.surface);
                 }
                 Finish::Mirror(reflectance) => {
                     mirrors += 1;
                     if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
                     }
-                    flight.point = point;
-                    flight.direction = flight.direction.reflect(normal);
-                    flight.last = Last::Mirror;
+                    flight.point = at.point;
+                    flight.direction = flight.direction.reflect(at.normal);
+                    flight.last = Last::Mirror(at.surface);
                 }
             },
             Event::Light(..) | Event::Nothing => return None,

@@ -1,8 +1,9 @@
 //! Photon maps on disk: kept for other views of the same scene, refused for any other.
 //!
 //! Layout, little-endian: the magic `CUTLABPM`, u32 version, u32 length of the header, the header
-//! as JSON ([`Origin`]), then the photons of both classes (26 bytes each: three f32 of place, f32
-//! power, eight bytes of tint, u16 surface), last a CRC-32 of everything before it.
+//! as JSON ([`Origin`]), then the photons of both classes (30 bytes each: three f32 of place, f32
+//! power, eight bytes of tint, u16 surface, a byte that is 0 on its back, three i8 of
+//! the normal there in 127ths), last a CRC-32 of everything before it.
 
 use super::{Photon, Settings, Shot, Shots};
 use crate::optics::colour::BANDS;
@@ -15,9 +16,9 @@ use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"CUTLABPM";
 /// Version of the layout; a file of another is refused.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Bytes of one stored photon.
-const PHOTON: usize = 26;
+const PHOTON: usize = 30;
 /// A header is a few hundred bytes; more is not one of ours.
 const HEADER_LIMIT: usize = 1 << 16;
 
@@ -180,6 +181,8 @@ fn encode(origin: &Origin, shots: &Shots) -> Vec<u8> {
         bytes.extend(p.power.to_le_bytes());
         bytes.extend(p.tint);
         bytes.extend(p.surface.to_le_bytes());
+        bytes.push(p.front.into());
+        bytes.extend(p.normal.map(|x| x.to_le_bytes()[0]));
     }
     let crc = crc32fast::hash(&bytes);
     bytes.extend(crc.to_le_bytes());
@@ -226,7 +229,11 @@ fn photon(b: &[u8]) -> Option<Photon> {
     let power = float(12)?;
     let tint: [u8; BANDS] = b.get(16..24)?.try_into().ok()?;
     let surface = u16::from_le_bytes(b.get(24..26)?.try_into().ok()?);
-    (point.is_finite() && power.is_finite()).then_some(Photon { point, power, tint, surface })
+    let front = *b.get(26)? != 0;
+    let normal: [u8; 3] = b.get(27..30)?.try_into().ok()?;
+    let normal = normal.map(|x| i8::from_le_bytes([x]));
+    let possible = point.is_finite() && power.is_finite();
+    possible.then_some(Photon { point, power, tint, surface, front, normal })
 }
 
 #[cfg(test)]
@@ -239,6 +246,8 @@ mod tests {
             power: 0.25 * i as f32,
             surface: i as u16,
             tint: [i as u8; BANDS],
+            front: i % 2 == 0,
+            normal: [0, -127, i as i8],
         };
         let shots = Shots {
             caustic: Shot { photons: (0..5).map(photon).collect(), emitted: 77 },

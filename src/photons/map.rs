@@ -1,193 +1,253 @@
-//! Photon maps arranged for look-up, and the radiance estimate.
+//! Photon maps arranged for look-up, and the irradiance that their photons make.
 //!
-//! One kd-tree a surface: photons of two walls never mix in a corner.
+//! A map for each side of each surface: photons of two walls, or of the two sides of one, never mix.
 
+use super::cells::{self, Cell};
 use super::{Photon, Shot, Spectrum};
 use crate::optics::colour::BANDS;
-use crate::scene::Scene;
-use crate::scene::surface::Shape;
+use crate::scene::{Scene, Surface};
+use crate::transport::SurfacePoint;
 use glam::Vec3;
-use kiddo::{Eytzinger, ImmutableKdTree, KdTree, SquaredEuclidean, VecOfArenas};
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
-use std::f32::consts::PI;
 use std::num::NonZero;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A photon in its tree's leaf: what an estimate needs, beside its place.
-#[derive(Debug, Clone, Copy, Default, PartialEq, PartialOrd)]
-struct Landed {
-    power: f32,
-    tint: [u8; BANDS],
-}
-
-/// Photons of one surface.
-type Photons = KdTree<f32, Landed, Eytzinger, VecOfArenas<f32, Landed, 3, 32>, 3, 32>;
-
-/// Light of one class on one surface: places where the irradiance is known.
-struct Sheet {
-    places: ImmutableKdTree<f32, 3>,
-    known: Vec<Known>,
-}
-
-/// What an estimate found at a place.
-#[derive(Debug, Clone, Copy)]
-struct Known {
-    irradiance: Spectrum,
-    /// Radius of the disc whose photons it gathered.
-    reach: f32,
-}
-
-/// A photon map: the irradiance at the places of some photons, gathered from the others around.
+/// A photon map: the irradiance of every part of every surface.
 ///
-/// No photon is both a place and gathered: a place in a gap between photons stands for more of the
-/// surface than one in a crowd, so that places which see themselves among the counted make the
-/// surface too dark (by 12 % with 10 photons an estimate, measured on `tools/peers/table.toml`).
-/// Checked in `tests/estimate.rs`.
+/// Each photon spreads its own power over the surface around it, the wider the fewer photons there are,
+/// and what lies beyond an edge gets no share: so the light on a surface is the power of its photons,
+/// however they lie, and what none reaches is dark. (Estimates that gather the nearest photons around
+/// places give light to the dark, and more of it the fewer photons they find.) The surface is divided
+/// into cells that are small beside that spread; a photon's power is shared out among their middles, so
+/// that the sum needs no integral over edges or curved meshes.
 ///
-/// Where photons are dense the places are too: within the disc of one estimate lie
-/// `PLACES_A_DISC` of them, so looking between them costs no detail that the estimate has.
-/// Source: P. Christensen, *Faster Photon Map Global Illumination*, J. Graphics Tools 4(3), 1999.
+/// E_c = Σ_i Φ_i K(d_ic/r_i) / Σ_c' A_c' K(d_ic'/r_i), K(x) = max(0, 1 − x²), r_i the distance within
+/// which about `nearest` photons lie. Source: sample-point density estimation, B. Silverman, *Density
+/// Estimation*, 1986, §5.3. Checked in `tests/estimate.rs`.
 pub struct PhotonMap {
-    sheets: Vec<Option<Sheet>>,
+    /// Front and back of each surface.
+    sheets: Vec<[Option<Sheet>; 2]>,
 }
 
-/// Places with known irradiance in the disc of one estimate, unless that is of few photons.
-const PLACES_A_DISC: usize = 32;
-/// At most one photon of this many is a place.
-const A_PLACE: usize = 4;
+/// Light of one class on one side of a surface.
+struct Sheet {
+    places: Tree,
+    cells: Vec<Cell>,
+    irradiance: Vec<Spectrum>,
+}
 
-/// A smooth look-up interpolates between the places within this share of an estimate's radius:
-/// eight or so.
+type Tree = ImmutableKdTree<f32, 3>;
+
+/// Longest edge of a cell as a share of the radius over which its photons are spread: 20 to 80 cells are
+/// in that disc.
+const EDGE: f32 = 0.4;
+/// With fewer photons in a disc, as many cells do.
+const ENOUGH_FOR_EDGE: f32 = 32.0;
+/// Longest edge for the fewest photons.
+const LONGEST: f32 = 1.2;
+/// Photons by the distance of the last of which a radius is found, out of a part of all.
+const PILOTS: usize = 24;
+/// With fewer photons on it, each spreads over a whole side.
+const FEW: usize = 4;
+/// A smooth look-up interpolates between the cells within this share of the radius.
 const AROUND: f32 = 0.5;
+/// Places among which one of the right normal is looked for, if the nearest has another.
+const FOLDS: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(15);
 
 impl PhotonMap {
     /// Arranges photons for look-up.
     ///
-    /// - `nearest`: photons that an estimate gathers
+    /// - `nearest`: photons over which each is spread
     pub fn new(scene: &Scene, shot: Shot, nearest: usize) -> PhotonMap {
-        let sheet = |s| Sheet::new(scene, s, &shot.photons, nearest);
-        PhotonMap { sheets: (0..scene.surfaces.len()).map(sheet).collect() }
+        let mut sides: Vec<[Vec<&Photon>; 2]> = scene.surfaces.iter().map(|_| Default::default()).collect();
+        for photon in &shot.photons {
+            if let Some(side) = sides.get_mut(usize::from(photon.surface)) {
+                side[usize::from(!photon.front)].push(photon);
+            }
+        }
+        let both = |(surface, [front, back]): (&Surface, &[Vec<&Photon>; 2])| {
+            [Sheet::new(surface, true, front, nearest), Sheet::new(surface, false, back, nearest)]
+        };
+        PhotonMap { sheets: scene.surfaces.iter().zip(&sides).map(both).collect() }
     }
 
-    /// Irradiance in each band at a place of a surface, interpolated between the known places
-    /// around it; for what the camera sees directly. Also the radius of the estimate: within a small
-    /// part of it the irradiance is the same.
-    pub fn irradiance(&self, surface: usize, point: Vec3) -> (Spectrum, f32) {
-        let Some(sheet) = &self.sheets[surface] else { return ([0.0; BANDS], f32::INFINITY) };
-        let nearest = sheet.nearest(point);
-        let around = AROUND * nearest.reach;
-        let mut sum = nearest.irradiance.map(|e| e * f32::MIN_POSITIVE);
+    fn sheet(&self, at: &SurfacePoint) -> Option<&Sheet> {
+        self.sheets[at.surface][usize::from(!at.front)].as_ref()
+    }
+
+    /// Irradiance in each band at a place, interpolated between the cells around it; for what the camera
+    /// sees directly. Also the radius of the estimate: within a small part of it the irradiance is the
+    /// same.
+    pub fn irradiance(&self, at: &SurfacePoint) -> (Spectrum, f32) {
+        let Some(sheet) = self.sheet(at) else { return ([0.0; BANDS], f32::INFINITY) };
+        let nearest = sheet.nearest(at.point, at.normal);
+        let radius = sheet.cells[nearest].radius;
+        let around = AROUND * radius;
+        let mut sum = sheet.irradiance[nearest].map(|e| e * f32::MIN_POSITIVE);
         let mut total = f32::MIN_POSITIVE;
-        let at = point.to_array();
-        let places = sheet.places.query(&at).within::<SquaredEuclidean<f32>>(around * around);
-        places.unsorted().visit(|f| {
+        let place = at.point.to_array();
+        sheet.places.query(&place).within::<SquaredEuclidean<f32>>(around * around).unsorted().visit(|f| {
+            let i = f.item as usize;
+            let cell = &sheet.cells[i];
             // falls to 0 at the edge, so that the sum has no steps
-            let weight = (1.0 - f.distance.sqrt() / around).powi(2);
+            let near = (1.0 - f.distance.sqrt() / around).powi(2);
+            let weight = near * cell.area * cell.normal.dot(at.normal).max(0.0);
             total += weight;
-            (0..BANDS).for_each(|b| sum[b] += weight * sheet.known[f.item as usize].irradiance[b]);
+            (0..BANDS).for_each(|b| sum[b] += weight * sheet.irradiance[i][b]);
         });
-        (sum.map(|s| s / total), nearest.reach)
+        (sum.map(|s| s / total), radius)
     }
 
-    /// Irradiance at the nearest known place: for what is seen through the stone.
-    pub fn irradiance_nearby(&self, surface: usize, point: Vec3) -> &Spectrum {
+    /// Irradiance of the nearest cell: for what is seen through the stone.
+    pub fn irradiance_nearby(&self, at: &SurfacePoint) -> &Spectrum {
         static NONE: Spectrum = [0.0; BANDS];
-        self.sheets[surface].as_ref().map_or(&NONE, |sheet| &sheet.nearest(point).irradiance)
+        self.sheet(at).map_or(&NONE, |sheet| &sheet.irradiance[sheet.nearest(at.point, at.normal)])
     }
 }
 
 impl Sheet {
-    fn nearest(&self, point: Vec3) -> &Known {
-        let found = self.places.query(&point.to_array()).nearest_one::<SquaredEuclidean<f32>>().execute();
-        &self.known[found.item as usize]
-    }
-
-    /// - `all`: photons of all surfaces
-    fn new(scene: &Scene, surface: usize, all: &[Photon], nearest: usize) -> Option<Sheet> {
-        let here = |n: &u32| usize::from(all[*n as usize].surface) == surface;
-        let mut numbers: Vec<u32> = (0..all.len() as u32).filter(here).collect();
-        if numbers.len() < 3 {
-            return None; // two places and one photon between them is the least
+    /// None where no photon is.
+    fn new(surface: &Surface, front: bool, photons: &[&Photon], nearest: usize) -> Option<Sheet> {
+        let nearest = nearest.max(FEW);
+        let radii = Radii::new(surface, photons, nearest)?;
+        let edge = (EDGE * (ENOUGH_FOR_EDGE / nearest as f32).sqrt().max(1.0)).min(LONGEST);
+        let mut cells = cells::divide(surface, edge, &|place| radii.at(place));
+        if !front {
+            cells.iter_mut().for_each(|cell| cell.normal = -cell.normal);
         }
-        // the order of a shot is that of emission, so every n-th photon is as good as another
-        let every = (nearest.min(numbers.len()) / PLACES_A_DISC).max(A_PLACE).min(numbers.len() - 1);
-        let of_all = numbers.len() as f32;
-        let points: Vec<[f32; 3]> =
-            numbers.iter().step_by(every).map(|n| all[*n as usize].point.to_array()).collect();
-        let mut position = 0..;
-        numbers.retain(|_| position.next().is_some_and(|i: usize| !i.is_multiple_of(every)));
-        let for_each = of_all / numbers.len() as f32;
-        let photons = Photons::new_from_source(
-            &numbers,
-            |n, axis| all[*n as usize].point[axis],
-            |_, n| Landed { power: all[*n as usize].power * for_each, tint: all[*n as usize].tint },
-        )
-        .ok()?;
-        let places = ImmutableKdTree::new_from_slice(&points).ok()?;
-        let disc =
-            Disc { scene, surface, photons: &photons, places: &places, across: nearest.div_ceil(every) };
-        let known = points.par_iter().map(|p| disc.gather(Vec3::from_array(*p))).collect();
-        Some(Sheet { places, known })
+        let points: Vec<[f32; 3]> = cells.iter().map(|cell| cell.point.to_array()).collect();
+        let places = Tree::new_from_slice(&points).ok()?;
+        let mut sheet = Sheet { places, cells, irradiance: Vec::new() };
+        let mut homes: Vec<(u32, &Photon)> =
+            photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
+        homes.par_sort_by_key(|(home, _)| *home); // stable
+        let shares = Shares::new(photons, sheet.cells.len());
+        homes.par_chunk_by(|a, b| a.0 == b.0).for_each(|of_one| sheet.share_out(of_one, &shares));
+        sheet.irradiance = shares.over_areas(&sheet.cells);
+        Some(sheet)
     }
-}
 
-/// What an estimate looks into.
-struct Disc<'a> {
-    scene: &'a Scene,
-    surface: usize,
-    photons: &'a Photons,
-    places: &'a ImmutableKdTree<f32, 3>,
-    /// Places that the disc of an estimate reaches across.
-    across: usize,
-}
-
-impl Disc<'_> {
-    /// Jensen's estimate with an Epanechnikov kernel, which integrates to one over its disc; the
-    /// part of the disc beyond the surface's edge is taken out of the integral.
-    ///
-    /// E_b = Σ Φ_i K(d_i/r) / (π r² · m), K(x) = 2 (1 − x²), m the kernel's share on the surface.
-    ///
-    /// The radius is that of the `across`-th nearest place: each place stands for some of the photons,
-    /// so the disc holds about as many as are asked for, and they need not be sorted by distance. It
-    /// depends on no photon that is gathered, so the estimate has no bias where the light is even.
-    fn gather(&self, point: Vec3) -> Known {
-        let mut sum = [0.0; BANDS];
-        let own_and_others = NonZero::<usize>::MIN.saturating_add(self.across);
+    /// The cell in which a place lies.
+    fn nearest(&self, point: Vec3, normal: Vec3) -> usize {
+        let fits = |i: usize| self.cells[i].normal.dot(normal) > 0.0;
         let at = point.to_array();
-        let found =
-            self.places.query(&at).nearest_n::<SquaredEuclidean<f32>>(own_and_others).unsorted().execute();
-        let radius2 = found.iter().map(|f| f.distance).fold(0.0, f32::max);
-        if radius2 <= 0.0 {
-            return Known { irradiance: sum, reach: 0.0 };
+        let found = self.places.query(&at).nearest_one::<SquaredEuclidean<f32>>().execute();
+        let first = found.item as usize;
+        if fits(first) {
+            return first;
         }
-        self.photons.query(&at).within::<SquaredEuclidean<f32>>(radius2).unsorted().visit(|f| {
-            let weight = f.item.power * 2.0 / 255.0 * (1.0 - f.distance / radius2);
-            (0..BANDS).for_each(|b| sum[b] += weight * f32::from(f.item.tint[b]));
+        let more = self.places.query(&at).nearest_n::<SquaredEuclidean<f32>>(FOLDS).unsorted().execute();
+        let fitting = more.iter().filter(|f| fits(f.item as usize));
+        let closest = fitting.min_by(|a, b| a.distance.total_cmp(&b.distance).then(a.item.cmp(&b.item)));
+        closest.map_or(first, |f| f.item as usize)
+    }
+
+    /// Shares out the power of photons that lie in the same cell among the cells around.
+    fn share_out(&self, photons: &[(u32, &Photon)], shares: &Shares) {
+        let Some((home, _)) = photons.first() else { return };
+        let home = *home as usize;
+        let Cell { point, radius, .. } = self.cells[home];
+        let apart = photons.iter().map(|(_, p)| p.point.distance(point)).fold(0.0, f32::max);
+        let mut around = vec![home];
+        let reach2 = (radius + apart).powi(2);
+        let middle = point.to_array();
+        self.places.query(&middle).within::<SquaredEuclidean<f32>>(reach2).unsorted().visit(|f| {
+            if f.item as usize != home {
+                around.push(f.item as usize);
+            }
         });
-        let reach = radius2.sqrt();
-        let share = kernel_share(self.scene, self.surface, point, reach);
-        Known { irradiance: sum.map(|s| s / (PI * radius2 * share)), reach }
+        let mut weights = vec![0.0; around.len()];
+        let mut sums = vec![[0.0; BANDS]; around.len()];
+        for (_, photon) in photons {
+            let normal = photon.normal();
+            for (weight, i) in weights.iter_mut().zip(&around) {
+                let cell = &self.cells[*i];
+                let kernel = 1.0 - photon.point.distance_squared(cell.point) / (radius * radius);
+                *weight = cell.area * kernel.max(0.0) * cell.normal.dot(normal).max(0.0);
+            }
+            let mut total: f32 = weights.iter().sum();
+            if total <= 0.0 {
+                // no middle within reach: all stays at home, which comes first
+                (weights[0], total) = (1.0, 1.0);
+            }
+            let power: Spectrum = std::array::from_fn(|b| photon.in_band(b) / total);
+            for (sum, weight) in sums.iter_mut().zip(&weights) {
+                (0..BANDS).for_each(|b| sum[b] += power[b] * weight);
+            }
+        }
+        around.iter().zip(&sums).for_each(|(cell, power)| shares.add(*cell, power));
     }
 }
 
-/// Share of the kernel's integral that lies on the surface, by a fixed spiral of points of equal
-/// kernel weight.
-fn kernel_share(scene: &Scene, surface: usize, point: Vec3, radius: f32) -> f32 {
-    const POINTS: usize = 48;
-    // a mesh has no edge worth the search: its photons lie all round
-    let Shape::Plate(plate) = &scene.surfaces[surface].shape else { return 1.0 };
-    let (u, v) = (plate.u.normalize(), plate.normal().cross(plate.u.normalize()));
-    let far = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
-    if far.iter().all(|(a, b)| plate.holds(point + (u * *a + v * *b) * radius)) {
-        return 1.0; // a disc whose four tips lie on a rectangle lies on it whole
-    }
-    let inside = (0..POINTS)
-        .filter(|i| {
-            // the kernel's cumulative weight 2x² − x⁴ at radius x is uniform
-            let w = (*i as f32 + 0.5) / POINTS as f32;
-            let x = (1.0 - (1.0 - w).sqrt()).sqrt() * radius;
-            let phi = *i as f32 * 2.399_963; // golden angle
-            plate.holds(point + u * (x * phi.cos()) + v * (x * phi.sin()))
+/// Over how wide a disc the photons of a side are spread.
+struct Radii {
+    /// Every so-manieth photon; which they are depends on their order alone.
+    pilots: Tree,
+    /// How many of them are counted; none if each photon is spread over the whole side.
+    counted: Option<NonZero<usize>>,
+    /// The radius over the distance of the last one counted.
+    factor: f32,
+    /// Diagonal of the surface's box.
+    diagonal: f32,
+}
+
+impl Radii {
+    /// None where no photon is.
+    fn new(surface: &Surface, photons: &[&Photon], nearest: usize) -> Option<Radii> {
+        let (low, high) = surface.bounds();
+        let every = (nearest / PILOTS).min(photons.len() / (2 * PILOTS)).max(1);
+        let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
+        let count = (nearest / every).min(points.len() / 2);
+        Some(Radii {
+            pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
+            counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
+            factor: (nearest as f32 / (count * every) as f32).sqrt(),
+            diagonal: low.distance(high),
         })
-        .count();
-    inside.max(1) as f32 / POINTS as f32
+    }
+
+    fn at(&self, place: Vec3) -> f32 {
+        let Some(counted) = self.counted else { return self.diagonal };
+        let at = place.to_array();
+        let found = self.pilots.query(&at).nearest_n::<SquaredEuclidean<f32>>(counted).unsorted().execute();
+        let distance2 = found.iter().map(|f| f.distance).fold(0.0, f32::max);
+        (self.factor * distance2.sqrt()).max(1e-6 * self.diagonal).min(self.diagonal)
+    }
+}
+
+/// Power of each band that cells have got so far, in whole numbers: their sums do not depend on the order
+/// in which threads add to them.
+struct Shares {
+    sums: Vec<[AtomicU64; BANDS]>,
+    /// Whole numbers for each unit of power.
+    unit: f64,
+}
+
+/// The whole number for all power of a side.
+const ALL: f64 = (1u64 << 62) as f64;
+
+impl Shares {
+    fn new(photons: &[&Photon], cells: usize) -> Shares {
+        let total: f64 = photons.iter().map(|p| f64::from(p.power.abs())).sum();
+        let sums = (0..cells).map(|_| Default::default()).collect();
+        Shares { sums, unit: ALL / total.max(f64::MIN_POSITIVE) }
+    }
+
+    fn add(&self, cell: usize, power: &Spectrum) {
+        for (sum, power) in self.sums[cell].iter().zip(power) {
+            if *power > 0.0 {
+                sum.fetch_add((f64::from(*power) * self.unit) as u64, Ordering::Relaxed);
+            }
+        }
+    }
+
+    fn over_areas(self, cells: &[Cell]) -> Vec<Spectrum> {
+        let one = |(sums, cell): (&[AtomicU64; BANDS], &Cell)| {
+            let over =
+                |sum: &AtomicU64| sum.load(Ordering::Relaxed) as f64 / self.unit / f64::from(cell.area);
+            std::array::from_fn(|b| over(&sums[b]) as f32)
+        };
+        self.sums.iter().zip(cells).map(one).collect()
+    }
 }

@@ -34,8 +34,9 @@ pub struct Pixel {
     /// Light by pass: mean over the camera rays, linear sRGB, unclamped.
     pub light: [Vec3; PASSES],
     /// What a display shows of all passes: each camera ray goes through the tone curve before the
-    /// mean, so that the edge of a facet that mirrors a lamp is as smooth as any other. Linear sRGB
-    /// in 0..=1.
+    /// mean, so that the edge of a facet that mirrors a lamp is as smooth as any other. By how much the
+    /// curve darkens a ray depends on its colour without the noise of its few wavelengths. Linear sRGB;
+    /// that noise may reach beyond 0..=1.
     pub shown: Vec3,
 }
 

@@ -6,7 +6,7 @@ use crate::math::random::Stream;
 use crate::optics::colour::BANDS;
 use crate::scene::Finish;
 use crate::transport::crossing::{self, Entering as Single};
-use crate::transport::{Arrival, Event};
+use crate::transport::{Arrival, Event, Past, SurfacePoint};
 use crate::walk::feed::{self, Rays};
 use crate::walk::{LANES, Meeting, Packet};
 use glam::Vec3;
@@ -114,26 +114,31 @@ fn look_out(view: &View, way: WayOut, sight: &mut Sight, chance: Chance, onward:
     let placed = &scene.stones[way.stone];
     let mut origin = placed.point_to_world(way.point);
     let mut direction = placed.direction_to_world(way.direction);
-    let (mut power, mut past) = (way.power, Some(way.stone));
+    let (mut power, mut past) = (way.power, Past::Stone(way.stone));
     let (nm, band) = (sight.nm[way.band], way.band);
     for _ in 0..MIRRORS {
         let probability = (power / LOT_SHARE).min(1.0);
         let drawn = chance.lot < probability;
         match scene.first(origin, direction, past) {
-            Event::Nothing => return,
+            Event::Nothing => {
+                let far: f32 = scene.from_afar(direction).map(|(light, colour)| light.at(colour, nm)).sum();
+                sight.add(Pass::Stone, band, power * far);
+                return;
+            }
             Event::Light(i, colour) => {
                 sight.add(Pass::Stone, band, power * scene.lights[i].at(colour, nm));
                 return;
             }
-            Event::Surface(s, at, normal) => match &scene.surfaces[s].finish {
+            Event::Surface(at) => match &scene.surfaces[at.surface].finish {
                 Finish::Mirror(reflectance) => {
                     power *= reflectance.at(nm);
-                    (origin, direction, past) = (at, direction.reflect(normal), None);
+                    (origin, direction) = (at.point, direction.reflect(at.normal));
+                    past = Past::Surface(at.surface);
                 }
                 Finish::Diffuse(reflectance) => {
                     if drawn {
                         let reflected = power / probability * reflectance.at(nm) / std::f32::consts::PI;
-                        see_afar(view, s, at, normal, band, reflected, sight, chance.jitter);
+                        see_afar(view, &at, band, reflected, sight, chance.jitter);
                     }
                     return;
                 }
@@ -151,26 +156,20 @@ fn look_out(view: &View, way: WayOut, sight: &mut Sight, chance: Chance, onward:
 
 /// A surface seen through a stone or mirrored in it, at one wavelength: one shadow ray a light,
 /// photons from the nearest known place.
-#[allow(clippy::too_many_arguments)]
 fn see_afar(
     view: &View,
-    s: usize,
-    at: Vec3,
-    normal: Vec3,
+    at: &SurfacePoint,
     band: usize,
     reflected: f32,
     sight: &mut Sight,
     jitter: [f32; 2],
 ) {
     let nm = sight.nm[band];
-    let direct: f32 = view
-        .scene
-        .lights
-        .iter()
-        .map(|light| light.at(view.scene.direct_irradiance(light, at, normal, [jitter]), nm))
-        .sum();
-    let caustic = view.maps.caustic.irradiance_nearby(s, at)[band];
-    let indirect = view.maps.indirect.irradiance_nearby(s, at)[band];
+    let lights = view.scene.lights.iter().enumerate();
+    let direct: f32 =
+        lights.map(|(i, light)| light.at(view.scene.direct_irradiance(i, at, [jitter]), nm)).sum();
+    let caustic = view.maps.caustic.irradiance_nearby(at)[band];
+    let indirect = view.maps.indirect.irradiance_nearby(at)[band];
     sight.add(Pass::Stone, band, reflected * (direct + caustic + indirect));
 }
 

@@ -8,6 +8,7 @@
 //! Trans. Graphics 30(3), 2011. Checked in `tests/progressive.rs`.
 
 use super::film::{Film, PASSES, Pixel};
+use super::tone::LUMINANCE;
 use super::tracer::{self, Maps, Settings};
 use crate::photons::{self, Shots};
 use crate::scene::{Camera, Scene};
@@ -19,10 +20,10 @@ const ALPHA: f64 = 2.0 / 3.0;
 const FEWEST: f64 = 32.0;
 /// Most photons of a round.
 const MOST_PHOTONS: f64 = 5e7;
+/// Rounds whose spread tells of the noise.
+const ROUNDS_TO_TELL: u32 = 8;
 /// Side of the square of pixels whose noise is measured.
 const BLOCK: usize = 4;
-/// Luminance of linear sRGB.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// The mean of the rounds so far.
 pub struct Progressive<'a> {
@@ -127,13 +128,29 @@ impl<'a> Progressive<'a> {
     }
 
     /// Noise of the picture so far: the root mean square of the standard errors of 4×4 pixels'
-    /// luminance, over the mean luminance. Infinite after one round.
+    /// luminance, over the mean luminance. Infinite after one round; 0 for a picture that is black.
     pub fn noise(&self) -> f64 {
         let n = f64::from(self.rounds());
         let variance: f64 = self.blocks.iter().map(|(_, spread)| spread / (n - 1.0) / n).sum();
         let mean: f64 = self.blocks.iter().map(|(mean, _)| mean).sum();
         let count = self.blocks.len() as f64;
-        if n > 1.0 && mean > 0.0 { (variance / count).sqrt() / (mean / count) } else { f64::INFINITY }
+        match mean {
+            _ if n < 2.0 => f64::INFINITY,
+            0.0 => 0.0,
+            mean => (variance / count).sqrt() / (mean / count),
+        }
+    }
+
+    /// Whether the noise is at most a share, by rounds enough to tell: a variance of a few values is
+    /// small by luck. A picture that no light reaches has none.
+    pub fn is_converged(&self, noise: f64) -> bool {
+        self.scene.lights.is_empty() && self.rounds() > 0
+            || self.rounds() >= ROUNDS_TO_TELL && self.noise() <= noise
+    }
+
+    /// Whether no light has reached the picture.
+    pub fn is_black(&self) -> bool {
+        self.blocks.iter().all(|(mean, _)| *mean == 0.0)
     }
 }
 

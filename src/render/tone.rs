@@ -1,4 +1,8 @@
 //! From linear light to what a display shows.
+//!
+//! The curve acts on luminance, and the colour follows in proportion: hue and saturation stay, and white
+//! is white. Filmic is straight up to .6, then .6 + .4 (1 − e^(−(x − .6)/.4)). A colour of which a display
+//! cannot show so much is darkened until it can.
 
 use super::film::Film;
 use glam::Vec3;
@@ -24,8 +28,8 @@ pub struct Tone {
 
 /// Where the filmic curve leaves the straight line.
 const SHOULDER: f32 = 0.6;
-/// What it shows as white lies this many times above its shoulder's length.
-const REACH: f32 = 1.0;
+/// Luminance of linear sRGB.
+pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 impl Curve {
     /// Every curve with its name.
@@ -38,7 +42,7 @@ impl Curve {
             Curve::Filmic if x <= SHOULDER => x,
             Curve::Filmic => {
                 let rest = 1.0 - SHOULDER;
-                SHOULDER + rest * (1.0 - (-(x - SHOULDER) / (REACH * rest)).exp())
+                SHOULDER + rest * (1.0 - (-(x - SHOULDER) / rest).exp())
             }
         }
     }
@@ -47,15 +51,25 @@ impl Curve {
 impl Tone {
     /// Linear light as a display shows it, in 0..=1, before the transfer curve.
     pub fn shown(&self, linear: Vec3) -> Vec3 {
-        (linear * self.stops.exp2()).map(|x| self.curve.of(x))
+        (linear * self.gain(linear)).clamp(Vec3::ZERO, Vec3::ONE)
+    }
+
+    /// What linear light of a colour is multiplied by to be shown.
+    pub fn gain(&self, colour: Vec3) -> f32 {
+        let exposure = self.stops.exp2();
+        let exposed = colour * exposure;
+        let (luminance, strongest) = (exposed.dot(LUMINANCE), exposed.max_element());
+        if luminance <= 0.0 || strongest <= 0.0 {
+            return exposure;
+        }
+        exposure * (self.curve.of(luminance) / luminance).min(1.0 / strongest)
     }
 }
 
 /// Stops that bring a picture to a middle exposure: the brightness that one pixel in twenty exceeds
 /// goes to the shoulder's end. From a small picture that is thrown away.
 pub fn auto_stops(film: &Film) -> f32 {
-    let mut brightness: Vec<f32> =
-        film.linear(None).iter().map(|p| p.dot(Vec3::new(0.2126, 0.7152, 0.0722))).collect();
+    let mut brightness: Vec<f32> = film.linear(None).iter().map(|p| p.dot(LUMINANCE)).collect();
     brightness.sort_by(f32::total_cmp);
     let bright = brightness.get(brightness.len() * 19 / 20).copied().unwrap_or(0.0);
     if bright > 0.0 { (0.8 / bright).log2().clamp(-20.0, 20.0) } else { 0.0 }
@@ -75,6 +89,19 @@ mod tests {
         let slope = (Curve::Filmic.of(SHOULDER + 1e-3) - SHOULDER) / 1e-3;
         assert!((slope - 1.0).abs() < 0.01);
         let tone = Tone { stops: 1.0, curve: Curve::Linear };
-        assert_eq!(tone.shown(Vec3::splat(0.25)), Vec3::splat(0.5));
+        assert!((tone.shown(Vec3::splat(0.25)) - 0.5).abs().max_element() < 1e-6);
+    }
+
+    /// Colours keep the proportion of their channels, also where their strongest is beyond white.
+    #[test]
+    fn hue_is_kept() {
+        let tone = Tone::default();
+        for colour in [Vec3::new(0.9, 0.5, 0.2), Vec3::new(3.0, 0.2, 0.1), Vec3::new(0.0, 0.1, 9.0)] {
+            let shown = tone.shown(colour);
+            assert!((shown / shown.max_element() - colour / colour.max_element()).abs().max_element() < 1e-6);
+            assert!(shown.max_element() <= 1.0);
+        }
+        let orange = tone.shown(Vec3::new(1.1, 0.8, 0.3));
+        assert!((orange.dot(LUMINANCE) - Curve::Filmic.of(0.82764)).abs() < 1e-4, "{orange}");
     }
 }

@@ -9,7 +9,7 @@ use crate::optics::colour::{self, BANDS};
 use crate::photons::map::PhotonMap;
 use crate::photons::{Shots, Spectrum};
 use crate::scene::{Camera, Finish, Light, Scene};
-use crate::transport::{Arrival, Event};
+use crate::transport::{Arrival, Event, Past, SurfacePoint};
 use glam::{Mat3, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -99,8 +99,8 @@ pub fn things(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Vec<Th
     let thing = |x: u32, y: u32| {
         let (u, v) = ((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32);
         let (origin, direction) = camera.ray(u, v);
-        match scene.first(origin, direction, None) {
-            Event::Surface(_, at, normal) => Thing { depth: at.distance(origin), facet: 0, normal },
+        match scene.first_seen(origin, direction, Past::Nothing) {
+            Event::Surface(at) => Thing { depth: at.point.distance(origin), facet: 0, normal: at.normal },
             Event::Stone(i, arrival) => {
                 let placed = &scene.stones[i];
                 let normal = placed.direction_to_world(placed.stone.normals[arrival.facet]);
@@ -138,6 +138,22 @@ impl Sight {
         })
     }
 
+    /// Colour of all passes by the mean weight of each band: without the noise of the few wavelengths
+    /// that the ray has, so that white is white. Not for spectra that change within a band.
+    fn even_colour(&self, rgb_from_xyz: &Mat3) -> Vec3 {
+        let band = |b: usize| colour::band_xyz(b) * self.light.iter().map(|pass| pass[b]).sum::<f32>();
+        *rgb_from_xyz * ((0..BANDS).map(band).sum::<Vec3>() / BANDS as f32)
+    }
+
+    /// Adds a light that is seen.
+    ///
+    /// - `colour`: as its emitter gives it
+    fn add_light(&mut self, pass: Pass, share: &[f32; BANDS], light: &Light, colour: Vec3) {
+        for (b, share) in share.iter().enumerate() {
+            self.light[pass as usize][b] += share * light.at(colour, self.nm[b]);
+        }
+    }
+
     pub fn add(&mut self, pass: Pass, band: usize, radiance: f32) {
         self.light[pass as usize][band] += radiance;
     }
@@ -166,8 +182,7 @@ struct Shared {
 
 /// Irradiance that the maps gave at a place, and how far around it that holds.
 struct Seen {
-    surface: usize,
-    at: Vec3,
+    at: SurfacePoint,
     holds: f32,
     caustic: Spectrum,
     indirect: Spectrum,
@@ -204,7 +219,8 @@ impl View<'_> {
         for sight in &sights {
             let light = sight.colour(&self.rgb_from_xyz);
             (0..PASSES).for_each(|p| pixel.light[p] += light[p] / rays as f32);
-            pixel.shown += self.settings.tone.shown(light.iter().sum()) / rays as f32;
+            let gain = self.settings.tone.gain(sight.even_colour(&self.rgb_from_xyz));
+            pixel.shown += light.iter().sum::<Vec3>() * gain / rays as f32;
         }
         pixel
     }
@@ -235,22 +251,28 @@ impl View<'_> {
         let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES] };
         let mut share = [1.0; BANDS];
         let (mut origin, mut direction) = self.camera.ray_through(u, v, on_lens);
+        let mut past = Past::Nothing;
         for _ in 0..MIRRORS {
-            match self.scene.first(origin, direction, None) {
-                Event::Nothing => break,
-                Event::Light(i, colour) => {
-                    let light = &self.scene.lights[i];
-                    (0..BANDS).for_each(|b| sight.add(Pass::Direct, b, share[b] * light.at(colour, nm[b])));
+            match self.scene.first_seen(origin, direction, past) {
+                Event::Nothing => {
+                    for (light, colour) in self.scene.from_afar(direction) {
+                        sight.add_light(Pass::Direct, &share, light, colour);
+                    }
                     break;
                 }
-                Event::Surface(s, point, normal) => match &self.scene.surfaces[s].finish {
+                Event::Light(i, colour) => {
+                    sight.add_light(Pass::Direct, &share, &self.scene.lights[i], colour);
+                    break;
+                }
+                Event::Surface(at) => match &self.scene.surfaces[at.surface].finish {
                     Finish::Mirror(reflectance) => {
                         (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
-                        (origin, direction) = (point, direction.reflect(normal));
+                        (origin, direction) = (at.point, direction.reflect(at.normal));
+                        past = Past::Surface(at.surface);
                     }
                     Finish::Diffuse(reflectance) => {
                         (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
-                        self.see_surface(s, point, normal, &share, &mut sight, shared);
+                        self.see_surface(&at, &share, &mut sight, shared);
                         break;
                     }
                 },
@@ -266,25 +288,20 @@ impl View<'_> {
     /// A surface that the camera sees directly.
     ///
     /// - `share`: of each wavelength that the surface and the mirrors before it give back
-    fn see_surface(
-        &self,
-        s: usize,
-        point: Vec3,
-        normal: Vec3,
-        share: &[f32; BANDS],
-        sight: &mut Sight,
-        shared: &mut Shared,
-    ) {
+    fn see_surface(&self, at: &SurfacePoint, share: &[f32; BANDS], sight: &mut Sight, shared: &mut Shared) {
         let each = self.shadow_rays() as usize;
-        let lights = self.scene.lights.iter().zip(&mut shared.shadows);
+        let lights = self.scene.lights.iter().enumerate().zip(&mut shared.shadows);
         let lit: Vec<(&Light, Vec3)> = lights
-            .map(|(light, places)| {
+            .map(|((i, light), places)| {
                 let places = places.take(each).map(|place| place.map(|p| p as f32));
-                (light, self.scene.direct_irradiance(light, point, normal, places))
+                (light, self.scene.direct_irradiance(i, at, places))
             })
             .collect();
-        let near = |seen: &Seen| seen.surface == s && seen.at.distance(point) < seen.holds;
-        let seen = shared.seen.take().filter(near).unwrap_or_else(|| self.see_maps(s, point));
+        let near = |seen: &Seen| {
+            let same = (seen.at.surface, seen.at.front) == (at.surface, at.front);
+            same && seen.at.point.distance(at.point) < seen.holds
+        };
+        let seen = shared.seen.take().filter(near).unwrap_or_else(|| self.see_maps(at));
         for (b, share) in share.iter().enumerate() {
             let reflected = share / std::f32::consts::PI;
             let direct: f32 = lit.iter().map(|(light, colour)| light.at(*colour, sight.nm[b])).sum();
@@ -295,10 +312,10 @@ impl View<'_> {
         shared.seen = Some(seen);
     }
 
-    fn see_maps(&self, surface: usize, at: Vec3) -> Seen {
-        let (caustic, one) = self.maps.caustic.irradiance(surface, at);
-        let (indirect, other) = self.maps.indirect.irradiance(surface, at);
-        Seen { surface, at, holds: HOLDS * one.min(other), caustic, indirect }
+    fn see_maps(&self, at: &SurfacePoint) -> Seen {
+        let (caustic, one) = self.maps.caustic.irradiance(at);
+        let (indirect, other) = self.maps.indirect.irradiance(at);
+        Seen { at: *at, holds: HOLDS * one.min(other), caustic, indirect }
     }
 }
 

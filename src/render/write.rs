@@ -44,7 +44,7 @@ pub enum Bits {
 /// What a display shows of a film, linear in 0..=1: the picture, or one pass.
 pub fn shown(film: &Film, pass: Option<Pass>, tone: &Tone) -> Vec<Vec3> {
     match pass {
-        None => film.pixels.iter().map(|p| p.shown).collect(),
+        None => film.pixels.iter().map(|p| p.shown.clamp(Vec3::ZERO, Vec3::ONE)).collect(),
         Some(_) => film.linear(pass).into_iter().map(|p| tone.shown(p)).collect(),
     }
 }

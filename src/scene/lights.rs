@@ -19,9 +19,12 @@ use std::sync::Arc;
 /// Shape of a light and how it shines, at radiance 1. Colours are parts of
 /// [`crate::optics::rgb::basis`]; white is 1, 1, 1.
 pub trait Emitter: Debug + Send + Sync {
-    /// Distance along a ray to the shining side and the colour seen there. What lies behind
-    /// everything is at `f32::MAX`.
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)>;
+    /// Distance along a ray to the light and the colour seen there; no colour from behind, where it is
+    /// dark. What shines from infinity is at `f32::INFINITY`.
+    ///
+    /// The origin may lie on the light itself only if the ray does not start there: every light is
+    /// convex, so a ray that leaves it cannot meet it again.
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
 
     /// A place of the light as seen from a point, for shadow rays.
     ///
@@ -39,6 +42,11 @@ pub trait Emitter: Debug + Send + Sync {
 
     /// Power emitted; none for a light at infinity.
     fn power(&self) -> Option<f32>;
+
+    /// Whether it shines from infinity: then it stands in no other light's way.
+    fn is_far(&self) -> bool {
+        self.power().is_none()
+    }
 
     /// The light turned about a point.
     fn turned(&self, turn: Mat3, about: Vec3) -> Arc<dyn Emitter>;
@@ -200,6 +208,21 @@ mod tests {
         }
     }
 
+    /// A lamp stands in the way from both sides, or is at infinity.
+    #[test]
+    fn lamps_are_dark_behind() {
+        for (name, light) in every_kind() {
+            let from = Vec3::new(0.3, -0.2, 9.0);
+            match light.hit(from, Vec3::new(0.01, 0.02, -1.0).normalize()) {
+                Some((t, colour)) if t.is_finite() => {
+                    assert_eq!(colour.is_some(), name == "sphere", "{name}: {colour:?}");
+                    assert!(!light.is_far());
+                }
+                _ => assert!(light.is_far(), "{name}"),
+            }
+        }
+    }
+
     #[test]
     fn what_a_glimpse_sees_is_there() {
         let mut stream = Stream::new(4, Purpose::Test, 0);
@@ -209,7 +232,7 @@ mod tests {
                 let Some(g) = light.seen_from(point, Vec3::Z, stream.pair()) else { continue };
                 let (t, colour) = light.hit(point, g.direction).expect(name);
                 assert!(t == g.distance || (t - g.distance).abs() < 1e-3, "{name}: {t} {}", g.distance);
-                assert!(colour.y > 0.0 || g.radiance.y == 0.0);
+                assert!(colour.expect("its front").y > 0.0 || g.radiance.y == 0.0);
             }
         }
     }

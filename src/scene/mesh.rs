@@ -1,5 +1,6 @@
 //! Triangle meshes around the stones, in a tree of boxes.
 
+use super::surface::Hit;
 use crate::formats::scenery::Triangles;
 use crate::store::limits::{self, Exceeded};
 use glam::{DMat3, DVec3, Vec3, Vec3A};
@@ -52,11 +53,10 @@ impl Mesh {
         Ok(Mesh { triangles, tree, checksum: crc.finalize() })
     }
 
-    /// Distance along a ray and the unit normal on the ray's side.
-    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
-        // a ray that starts on the mesh does not meet it again there
-        let (low, high) = self.bounds();
-        let near = 1e-5 * (high - low).length().max(origin.abs().max_element());
+    /// The first meeting of a ray with either side of a triangle.
+    ///
+    /// - `near`: meetings no farther than this do not count
+    pub fn hit(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<Hit> {
         let ray = Ray::new(origin.into(), direction.into(), near, f32::INFINITY);
         let mut hit = RayHit::none();
         let met = self.tree.ray_traverse(ray, &mut hit, |ray, id| self.triangles[id].intersect(ray));
@@ -65,7 +65,20 @@ impl Mesh {
         }
         let t = &self.triangles[hit.primitive_id as usize];
         let normal = Vec3::from((t.v1 - t.v0).cross(t.v2 - t.v0)).normalize_or(-direction);
-        Some((hit.t, if normal.dot(direction) > 0.0 { -normal } else { normal }))
+        let front = normal.dot(direction) <= 0.0;
+        Some(Hit { distance: hit.t, normal: if front { normal } else { -normal }, front })
+    }
+
+    /// How far a ray that starts on the mesh goes before it can meet it again: what rounding may have
+    /// put the start off by.
+    pub fn near(&self, origin: Vec3) -> f32 {
+        let (low, high) = self.bounds();
+        1e-5 * (high - low).length().max(origin.abs().max_element())
+    }
+
+    /// The corners of every triangle; neighbours follow each other.
+    pub fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
+        self.triangles.iter().map(|t| [t.v0, t.v1, t.v2].map(Vec3::from))
     }
 
     /// Lowest and highest corner of its box.
@@ -101,15 +114,17 @@ mod tests {
                 Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5).normalize() * 3.0;
             let to = Vec3::new(stream.unit() - 0.5, stream.unit() - 0.5, stream.unit() - 0.5) * 1.5;
             let d = (to - from).normalize();
-            match (stone.hit(from, d), mesh.hit(from, d)) {
-                (Some(a), Some((t, n))) => {
+            match (stone.hit(from, d), mesh.hit(from, d, 0.0)) {
+                (Some(a), Some(hit)) => {
                     met += 1;
-                    assert!((a.distance - t).abs() < 1e-4, "{} {t}", a.distance);
-                    assert!(n.dot(d) < 0.0);
+                    assert!((a.distance - hit.distance).abs() < 1e-4, "{} {hit:?}", a.distance);
+                    assert!(hit.normal.dot(d) < 0.0 && hit.front);
                 }
                 (None, None) => {}
                 (a, b) => assert!(
-                    a.map(|h| h.distance).or(b.map(|h| h.0)).is_some_and(|t| (from + d * t).length() > 0.3),
+                    a.map(|h| h.distance)
+                        .or(b.map(|h| h.distance))
+                        .is_some_and(|t| (from + d * t).length() > 0.3),
                     "one side alone {a:?} {b:?}"
                 ),
             }

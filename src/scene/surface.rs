@@ -1,4 +1,4 @@
-//! Surfaces around the stones: one-sided parallelograms and meshes, diffuse or mirrors.
+//! Surfaces around the stones: parallelograms and meshes, diffuse or mirrors, the same on both sides.
 
 use super::mesh::Mesh;
 use crate::optics::rgb;
@@ -50,10 +50,22 @@ pub enum Finish {
 /// A surface's shape.
 #[derive(Debug, Clone)]
 pub enum Shape {
-    /// A parallelogram that is there on one side; from behind it is not.
+    /// A parallelogram. For light it is there from both sides; the camera looks through its back.
     Plate(Plate),
-    /// Triangles, there on both sides.
+    /// Triangles, there from both sides for light and camera.
     Mesh(Arc<Mesh>),
+}
+
+/// Where a ray meets a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray.
+    pub distance: f32,
+    /// Unit normal on the ray's side.
+    pub normal: Vec3,
+    /// Whether that side is the front: of a plate the one that u × v points to, of a triangle the one
+    /// from which its corners run counterclockwise.
+    pub front: bool,
 }
 
 /// A surface.
@@ -66,22 +78,27 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A diffuse parallelogram; `u × v` points to the reflecting side.
+    /// A diffuse parallelogram; `u × v` points to its front.
     pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
         Surface { shape: Shape::Plate(Plate { corner, u, v }), finish: Finish::Diffuse(reflectance) }
     }
 
-    /// Distance along a ray to the surface, if it is met, and its unit normal on the ray's side.
-    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+    /// The first meeting of a ray with either side.
+    ///
+    /// - `near`: meetings no farther than this do not count
+    pub fn hit(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<Hit> {
         match &self.shape {
-            Shape::Plate(plate) => plate.hit(origin, direction).map(|t| (t, plate.normal())),
-            Shape::Mesh(mesh) => mesh.hit(origin, direction),
+            Shape::Plate(plate) => plate.hit(origin, direction).filter(|hit| hit.distance > near),
+            Shape::Mesh(mesh) => mesh.hit(origin, direction, near),
         }
     }
 
-    /// Whether the surface stands in the way of a ray before `distance`.
-    pub fn hides(&self, origin: Vec3, direction: Vec3, distance: f32) -> bool {
-        self.hit(origin, direction).is_some_and(|(t, _)| t < distance)
+    /// How far a ray that starts on the surface goes before it can meet it again; none if it cannot.
+    pub fn near(&self, origin: Vec3) -> Option<f32> {
+        match &self.shape {
+            Shape::Plate(_) => None,
+            Shape::Mesh(mesh) => Some(mesh.near(origin)),
+        }
     }
 
     /// Lowest and highest corner of its box.
@@ -103,19 +120,21 @@ pub struct Plate {
     pub corner: Vec3,
     /// One edge from the corner.
     pub u: Vec3,
-    /// The other edge; `u × v` points to the reflecting side.
+    /// The other edge; `u × v` points to the front.
     pub v: Vec3,
 }
 
 impl Plate {
-    /// Unit normal of the reflecting side.
+    /// Unit normal of the front.
     pub fn normal(&self) -> Vec3 {
         self.u.cross(self.v).normalize()
     }
 
-    /// Distance along a ray to the reflecting side, if it is met.
-    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<f32> {
-        parallelogram_hit(self.corner, self.u, self.v, origin, direction)
+    /// The meeting of a ray with either side.
+    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
+        let (distance, front) = parallelogram_hit(self.corner, self.u, self.v, origin, direction)?;
+        let normal = if front { self.normal() } else { -self.normal() };
+        Some(Hit { distance, normal, front })
     }
 
     /// Whether a point of the plane lies within the edges.
@@ -124,25 +143,19 @@ impl Plate {
     }
 }
 
-/// Distance to the front of a parallelogram along a ray.
+/// Distance to a parallelogram along a ray, and whether its front is met.
 pub(super) fn parallelogram_hit(
     corner: Vec3,
     u: Vec3,
     v: Vec3,
     origin: Vec3,
     direction: Vec3,
-) -> Option<f32> {
+) -> Option<(f32, bool)> {
     let n = u.cross(v);
     let toward = n.dot(direction);
-    if toward >= 0.0 {
-        return None;
-    }
     let t = n.dot(corner - origin) / toward;
-    // a ray that starts on the surface does not meet it again
-    if t <= 1e-5 * corner.distance(origin) {
-        return None;
-    }
-    within(u, v, origin + direction * t - corner).then_some(t)
+    // a ray within the plane has no t
+    (t > 0.0 && within(u, v, origin + direction * t - corner)).then_some((t, toward < 0.0))
 }
 
 fn within(u: Vec3, v: Vec3, p: Vec3) -> bool {
@@ -158,11 +171,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_side_reflects() {
+    fn a_plate_is_met_from_both_sides() {
         let floor = Plate { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0 };
         assert_eq!(floor.normal(), Vec3::Z);
-        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z), Some(3.0));
-        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, -3.0), Vec3::Z), None);
+        let above = floor.hit(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z);
+        assert_eq!(above, Some(Hit { distance: 3.0, normal: Vec3::Z, front: true }));
+        let below = floor.hit(Vec3::new(0.5, 0.0, -3.0), Vec3::Z);
+        assert_eq!(below, Some(Hit { distance: 3.0, normal: -Vec3::Z, front: false }));
         assert_eq!(floor.hit(Vec3::new(1.5, 0.0, 3.0), -Vec3::Z), None);
+        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 3.0), Vec3::Z), None);
+        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 0.0), Vec3::X), None);
     }
 }

@@ -11,6 +11,7 @@ use cutlab::formats::{self, FORMATS, FormatError, Source, scenery};
 use cutlab::photons::file;
 use cutlab::scene::mesh::Mesh;
 use cutlab::scene::panorama::Panorama;
+use cutlab::scene::surface::Hit;
 use cutlab::scene::{Cast, SceneFile};
 use cutlab::solid::{Plane, Polyhedron};
 use cutlab::study::meta::Meta;
@@ -229,7 +230,7 @@ pub fn sceneries(data: &[u8]) {
         Err(error) => return is_one_line(&error),
     };
     for d in [Vec3::X, Vec3::NEG_Z, Vec3::new(0.6, -0.48, 0.64)] {
-        if let Some((distance, normal)) = mesh.hit(-3.0 * d, d) {
+        if let Some(Hit { distance, normal, .. }) = mesh.hit(-3.0 * d, d, 0.0) {
             assert!(distance > 0.0 && normal.dot(d) <= 1e-6, "{distance} {normal} against {d}");
         }
     }

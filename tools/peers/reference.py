@@ -21,7 +21,8 @@ import numpy as np
 import scene
 
 STORE = os.path.join(scene.OUT, "reference.npz")
-PHOTON = np.dtype([("point", "<f4", 3), ("power", "<f4"), ("tint", "u1", 8), ("surface", "<u2")])
+PHOTON = np.dtype([("point", "<f4", 3), ("power", "<f4"), ("tint", "u1", 8), ("surface", "<u2"),
+                   ("front", "u1"), ("normal", "i1", 3)])
 
 
 def landed_photons(path):

@@ -15,7 +15,7 @@ const WRITE_EVERY: Duration = Duration::from_secs(60);
 #[derive(Debug, Clone, clap::Args)]
 pub struct Stops {
     /// Converge round by round, each with new photons and smaller estimates, to a stop: --rounds,
-    /// --time or --noise; without one to 2 % of noise
+    /// --time or --noise; without one to 2 % of noise, or 100 rounds
     #[arg(long, conflicts_with = "photon_map")]
     pub progressive: bool,
     /// Stop after this many rounds
@@ -24,7 +24,8 @@ pub struct Stops {
     /// Stop after the round that ends past this time: 60s, 5min, 1h30m
     #[arg(long, value_name = "TIME", requires = "progressive", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
-    /// Stop when 4×4 pixels are off by this share of the mean on average: 2% or 0.02
+    /// Stop when 4×4 pixels are off by this share of the mean on average, 2% or 0.02; after eight rounds at
+    /// the earliest, for fewer cannot tell
     #[arg(long, value_name = "SHARE", requires = "progressive", value_parser = share)]
     noise: Option<f64>,
 }
@@ -40,6 +41,8 @@ fn share(text: &str) -> Result<f64, String> {
 impl Stops {
     /// Noise at which a picture is good enough if nothing is said.
     const NOISE: f64 = 0.02;
+    /// Rounds after which it is taken as it is if nothing is said.
+    const ROUNDS: u32 = 100;
 
     /// - `taken`: time that the picture has taken so far
     fn reached(&self, picture: &Progressive, taken: Duration) -> bool {
@@ -47,7 +50,8 @@ impl Stops {
         let noise = if none { Some(Self::NOISE) } else { self.noise };
         self.rounds.is_some_and(|most| picture.rounds() >= most)
             || self.time.is_some_and(|time| taken >= time)
-            || noise.is_some_and(|noise| picture.noise() <= noise)
+            || noise.is_some_and(|noise| picture.is_converged(noise))
+            || none && picture.rounds() >= Self::ROUNDS
     }
 }
 
@@ -78,7 +82,9 @@ pub fn take(
     }
     while picture.rounds() == 0 || !args.stops.reached(&picture, since.elapsed()) {
         picture.round(&|| ());
-        sign.set_message(format!("round {}, noise {:.1} %", picture.rounds() + 1, 100.0 * picture.noise()));
+        let noise = picture.noise();
+        let noise = if noise.is_finite() { format!(", noise {:.1} %", 100.0 * noise) } else { String::new() };
+        sign.set_message(format!("round {}{noise}", picture.rounds() + 1));
         if let Some(kept) = &mut kept {
             kept.save(|| [&since.elapsed().as_secs_f64().to_le_bytes()[..], &picture.state()].concat())?;
         }
@@ -88,6 +94,14 @@ pub fn take(
         }
     }
     sign.finish_and_clear();
-    console.note(&format!("{} rounds, noise {:.1} %", picture.rounds(), 100.0 * picture.noise()));
+    let rounds = match picture.rounds() {
+        1 => "1 round".to_string(),
+        n => format!("{n} rounds"),
+    };
+    console.note(&match picture.noise() {
+        _ if picture.is_black() => format!("{rounds}: the picture is black, no light reaches the camera"),
+        noise if noise.is_finite() => format!("{rounds}, noise {:.1} %", 100.0 * noise),
+        _ => format!("{rounds}, too few to tell the noise"),
+    });
     Ok((picture.film().clone(), picture.rounds()))
 }

@@ -52,14 +52,12 @@ impl Disc {
 }
 
 impl Emitter for Disc {
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
         let toward = -self.normal.dot(direction);
         let t = -self.normal.dot(self.centre - origin) / toward;
-        if toward <= 0.0 || t <= 1e-5 * self.centre.distance(origin) {
-            return None;
-        }
         let within = (origin + direction * t).distance_squared(self.centre) <= self.radius * self.radius;
-        within.then(|| (t, if self.shines(toward) { Vec3::ONE } else { Vec3::ZERO }))
+        let colour = if self.shines(toward) { Vec3::ONE } else { Vec3::ZERO };
+        (t > 0.0 && within).then_some((t, (toward > 0.0).then_some(colour)))
     }
 
     fn seen_from(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<Glimpse> {

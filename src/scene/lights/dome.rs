@@ -71,8 +71,8 @@ impl Dome {
 }
 
 impl Emitter for Dome {
-    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
-        Some((f32::MAX, self.colour(direction)))
+    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
+        Some((f32::INFINITY, Some(self.colour(direction))))
     }
 
     fn seen_from(&self, _: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse> {
@@ -84,7 +84,7 @@ impl Emitter for Dome {
                 (direction, self.colour(direction) / density)
             }
         };
-        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: f32::MAX, radiance })
+        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: f32::INFINITY, radiance })
     }
 
     fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {

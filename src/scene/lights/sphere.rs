@@ -27,13 +27,13 @@ pub struct Sphere {
 }
 
 impl Emitter for Sphere {
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
         let to = self.centre - origin;
         let along = to.dot(direction);
         let apart2 = (to - direction * along).length_squared();
         let half2 = self.radius * self.radius - apart2;
         let t = along - half2.max(0.0).sqrt();
-        (half2 >= 0.0 && t > 1e-5 * to.length()).then_some((t, Vec3::ONE))
+        (half2 >= 0.0 && t > 0.0).then_some((t, Some(Vec3::ONE)))
     }
 
     fn seen_from(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<Glimpse> {

@@ -59,8 +59,9 @@ impl Square {
 }
 
 impl Emitter for Square {
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
-        parallelogram_hit(self.corner, self.u, self.v, origin, direction).map(|t| (t, Vec3::ONE))
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
+        let (t, front) = parallelogram_hit(self.corner, self.u, self.v, origin, direction)?;
+        Some((t, front.then_some(Vec3::ONE)))
     }
 
     fn seen_from(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<Glimpse> {
@@ -106,8 +107,9 @@ mod tests {
     fn it_shines_where_it_faces() {
         let down = Square::facing_down(Vec3::new(0.0, 0.0, 3.0), 2.0);
         assert_eq!(down.normal(), -Vec3::Z);
-        assert_eq!(down.hit(Vec3::ZERO, Vec3::Z), Some((3.0, Vec3::ONE)));
-        assert_eq!(down.hit(Vec3::Z * 4.0, -Vec3::Z), None);
+        assert_eq!(down.hit(Vec3::ZERO, Vec3::Z), Some((3.0, Some(Vec3::ONE))));
+        assert_eq!(down.hit(Vec3::Z * 4.0, -Vec3::Z), Some((1.0, None)));
+        assert_eq!(down.hit(Vec3::new(1.5, 0.0, 0.0), Vec3::Z), None);
         let aimed = Square::facing(Vec3::new(3.0, 0.0, 4.0), Vec3::ZERO, 1.0);
         assert!((aimed.normal() - Vec3::new(-0.6, 0.0, -0.8)).length() < 1e-6);
         assert!((aimed.point([0.5, 0.5]) - Vec3::new(3.0, 0.0, 4.0)).length() < 1e-6);

@@ -19,9 +19,6 @@ pub static KIND: Kind = Kind {
     },
 };
 
-/// How far away it is: behind everything but a dome.
-const FAR: f32 = 0.5 * f32::MAX;
-
 /// A disc at infinity.
 #[derive(Debug, Clone, Copy)]
 pub struct Sun {
@@ -49,16 +46,16 @@ impl Sun {
 }
 
 impl Emitter for Sun {
-    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Vec3)> {
+    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
         // by the sine: the cosine of so small an angle has no digits left
         let within = direction.cross(self.direction).length_squared() <= sin2();
-        (within && direction.dot(self.direction) > 0.0).then_some((FAR, self.colour))
+        (within && direction.dot(self.direction) > 0.0).then_some((f32::INFINITY, Some(self.colour)))
     }
 
     fn seen_from(&self, _: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse> {
         let direction = self.place(u);
         let radiance = self.irradiance();
-        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: FAR, radiance })
+        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: f32::INFINITY, radiance })
     }
 
     fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {
