@@ -11,5 +11,5 @@ pub mod proportions;
 pub mod stretch;
 pub mod symmetry;
 
-pub use design::{Design, Facet, Gear, Tier, Unit, Zone};
+pub use design::{Design, Facet, Gear, Tier, USUAL_WIDTH_MM, Unit, Zone};
 pub use families::CutError;

@@ -6,6 +6,7 @@ mod beside;
 mod cs580;
 mod cutting_table;
 pub mod error;
+mod frames;
 mod gcs;
 mod gcs_write;
 mod gem;
@@ -33,7 +34,8 @@ pub use error::FormatError;
 pub use source::Source;
 pub use surface::Surface;
 
-use crate::cut::{Design, Unit};
+use crate::cut::{Design, USUAL_WIDTH_MM, Unit};
+use crate::optics::Material;
 use crate::solid::Body;
 use crate::solid::polyhedron::Fate;
 use crate::store::{limits, replace};
@@ -43,8 +45,8 @@ use std::path::Path;
 /// Makes a file's bytes.
 #[derive(Debug, Clone, Copy)]
 pub enum Writer {
-    /// Of a design's planes, tiers and texts.
-    Design(fn(&Design) -> Result<Vec<u8>, FormatError>),
+    /// Of a design's planes, tiers and texts; sentences about what had no room go to the list.
+    Design(fn(&Design, &mut Vec<String>) -> Result<Vec<u8>, FormatError>),
     /// Of a surface, whose planes need not bound it.
     Mesh(fn(&Surface) -> Result<Vec<u8>, FormatError>),
 }
@@ -195,12 +197,48 @@ pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
     Ok(replace::write(path, &bytes)?)
 }
 
+/// The bytes of a file, and what of the stone had no room in it.
+#[derive(Debug)]
+pub struct Encoded {
+    /// The file's bytes.
+    pub bytes: Vec<u8>,
+    /// What was left out or had to be assumed, one sentence each.
+    pub remarks: Vec<String>,
+}
+
 /// The bytes of a file of the design in the format called `format`, by name or ending.
 pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
-    match written_as(format)?.write.ok_or_else(|| no_writer(format))? {
-        Writer::Design(write) => write(design),
-        Writer::Mesh(write) => write(&Surface::of_design(design)?),
-    }
+    Ok(encode_as(design, None, format)?.bytes)
+}
+
+/// As [`encode`], of a stone of a known material.
+///
+/// - `material`: what the stone is made of; without it the index that the design was drawn for counts,
+///   or diamond's
+///
+/// Checked in `tests/receivers.rs`.
+pub fn encode_as(design: &Design, material: Option<&Material>, format: &str) -> Result<Encoded, FormatError> {
+    let mut remarks = Vec::new();
+    let bytes = match written_as(format)?.write.ok_or_else(|| no_writer(format))? {
+        Writer::Design(write) => match material {
+            Some(material) => write(&frames::drawn_for(design, material), &mut remarks)?,
+            None => write(design, &mut remarks)?,
+        },
+        Writer::Mesh(write) => {
+            if design.unit == Unit::Free && unit_mm(format).is_some() {
+                remarks.push(format!("the design has no size: written {USUAL_WIDTH_MM} mm wide, in metres"));
+            }
+            write(&Surface::of_design(design, material)?)?
+        }
+    };
+    Ok(Encoded { bytes, remarks })
+}
+
+/// Length in millimetres of the unit that every file of the format called `format` has, by name or
+/// ending; none for formats without unit, which is all but glTF.
+pub fn unit_mm(format: &str) -> Option<f64> {
+    let metric = [&glb::GLB, &glb::GLTF].iter().any(|f| f.name == format || f.extensions.contains(&format));
+    metric.then_some(glb::UNIT_MM)
 }
 
 /// The bytes of a file of a mesh that is no convex stone, in the format called `format`.

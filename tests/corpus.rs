@@ -180,20 +180,28 @@ fn all_designs_are_shown_in_one_call_in_two_seconds() {
 /// The formats that hold facets as planes, and so give them back.
 const DESIGN_FORMATS: [&str; 4] = ["cutlab", "gemcad", "gemcad-binary", "gem-cut-studio"];
 
-/// The largest difference of a normal, or of a distance in parts of the size, facet by facet.
-fn off(a: &Design, b: &Design, size: f64) -> f64 {
+/// The largest difference of a normal, or of a distance from the middle in parts of the size, facet by
+/// facet: each format has a frame of its own.
+fn off(a: &Design, b: &Design, [this, that]: [&Polyhedron; 2]) -> f64 {
     if a.facets().count() != b.facets().count() {
         return f64::INFINITY;
     }
-    let gap =
-        |(p, q): (Plane, Plane)| p.normal.distance(q.normal).max((p.distance - q.distance).abs() / size);
+    let frame = |solid: &Polyhedron| (solid.volume_and_centre().1, solid.volume().cbrt());
+    let ((middle, size), (other_middle, other_size)) = (frame(this), frame(that));
+    let gap = |(p, q): (Plane, Plane)| {
+        let apart = p.height(middle) / size - q.height(other_middle) / other_size;
+        p.normal.distance(q.normal).max(apart.abs())
+    };
     a.planes().into_iter().zip(b.planes()).map(gap).fold(0.0, f64::max)
 }
 
 /// How far the corners of a face stand from the plane of the copy that fits it best, at most over all
 /// faces, in parts of the size: what is off in a normal counts as much as the facet is large.
-fn surface_off(a: &Polyhedron, b: &[Plane]) -> f64 {
+///
+/// - `scale`: of the copy
+fn surface_off(a: &Polyhedron, b: &[Plane], scale: f64) -> f64 {
     let size = 2.0 * a.bounding_sphere().1;
+    let b: Vec<Plane> = b.iter().map(|p| p.scaled(scale.recip())).collect();
     let off = |face: usize| {
         let apart = |p: &Plane| a.polygon(face).map(|v| p.height(v).abs()).fold(0.0, f64::max);
         b.iter().map(apart).fold(f64::INFINITY, f64::min)
@@ -210,13 +218,15 @@ fn there_and_back(file: &str, stone: &Design, format: &'static Format) -> (f64, 
         Err(error) => return (0.0, 0.0, 0, Some(format!("{}: {error}", format.name))),
     };
     let again = back.solid().expect("what is read is closed");
-    let volume = (again.volume() / solid.volume() - 1.0).abs();
+    let scale = again.width() / solid.width();
+    let volume = (again.volume() / solid.volume() / scale.powi(3) - 1.0).abs();
     let lost = solid.faces.len().abs_diff(again.faces.len());
     let is_design = DESIGN_FORMATS.contains(&format.name);
     let (planes, allowed) = if is_design {
-        (off(stone, &back, solid.bounding_sphere().1), 1e-12)
+        // GemCad text has ten significant digits
+        (off(stone, &back, [&solid, &again]), if format.name == "gemcad" { 1e-8 } else { 1e-12 })
     } else {
-        (surface_off(&solid, &back.planes()), 1e-6)
+        (surface_off(&solid, &back.planes(), scale), 1e-6)
     };
     let texts =
         |d: &Design| (d.name.clone(), d.gear, d.tiers.iter().map(|t| t.name.clone()).collect::<Vec<_>>());

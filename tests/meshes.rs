@@ -149,7 +149,7 @@ fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
     for spec in specs {
         let design = cutlab::formats::stone::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;
         let facets = design.facets().count();
-        let surface = Surface::of_design(&design).unwrap_or_else(|e| panic!("{e}"));
+        let surface = Surface::of_design(&design, None).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(surface.facets.len(), facets, "{spec}: a facet is too small to be written");
         let corners = design.solid().expect("closed").vertices.len();
         assert_eq!(surface.vertices.len(), corners, "{spec}: facets miss the corner they should meet in");
@@ -168,7 +168,7 @@ fn corners_that_nearly_meet_are_written_as_one() {
     let (name, instructions) = ("table".to_string(), String::new());
     design.tiers.push(Tier { name, angle_deg: Some(0.0), instructions, facets: vec![facet] });
     assert_eq!(design.solid().expect("closed").faces.len(), 9);
-    let surface = Surface::of_design(&design).expect("is written");
+    let surface = Surface::of_design(&design, None).expect("is written");
     assert_eq!((surface.polygons.len(), surface.vertices.len()), (8, 6));
     assert_sound("octahedron", &surface);
 }

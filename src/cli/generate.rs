@@ -5,8 +5,9 @@ use super::drawing::Drawing;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
-use crate::cut::families;
+use crate::cut::{Design, families};
 use crate::formats;
+use crate::optics::Material;
 use crate::store::replace;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +35,10 @@ pub struct Args {
     /// Format for `-o -`: a name or ending from `cutlab list formats`, svg or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
+    /// What the stone is made of: the index of refraction that design files state and the material in
+    /// glTF
+    #[command(flatten)]
+    substance: stones::Substance,
     #[command(flatten)]
     parameters: Parameters,
 }
@@ -70,6 +75,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let design = stones::sized(imported.design, args.size.filter(|_| !has_size))?;
     let (made_up_of, facets) = families::made_up_of(&design)?;
 
+    let asked = args.substance.asked();
+    let index = asked.as_ref().map(Material::index_d).or(design.refractive_index);
+
     let mut files = args.output.clone();
     if files.is_empty() {
         files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone)).into());
@@ -77,15 +85,18 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for file in &files {
         if file == Path::new("-") {
             let bytes = match Drawing::named(&args.to) {
-                Some(drawing) => drawing.bytes(&design, design.refractive_index)?,
-                None => formats::encode(&design, &args.to)?,
+                Some(drawing) => drawing.bytes(&design, index)?,
+                None => encoded(&design, asked.as_ref(), &args.to, console)?,
             };
             console.print_bytes(&bytes)?;
             continue;
         }
         match Drawing::of(file) {
-            Some(drawing) => replace::write(file, &drawing.bytes(&design, design.refractive_index)?)?,
-            None => formats::write(&design, file)?,
+            Some(drawing) => replace::write(file, &drawing.bytes(&design, index)?)?,
+            None => {
+                let format = formats::written_to(file)?;
+                replace::write(file, &encoded(&design, asked.as_ref(), format.name, console)?)?;
+            }
         }
         console.note(&format!("wrote {}", file.display()));
     }
@@ -98,4 +109,16 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print(&summary)?;
     }
     Ok(Code::Done)
+}
+
+/// The bytes of a file of the stone; what had no room in it is noted.
+fn encoded(
+    design: &Design,
+    material: Option<&Material>,
+    format: &str,
+    console: &Console,
+) -> Result<Vec<u8>, Failure> {
+    let encoded = formats::encode_as(design, material, format)?;
+    encoded.remarks.iter().for_each(|said| console.note(&format!("note: {format}: {said}")));
+    Ok(encoded.bytes)
 }

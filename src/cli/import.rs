@@ -6,7 +6,7 @@ use super::console::Console;
 use super::outcome::{self, Code, Failure};
 use super::stones;
 use crate::cut::Unit;
-use crate::formats::{self, Format, FormatError, stone};
+use crate::formats::{self, Encoded, Format, FormatError, stone};
 use crate::store::{limits, replace};
 use plan::Job;
 use serde::Serialize;
@@ -129,8 +129,9 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
         }
         Err(error) => match error.body() {
             Some((of, body)) => {
-                let scale = args.size.map_or(1.0, |mm| mm / body.width());
-                let unit = if args.size.is_some() { Unit::Millimetre } else { Unit::Free };
+                let scale = args.size.map(|mm| mm / body.width()).or(formats::unit_mm(of));
+                let unit = if scale.is_some() { Unit::Millimetre } else { Unit::Free };
+                let scale = scale.unwrap_or(1.0);
                 let name = stones::file_stem(&job.stone);
                 let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
                 let said = error.to_string();
@@ -150,8 +151,9 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
         Ok(imported) => {
             let facets = imported.design.solid()?.faces.len();
             let design = stones::sized(imported.design, args.size)?;
-            let bytes = formats::encode(&design, format.name)?;
-            let warnings = imported.warnings;
+            let Encoded { bytes, remarks } = formats::encode_as(&design, None, format.name)?;
+            let mut warnings = imported.warnings;
+            warnings.extend(remarks);
             (bytes, Row { format: Some(imported.format), facets: Some(facets), warnings, ..Row::default() })
         }
     };

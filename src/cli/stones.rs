@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::families::Family;
-use crate::cut::{Design, Unit, families, library};
+use crate::cut::{Design, USUAL_WIDTH_MM, Unit, families, library};
 use crate::formats::{Imported, stone};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
@@ -129,11 +129,7 @@ impl Substance {
     ///
     /// - `index`: that its file was drawn for, if any
     pub fn drawn_for(&self, index: Option<f64>) -> Material {
-        match (self.material, self.ri.or(index)) {
-            (Some(material), _) => material.clone(),
-            (None, Some(n)) => Material::of_index(n),
-            (None, None) => MATERIALS[0].clone(),
-        }
+        self.material.cloned().unwrap_or_else(|| Material::drawn_for(self.ri.or(index)))
     }
 }
 
@@ -144,7 +140,7 @@ pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a
 }
 
 /// Girdle width of a stone of which nobody says how large it is, in millimetres.
-pub const USUAL_SIZE: f64 = 6.5;
+pub const USUAL_SIZE: f64 = USUAL_WIDTH_MM;
 
 /// [`USUAL_SIZE`] for a design without unit in a material whose colour depends on the size.
 pub fn usual_size(design: &Design, material: &Material) -> Option<f64> {

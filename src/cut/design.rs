@@ -15,6 +15,9 @@ pub enum Unit {
     Free,
 }
 
+/// Girdle width of a stone of which nobody says how large it is, in millimetres.
+pub const USUAL_WIDTH_MM: f64 = 6.5;
+
 /// The index wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gear {

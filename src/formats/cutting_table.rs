@@ -1,12 +1,10 @@
 //! Facets as a cutter reads them, by angle, distance and index: for the formats that store planes,
 //! and for writing designs whose facets were never cut by index.
 
-use super::error::FormatError;
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
 use crate::solid::Plane;
 use glam::DVec3;
-use std::borrow::Cow;
 
 /// Angles in degrees and indices in teeth nearer than this to six decimals are meant so: above the
 /// rounding of `f64` in a stored normal, far below what a faceter can set.
@@ -33,9 +31,9 @@ pub struct Row<'d> {
 pub struct Cut<'d> {
     /// Its number in [`Design::facets`].
     pub number: usize,
-    /// Its index, whole or not, from above 0 to the number of teeth unless the design says other.
+    /// Its index, whole or not, from above 0 to the number of teeth: no faceting file has a tooth 0.
     pub index: f64,
-    /// Its name; of a tier's facets `main 1`, `main 2` … the first is called `main`, the rest not.
+    /// Its name; of a tier's facets `main 1`, `main 2` … the first is called `main`, the rest have none.
     pub name: &'d str,
     /// Its plane.
     pub plane: Plane,
@@ -50,19 +48,15 @@ pub fn rows(design: &Design) -> Vec<Row<'_>> {
     let mut number = 0;
     for tier in &design.tiers {
         let first = rows.len();
-        for (i, facet) in tier.facets.iter().enumerate() {
+        let numbered = |name: &str| {
+            let number = name.strip_prefix(&*tier.name).and_then(|n| n.strip_prefix(' '));
+            number.is_some_and(|n| n.parse::<usize>().is_ok())
+        };
+        let has_own_name = tier.facets.iter().any(|f| f.name == tier.name);
+        for facet in &tier.facets {
             let (angle_deg, index) = cut_of(design.gear, tier, facet);
-            let name = match facet.name.strip_prefix(&*tier.name).and_then(|n| n.strip_prefix(' ')) {
-                Some(n) if n.parse() == Ok(i + 1) => {
-                    if i == 0 {
-                        &*tier.name
-                    } else {
-                        ""
-                    }
-                }
-                _ if i == 0 && facet.name.is_empty() => &*tier.name,
-                _ => &*facet.name,
-            };
+            let name = if numbered(&facet.name) { "" } else { &*facet.name };
+            let index = on_wheel(design.gear, index);
             let cut = Cut { number, index, name, plane: facet.plane };
             number += 1;
             let distance = facet.plane.distance;
@@ -72,7 +66,10 @@ pub fn rows(design: &Design) -> Vec<Row<'_>> {
             };
             match rows[first..].last_mut().filter(same) {
                 Some(row) => row.cuts.push(cut),
-                None => rows.push(Row { tier, angle_deg, distance, cuts: vec![cut] }),
+                None => {
+                    let name = if cut.name.is_empty() && !has_own_name { &*tier.name } else { cut.name };
+                    rows.push(Row { tier, angle_deg, distance, cuts: vec![Cut { name, ..cut }] });
+                }
             }
         }
     }
@@ -111,8 +108,13 @@ pub fn angle_of_mesh(normal: DVec3) -> f64 {
 /// The index of a facet on the wheel, above 0 and up to the number of teeth, to six decimals if
 /// that is meant.
 pub fn index_of(gear: Gear, normal: DVec3) -> f64 {
+    on_wheel(gear, meant(exact_index(gear, normal)))
+}
+
+/// The index as faceting files have it: above 0 and up to the number of teeth.
+fn on_wheel(gear: Gear, index: f64) -> f64 {
     let teeth = gear.teeth.abs();
-    match meant(exact_index(gear, normal)).rem_euclid(teeth) {
+    match index.rem_euclid(teeth) {
         0.0 => teeth,
         index => index,
     }
@@ -139,30 +141,20 @@ fn meant(x: f64) -> f64 {
     if (x - rounded).abs() < MEANT { rounded } else { x }
 }
 
-/// The design with its origin where every plane has a distance of at least `least` times the
-/// largest: the design itself, or else moved so that its middle is the origin.
-pub fn around_origin(design: &Design, least: f64) -> Result<Cow<'_, Design>, FormatError> {
-    let largest = design.facets().map(|f| f.plane.distance.abs()).fold(0.0, f64::max);
-    if design.facets().all(|f| f.plane.distance >= least * largest) {
-        return Ok(Cow::Borrowed(design));
-    }
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
-    let (_, centre) = solid.volume_and_centre();
-    let mut moved = design.clone();
-    for facet in moved.tiers.iter_mut().flat_map(|t| &mut t.facets) {
-        facet.plane = facet.plane.moved(-centre);
-    }
-    Ok(Cow::Owned(moved))
-}
-
 /// The header or footer lines as at most `most`: what is over is joined to the last.
 pub fn at_most(most: usize, lines: &[String]) -> Vec<String> {
-    let last = lines.iter().rposition(|l| !l.trim().is_empty()).map_or(0, |i| i + 1);
-    let mut kept: Vec<String> = lines[..last.min(most)].iter().map(|l| one_line(l)).collect();
+    let lines = unblank(lines);
+    let (kept, over) = lines.split_at(lines.len().min(most));
+    let mut kept: Vec<String> = kept.iter().map(|l| one_line(l)).collect();
     if let Some(end) = kept.last_mut() {
-        lines[last.min(most)..last].iter().for_each(|l| *end = format!("{end} {}", one_line(l)));
+        over.iter().for_each(|l| *end = format!("{end} {}", one_line(l)));
     }
     kept
+}
+
+/// The lines up to the last that is not blank.
+pub fn unblank(lines: &[String]) -> &[String] {
+    &lines[..lines.iter().rposition(|l| !l.trim().is_empty()).map_or(0, |i| i + 1)]
 }
 
 /// The header lines, or the design's name if it has none.

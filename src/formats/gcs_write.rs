@@ -3,14 +3,17 @@
 
 use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
+use super::frames::{for_gem_cut_studio, index_drawn_for};
 use super::gcs::{FOOTERS, HEADERS};
 use crate::cut::Design;
 use crate::solid::polyhedron::Fate;
 use std::fmt::Write;
 
-/// The design as Gem Cut Studio holds it: normals, depths and corners to the last bit; facets by
-/// tier, without names of their own.
-pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+/// The design as Gem Cut Studio holds it, with max(|x|, |y|) = 1 and z from −h to h: normals, depths and
+/// corners to the last bit; facets by tier, without names of their own. A design drawn for no index of
+/// refraction gets diamond's. Checked in `tests/receivers.rs`.
+pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
+    let design = &for_gem_cut_studio(design)?;
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
     let (order, mirror) = design.symmetry.unwrap_or((1, false));
     let mut text = format!(
@@ -49,9 +52,7 @@ pub fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
         }
         text += "  </tier>\n";
     }
-    if let Some(index) = design.refractive_index {
-        let _ = writeln!(text, "  <render refractive_index=\"{index}\" />");
-    }
+    let _ = writeln!(text, "  <render refractive_index=\"{}\" />", index_drawn_for(design));
     text += "  <info";
     for (keys, lines) in [(&HEADERS[..], headers(design)), (&FOOTERS[..], footers(design))] {
         for (key, line) in keys.iter().zip(at_most(keys.len(), &lines)) {

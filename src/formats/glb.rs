@@ -41,6 +41,12 @@ pub static GLTF: Format = Format {
     write: Some(Writer::Mesh(glb_write::write_text)),
 };
 
+/// Length of glTF's unit, the metre, in millimetres.
+pub const UNIT_MM: f64 = 1000.0;
+
+/// A stone wider than this (mm) was hardly modelled in metres.
+const WIDEST_MM: f64 = 300.0;
+
 fn sniff(source: &Source) -> u8 {
     let start = source.beginning();
     let json = start.trim_start().starts_with('{');
@@ -77,8 +83,13 @@ struct Reader<'a> {
 fn read(source: &Source) -> Result<Reading, FormatError> {
     let (vertices, polygons, left_out) = polygons(source)?;
     let mut reading = design_of_mesh(source, &vertices, &polygons, STATED_IN_F32)?;
+    reading.design = reading.design.scaled_to_mm(UNIT_MM);
     if left_out > 0 {
         reading.warnings.push(format!("{left_out} primitives of points or lines left out"));
+    }
+    let width = reading.design.solid().map_or(0.0, |solid| solid.width());
+    if width > WIDEST_MM {
+        reading.warnings.push(format!("the stone is {width:.0} mm wide if the file is in metres, glTF's unit"));
     }
     Ok(reading)
 }

@@ -1,17 +1,21 @@
 //! glTF written, binary or text: one node turned upright, one mesh, one primitive a facet.
 //!
-//! Positions are `f32`, shared by all facets, in the design's own unit (glTF would have metres;
-//! a stone of millimetres is then seen a thousand times too large, at once and without rounding).
-//! No normals are stored: glTF then asks for flat shading, which is what facets want.
+//! Positions are `f32` in metres, glTF's unit, and shared by all facets. No normals are stored: glTF then
+//! asks for flat shading, which is what facets want. The material is a clear or coloured dielectric: index
+//! of refraction, full transmission, and a volume without which renderers take it for a thin sheet.
 
 use super::error::FormatError;
-use super::glb::FacetExtras;
+use super::glb::{FacetExtras, UNIT_MM};
 use super::surface::Surface;
+use crate::optics::{Illuminant, Material};
 use ::gltf::binary::{Glb, Header};
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
+use ::gltf::json::extensions::material as khr;
+use ::gltf::json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use ::gltf::json::validation::{Checked, USize64};
 use ::gltf::json::{self, Index, Root, buffer, mesh, serialize};
 use base64::Engine;
+use glam::DVec3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -43,7 +47,9 @@ fn failed(surface: &Surface, problem: String) -> FormatError {
 
 /// The document and its buffer.
 fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
-    let positions: Vec<[f32; 3]> = surface.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
+    let metres = surface.unit_mm() / UNIT_MM;
+    let metric = |v: &DVec3| (*v * metres).as_vec3().to_array();
+    let positions: Vec<[f32; 3]> = surface.vertices.iter().map(metric).collect();
     let mut bin: Vec<u8> = positions.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     let positions_end = bin.len();
 
@@ -62,6 +68,10 @@ fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
     at.min = Some(json::Value::from(extreme(&positions, f32::min).to_vec()));
     at.max = Some(json::Value::from(extreme(&positions, f32::max).to_vec()));
     let position = root.push(at);
+    let height =
+        surface.vertices.iter().map(|v| v.z).fold((f64::MAX, f64::MIN), |(l, h), z| (l.min(z), h.max(z)));
+    root.extensions_used.extend(EXTENSIONS.map(String::from));
+    let material = root.push(dielectric(&surface.material, ((height.1 - height.0) * metres) as f32));
 
     let mut primitives = Vec::with_capacity(surface.facets.len());
     let mut of_facet = vec![Vec::new(); surface.facets.len()];
@@ -76,7 +86,7 @@ fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
         primitives.push(mesh::Primitive {
             attributes: BTreeMap::from([(Checked::Valid(mesh::Semantic::Positions), position)]),
             indices: Some(indices),
-            material: None,
+            material: Some(material),
             mode: Checked::Valid(mesh::Mode::Triangles),
             targets: None,
             extensions: None,
@@ -98,6 +108,49 @@ fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
     root.scene = Some(root_scene(&mut root, node));
 
     Ok((root, bin))
+}
+
+/// The extensions that [`dielectric`] uses. Readers that do not know them show a white stone.
+const EXTENSIONS: [&str; 3] = ["KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"];
+
+/// A smooth transparent material.
+///
+/// - `thickness`: of the stone, in metres, for renderers that do not follow light through it
+///
+/// Its attenuation is the material's colour by daylight at [`DEPTH_MM`], in linear sRGB.
+fn dielectric(material: &Material, thickness: f32) -> json::Material {
+    /// Depth at which the colour is given, mm.
+    const DEPTH_MM: f64 = 10.0;
+    let left = |nm: f32| (-DEPTH_MM * material.absorption_per_mm(f64::from(nm) / 1000.0)).exp() as f32;
+    let colour = match material.is_clear() {
+        true => [1.0; 3],
+        false => Illuminant::daylight().linear_srgb(left).to_array().map(|x| x.clamp(0.0, 1.0)),
+    };
+    let extensions = json::extensions::material::Material {
+        ior: Some(khr::Ior { ior: khr::IndexOfRefraction(material.index_d() as f32), extras: None }),
+        transmission: Some(khr::Transmission {
+            transmission_factor: khr::TransmissionFactor(1.0),
+            ..Default::default()
+        }),
+        volume: Some(khr::Volume {
+            thickness_factor: khr::ThicknessFactor(thickness),
+            attenuation_distance: khr::AttenuationDistance((DEPTH_MM / UNIT_MM) as f32),
+            attenuation_color: khr::AttenuationColor(colour),
+            ..Default::default()
+        }),
+        ..Default::default()
+    };
+    json::Material {
+        name: Some(material.name.to_string()),
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor([1.0; 4]),
+            metallic_factor: StrengthFactor(0.0),
+            roughness_factor: StrengthFactor(0.0),
+            ..Default::default()
+        },
+        extensions: Some(extensions),
+        ..Default::default()
+    }
 }
 
 fn root_scene(root: &mut Root, node: Index<json::Node>) -> Index<json::Scene> {

@@ -62,6 +62,6 @@ fn document(source: &Source, text: &str) -> Result<Document, FormatError> {
     })
 }
 
-fn write(design: &Design) -> Result<Vec<u8>, FormatError> {
+fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     Ok(Document::of(design).text().into_bytes())
 }

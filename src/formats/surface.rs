@@ -2,8 +2,10 @@
 
 use super::error::FormatError;
 use super::facet_labels;
-use crate::cut::{Design, Unit};
+use crate::cut::{Design, USUAL_WIDTH_MM, Unit};
+use crate::optics::Material;
 use crate::solid::Body;
+use crate::solid::measure::{calipers, convex_hull};
 use glam::DVec3;
 
 /// Corners nearer than this, in parts of the stone's diagonal, are written as one: planes of a design
@@ -18,6 +20,8 @@ pub struct Surface {
     pub name: String,
     /// Unit of the corners.
     pub unit: Unit,
+    /// What the stone is made of.
+    pub material: Material,
     /// Corners.
     pub vertices: Vec<DVec3>,
     /// Name and outward unit normal of each facet.
@@ -30,7 +34,9 @@ pub struct Surface {
 
 impl Surface {
     /// The solid of the design's planes: one polygon a facet.
-    pub fn of_design(design: &Design) -> Result<Surface, FormatError> {
+    ///
+    /// - `material`: what it is made of; none takes the index that the design was drawn for, or diamond
+    pub fn of_design(design: &Design, material: Option<&Material>) -> Result<Surface, FormatError> {
         let exact =
             design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
         let (low, high) = exact.bounds();
@@ -39,11 +45,24 @@ impl Surface {
         Ok(Surface {
             name: design.name.clone(),
             unit: design.unit,
+            material: material.cloned().unwrap_or_else(|| Material::drawn_for(design.refractive_index)),
             facets: solid.faces.iter().map(|f| (labels[f.plane].clone(), planes[f.plane].normal)).collect(),
             polygons: solid.faces.iter().map(|f| f.corners.clone()).enumerate().collect(),
             triangles: mesh.faces.into_iter().zip(mesh.triangles).collect(),
             vertices: solid.vertices,
         })
+    }
+
+    /// Length of the corners' unit in millimetres; a surface without unit is taken as
+    /// [`USUAL_WIDTH_MM`] wide.
+    pub fn unit_mm(&self) -> f64 {
+        match self.unit {
+            Unit::Millimetre => 1.0,
+            Unit::Free => {
+                let outline = convex_hull(self.vertices.iter().map(|v| v.truncate()).collect());
+                USUAL_WIDTH_MM / calipers(&outline).0
+            }
+        }
     }
 
     /// The triangles of a mesh, ordered by facet.
@@ -59,6 +78,7 @@ impl Surface {
         Surface {
             name: name.into(),
             unit,
+            material: Material::drawn_for(None),
             vertices: body.vertices.clone(),
             facets: labels.zip(body.facets.iter().map(|f| f.normal)).collect(),
             polygons: triangles.iter().map(|(f, t)| (*f, t.to_vec())).collect(),

@@ -98,6 +98,11 @@ impl Material {
         }
     }
 
+    /// The material of a stone of which at most an index is known: that index alone, or diamond.
+    pub fn drawn_for(index: Option<f64>) -> Material {
+        index.map_or_else(|| MATERIALS[0].clone(), Material::of_index)
+    }
+
     /// Refractive index at `um` (µm).
     pub fn index(&self, um: f64) -> f64 {
         self.dispersion.index(um)
