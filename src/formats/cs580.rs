@@ -4,7 +4,7 @@
 //! files hold a line `object`. The normals are for shading and not used.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F32, design_of_mesh};
+use super::shell::{Mesh, design_of_mesh};
 use super::source::Source;
 use super::triangle_words::{first_count, records};
 use super::{Format, Reading, Surface, Writer};
@@ -26,7 +26,8 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     let text = source.text();
     let mut vertices = Vec::new();
     let mut polygons = Vec::new();
-    for record in records(source, &text)? {
+    let records = records(source, &text)?;
+    for record in &records.all {
         if record.numbers.len() != 24 {
             let found = format!("{} numbers", record.numbers.len());
             return Err(source.at_line(record.line, "24 numbers after 'triangle'", &found));
@@ -35,7 +36,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         vertices.extend(record.numbers.chunks_exact(8).map(|c| DVec3::new(c[0], c[1], c[2])));
         polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
     }
-    design_of_mesh(source, &vertices, &polygons, STATED_IN_F32)
+    design_of_mesh(source, &Mesh::of_text(vertices, polygons, records.digits))
 }
 
 /// Every triangle with its facet's normal at all three corners, without texture.

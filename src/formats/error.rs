@@ -167,17 +167,32 @@ pub enum FormatError {
     Write(#[from] WriteError),
 }
 
+/// How many characters of a file an error shows.
+const SHOWN: usize = 40;
+
 /// The start of `text` in quotes, control characters escaped, for an error's single line.
 pub(super) fn shown(text: &str) -> String {
     if text.is_empty() {
         return "the end".into();
     }
+    format!("'{}'", cut(text, SHOWN))
+}
+
+/// As [`shown`], without quotes and of up to three times as many characters: for what is said in part in our
+/// own words.
+pub(super) fn shortened(text: &str) -> String {
+    cut(text, 3 * SHOWN)
+}
+
+fn cut(text: &str, most: usize) -> String {
     let mut start = String::new();
-    for c in text.chars().take(40) {
+    for c in text.chars().take(most) {
         if c.is_control() { start.extend(c.escape_default()) } else { start.push(c) }
     }
-    let more = if text.chars().nth(40).is_some() { "…" } else { "" };
-    format!("'{start}{more}'")
+    if text.chars().nth(most).is_some() {
+        start.push('…');
+    }
+    start
 }
 
 impl FormatError {

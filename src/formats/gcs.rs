@@ -1,13 +1,14 @@
 //! Gem Cut Studio, `.gcs`: XML with tiers of facets by normal, depth and index angle.
 //!
-//! Normals are the truth; where one is missing it follows from the index angle or the corners. The
-//! handedness of the program's frame and the meaning of its index `base` are unverified. No
-//! document type is accepted, so no entity can expand.
+//! Normals are the truth; where one is missing it follows from the index angle or the corners, and a depth
+//! that is missing from the corners. Indices are computed from the normals: `base`, `symmetry` and `mirror`
+//! are the state of the program's window, not of the design. The frame is ours (a chiral design was compared
+//! in the program itself; `tests/dialects.rs` keeps one). No document type is accepted, so no entity can expand.
 
 use super::cutting_table::{angle_of_mesh, index_of, one_line};
 use super::error::{FormatError, shown};
 use super::gcs_write::write;
-use super::source::{Source, number};
+use super::source::{Source, is_no_value, number};
 use super::{Format, Reading, Writer};
 use crate::cut::design::facet_normal;
 use crate::cut::{Design, Facet, Gear, Tier};
@@ -20,7 +21,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 pub static FORMAT: Format = Format {
     name: "gem-cut-studio",
     extensions: &["gcs"],
-    about: "Gem Cut Studio design: tiers by angle, depth and index; its handedness is unverified",
+    about: "Gem Cut Studio design: tiers by angle, depth and index",
     sniff: |source| if source.beginning().contains("<GemCutStudio") { 99 } else { 0 },
     read,
     write: Some(Writer::Design(write)),
@@ -39,6 +40,8 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     source.of_at_most(&limits::XML)?;
     let text = source.text();
     let text = text.trim_start();
+    let end = text.rfind("</GemCutStudio").and_then(|at| Some(at + text[at..].find('>')? + 1));
+    let (text, after) = text.split_at(end.unwrap_or(text.len()));
     few_attributes(source, text)?;
     let nodes_limit = u32::try_from(limits::XML_NODES.most()).unwrap_or(u32::MAX);
     let options = ParsingOptions { nodes_limit, ..ParsingOptions::default() };
@@ -58,7 +61,11 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     if root.tag_name().name() != "GemCutStudio" {
         return Err(file.wrong(root, "an element GemCutStudio", root.tag_name().name()));
     }
-    file.design(root)
+    let mut reading = file.design(root)?;
+    if !after.trim().is_empty() {
+        reading.warnings.push(format!("{} bytes after the design are passed over", after.len()));
+    }
+    Ok(reading)
 }
 
 /// Refuses elements with attributes, or namespaces, without end.
@@ -92,16 +99,21 @@ impl File<'_> {
         self.source.at_line(self.document.text_pos_at(node.range().start).row as usize, expected, found)
     }
 
-    /// A number; an attribute that is missing, empty or nan is none.
+    /// A number; an attribute that is missing, empty, infinite or nan is none.
     fn number(&self, node: Node, key: &str) -> Result<Option<f64>, FormatError> {
         match node.attribute(key).map(str::trim) {
             None | Some("") => Ok(None),
             Some(said) => match number(said) {
                 Some(value) => Ok(Some(value)),
-                None if said.to_ascii_lowercase().contains("nan") => Ok(None),
+                None if is_no_value(said) => Ok(None),
                 None => Err(self.wrong(node, &format!("a number as {key}"), said)),
             },
         }
+    }
+
+    /// A number that the stone does not depend on.
+    fn hint(&self, node: Node, key: &str) -> Option<f64> {
+        node.attribute(key).map(str::trim).and_then(number)
     }
 
     fn point(&self, node: Node, keys: [&str; 3]) -> Result<Option<DVec3>, FormatError> {
@@ -117,14 +129,12 @@ impl File<'_> {
         let child = |name: &str| root.children().find(|n| n.has_tag_name(name));
         let mut design = Design::named(self.source.stem());
         let mut warnings = Vec::new();
-        if let Some(index) = child("index") {
-            self.wheel(index, &mut design, &mut warnings)?;
-        } else {
-            warnings.push("no gear is given: 96 teeth assumed".into());
+        match child("index").and_then(|index| self.hint(index, "gear")).filter(|teeth| *teeth != 0.0) {
+            Some(teeth) => design.gear.teeth = teeth,
+            None => warnings.push("no gear is given: 96 teeth assumed".into()),
         }
-        if let Some(render) = child("render") {
-            design.refractive_index = self.number(render, "refractive_index")?.filter(|n| *n >= 1.0);
-        }
+        let index = child("render").and_then(|render| self.hint(render, "refractive_index"));
+        design.refractive_index = index.filter(|n| *n >= 1.0);
         if let Some(info) = child("info") {
             let lines = |keys: &[&str]| {
                 let mut lines: Vec<String> =
@@ -149,27 +159,7 @@ impl File<'_> {
         if design.tiers.is_empty() {
             return Err(self.wrong(root, "tiers with facets", "none"));
         }
-        if design.symmetry.is_none_or(|(_, mirror)| !mirror) {
-            warnings.push("the format's handedness is unverified: the stone may be its mirror image".into());
-        }
         Ok(Reading { design, warnings })
-    }
-
-    fn wheel(&self, node: Node, design: &mut Design, warnings: &mut Vec<String>) -> Result<(), FormatError> {
-        if let Some(teeth) = self.number(node, "gear")? {
-            if teeth == 0.0 {
-                return Err(self.wrong(node, "the number of gear teeth, not 0", "0"));
-            }
-            design.gear.teeth = teeth;
-        }
-        design.gear.offset = self.number(node, "base")?.unwrap_or(0.0);
-        if design.gear.offset != 0.0 {
-            warnings.push("the meaning of the index base is unverified: indices may be off by it".into());
-        }
-        let mirror = node.attribute("mirror").is_some_and(|m| matches!(m.trim(), "1" | "true"));
-        let order = self.number(node, "symmetry")?.filter(|n| *n >= 1.0);
-        design.symmetry = order.map(|n| (n as u32, mirror));
-        Ok(())
     }
 
     fn tier(&self, node: Node, gear: Gear, warnings: &mut Vec<String>) -> Result<Tier, FormatError> {
@@ -212,6 +202,10 @@ impl File<'_> {
         if off > DEPTH_OFF {
             warnings.push(format!("tier {}: its depth is not that of its corners; kept", shown(&tier.name)));
         }
+        let frosted = |node: &Node| self.hint(*node, "frosting").is_some_and(|f| f > 0.0);
+        if frosted(&node) || facets.iter().any(frosted) {
+            warnings.push(format!("tier {}: frosted; taken as polished", shown(&tier.name)));
+        }
         if tier.facets.len() < facets.len() {
             warnings.push(format!("tier {}: a guide or hidden, left out", shown(&tier.name)));
         }
@@ -219,13 +213,15 @@ impl File<'_> {
     }
 
     fn entries(&self, facet: Node) -> Result<Entries, FormatError> {
-        let mut corners = Vec::new();
-        for vertex in facet.children().filter(|n| n.has_tag_name("vertex")) {
-            let corner = self.point(vertex, ["x", "y", "z"])?;
-            corners.push(corner.ok_or_else(|| self.wrong(vertex, "x, y and z of a corner", "less"))?);
-        }
+        let corner = |vertex: Node| {
+            let [x, y, z] = ["x", "y", "z"].map(|key| self.hint(vertex, key));
+            Some(DVec3::new(x?, y?, z?))
+        };
+        // of use only where something else is missing
+        let vertices = facet.children().filter(|n| n.has_tag_name("vertex"));
+        let corners = vertices.map(corner).collect::<Option<Vec<_>>>().unwrap_or_default();
         let normal = self.point(facet, ["nx", "ny", "nz"])?.filter(|n| n.length().is_normal());
-        Ok(Entries { normal, index_angle: self.number(facet, "index_angle")?, corners })
+        Ok(Entries { normal, index_angle: self.hint(facet, "index_angle"), corners })
     }
 
     /// The facet's outward unit normal: as stated, from angle and index angle, or from the corners.

@@ -2,7 +2,8 @@
 //!
 //! A plane is the point p with p·x = 1 on the facet, in GemCad's own frame, the y-mirror of ours.
 //! The stored polygons are for drawing (their winding is mixed) and not used. As nothing marks such
-//! a file, only one that parses to its exact end is one.
+//! a file, its facets tell it: normals and distances that a stone may have, and names that are text. What
+//! follows the facets may be missing or break off at any place, as in old files, and anything may follow it.
 
 use super::cutting_table::{angle_deg, index_of};
 use super::error::FormatError;
@@ -39,18 +40,13 @@ const PREFORM: &[u8] = b"\x07preform";
 const ONE_TIER: f64 = 1e-6;
 
 fn sniff(source: &Source) -> u8 {
-    let mut bytes = Bytes { source, at: 0 };
-    let first = bytes.facet();
-    let plausible = |f: &RawFacet| {
-        let p = f.point.length();
-        (1e-6..1e6).contains(&p) && (0..100_000).contains(&f.tier)
-    };
-    match first {
-        Ok(Some(facet)) if plausible(&facet) => {}
+    match (Bytes { source, at: 0 }).design() {
+        Ok(raw) if !raw.facets.is_empty() => 96,
+        // breaks off after good facets
+        Err(_) if matches!((Bytes { source, at: 0 }).facet(), Ok(Some(_))) => 40,
         // the ending is all there is to go by: worth a complaint that says where it breaks off
-        _ => return u8::from(source.extension() == "gem" && !source.bytes.is_empty()),
+        _ => u8::from(source.extension() == "gem" && source.is_binary()),
     }
-    if parsed(source).is_ok() { 96 } else { 40 }
 }
 
 /// A facet as it is stored.
@@ -61,29 +57,16 @@ struct RawFacet {
     instructions: String,
 }
 
-/// A whole file as it is stored.
+/// A whole file as it is stored; what its tail does not say is not there.
+#[derive(Default)]
 struct Raw {
     facets: Vec<RawFacet>,
-    symmetry: (i32, i32),
-    gear: Gear,
-    refractive_index: f64,
+    symmetry: Option<(i32, i32)>,
+    teeth: Option<f64>,
+    offset: f64,
+    refractive_index: Option<f64>,
     lines: Vec<String>,
-    has_preform: bool,
-}
-
-fn parsed(source: &Source) -> Result<Raw, FormatError> {
-    let mut bytes = Bytes { source, at: 0 };
-    let mut raw = bytes.design()?;
-    while bytes.rest() != b"" {
-        if !bytes.rest().starts_with(PREFORM) {
-            let found = format!("{} more bytes", bytes.rest().len());
-            return Err(source.at_byte(bytes.at, "the end, or a preform", found));
-        }
-        bytes.at += PREFORM.len();
-        bytes.design()?;
-        raw.has_preform = true;
-    }
-    Ok(raw)
+    remarks: Vec<String>,
 }
 
 /// The file and the place that is read next.
@@ -108,7 +91,7 @@ impl<'s> Bytes<'s> {
     fn float(&mut self, expected: &str) -> Result<f64, FormatError> {
         let at = self.at;
         let value = f64::from_le_bytes(self.take(expected)?);
-        if value.is_finite() { Ok(value) } else { Err(self.source.at_byte(at, expected, value.to_string())) }
+        if value.is_finite() { Ok(value) } else { Err(self.source.at_byte(at, expected, "no number")) }
     }
 
     fn int(&mut self, expected: &str) -> Result<i32, FormatError> {
@@ -116,24 +99,31 @@ impl<'s> Bytes<'s> {
     }
 
     fn text(&mut self, expected: &str) -> Result<String, FormatError> {
+        let at = self.at;
         let [len] = self.take(expected)?;
         let Some(bytes) = self.rest().get(..len as usize) else {
             return Err(self.source.at_byte(self.at, format!("{len} bytes of {expected}"), "the end"));
         };
         self.at += bytes.len();
-        Ok(decoded(bytes).replace('\0', ""))
+        let text = decoded(bytes).replace('\0', "");
+        match text.contains(|c: char| c.is_ascii_control() && !"\t\r\n".contains(c)) {
+            true => Err(self.source.at_byte(at, format!("text as {expected}"), "other bytes")),
+            false => Ok(text),
+        }
     }
 
     /// The next facet, or none at their end.
     fn facet(&mut self) -> Result<Option<RawFacet>, FormatError> {
+        /// Distances of facets, in any unit that a stone may be measured in.
+        const DISTANCES: std::ops::Range<f64> = 1e-6..1e6;
         let at = self.at;
         let x = self.float("a facet's plane or the end of facets")?;
         if x == END_OF_FACETS {
             return Ok(None);
         }
         let point = DVec3::new(x, self.float("a facet's plane")?, self.float("a facet's plane")?);
-        if !(point.length().is_normal() && point.length().recip().is_finite()) {
-            return Err(self.source.at_byte(at, "a facet's plane", point.to_string()));
+        if !DISTANCES.contains(&point.length().recip()) {
+            return Err(self.source.at_byte(at, "a facet's plane", "numbers that no stone has"));
         }
         let tier = self.int("a facet's tier")?;
         let said = self.text("a facet's name")?;
@@ -151,40 +141,60 @@ impl<'s> Bytes<'s> {
         }
     }
 
+    /// Whether all that is left is what old systems fill a file up with.
+    fn is_at_end(&self) -> bool {
+        self.rest().iter().all(|b| matches!(b, 0 | 0x1A))
+    }
+
     fn design(&mut self) -> Result<Raw, FormatError> {
-        let mut facets = Vec::new();
-        while let Some(facet) = self.facet()? {
-            facets.push(facet);
-            self.source.within(&limits::FACETS, facets.len())?;
+        let mut raw = Raw::default();
+        while !self.is_at_end() {
+            let Some(facet) = self.facet()? else { break };
+            raw.facets.push(facet);
+            self.source.within(&limits::FACETS, raw.facets.len())?;
         }
-        let symmetry = (self.int("the symmetry's order")?, self.int("whether it is mirrored")?);
-        let at = self.at;
-        let teeth = f64::from(self.int("the number of gear teeth")?);
-        if teeth == 0.0 {
-            return Err(self.source.at_byte(at, "the number of gear teeth, not 0", "0"));
+        if !raw.facets.is_empty() && self.tail(&mut raw).is_err() {
+            raw.remarks.push("the file ends before its texts do: what is missing is left empty".into());
+            return Ok(raw);
         }
-        let refractive_index = self.float("an index of refraction")?;
+        if self.rest().starts_with(PREFORM) {
+            self.at += PREFORM.len();
+            let preform = Bytes { source: self.source, at: self.at }.design();
+            let said = if preform.is_ok() { "a preform" } else { "what follows, maybe a preform," };
+            raw.remarks.push(format!("{said} is left out"));
+        } else if !self.rest().is_empty() {
+            raw.remarks.push(format!("{} bytes after the design are passed over", self.rest().len()));
+        }
+        Ok(raw)
+    }
+
+    /// What follows the facets, as far as it goes.
+    fn tail(&mut self, raw: &mut Raw) -> Result<(), FormatError> {
+        raw.symmetry = Some((self.int("the symmetry's order")?, self.int("whether it is mirrored")?));
+        raw.teeth = Some(self.int("the number of gear teeth")?.into());
+        raw.refractive_index = Some(f64::from_le_bytes(self.take("an index of refraction")?));
         let mark = u32::from_le_bytes(self.take("the mark of the gear's offset")?);
         // one writer leaves the offset out
-        let offset = if mark == OFFSET_FOLLOWS { self.float("the gear's offset")? } else { 0.0 };
-        let gear = Gear { teeth, offset };
-        let lines = (0..2 * LINES).map(|_| self.text("a header or footer")).collect::<Result<_, _>>()?;
-        Ok(Raw { facets, symmetry, gear, refractive_index, lines, has_preform: false })
+        if mark == OFFSET_FOLLOWS {
+            raw.offset = self.float("the gear's offset")?;
+        }
+        for _ in 0..2 * LINES {
+            raw.lines.push(self.text("a header or footer")?);
+        }
+        Ok(())
     }
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    let raw = parsed(source)?;
+    let mut raw = Bytes { source, at: 0 }.design()?;
     if raw.facets.is_empty() {
         return Err(source.at_byte(0, "at least one facet", "the end of facets"));
     }
-    let mut warnings = Vec::new();
-    if raw.has_preform {
-        warnings.push("a preform is left out".into());
-    }
+    let mut warnings = std::mem::take(&mut raw.remarks);
     let mut design = Design::named(source.stem());
     let lines = |range: std::ops::Range<usize>| {
-        let lines = &raw.lines[range];
+        let lines = raw.lines.get(range.start.min(raw.lines.len())..range.end.min(raw.lines.len()));
+        let lines = lines.unwrap_or_default();
         let last = lines.iter().rposition(|l| !l.trim().is_empty()).map_or(0, |i| i + 1);
         lines[..last].iter().map(|l| l.trim().to_owned()).collect::<Vec<_>>()
     };
@@ -193,23 +203,26 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     if let Some(title) = design.headers.iter().find(|h| !h.is_empty()) {
         design.name = title.clone();
     }
-    design.gear = raw.gear;
-    design.symmetry = u32::try_from(raw.symmetry.0).ok().map(|order| (order, raw.symmetry.1 != 0));
-    let index = raw.refractive_index;
-    if !(index > 1.0 && index <= 3.5) {
-        let done = if index < 1.0 { "left out" } else { "kept" };
-        warnings.push(format!("index of refraction {index} is that of no gem; {done}"));
+    match raw.teeth {
+        Some(teeth) if teeth != 0.0 => design.gear = Gear { teeth, offset: raw.offset },
+        _ => warnings.push("no gear is given: 96 teeth assumed".into()),
     }
-    design.refractive_index = Some(index).filter(|n| *n >= 1.0);
-    design.tiers = tiers(raw);
+    let symmetry = raw.symmetry.and_then(|(order, mirror)| Some((u32::try_from(order).ok()?, mirror != 0)));
+    design.symmetry = symmetry;
+    if let Some(index) = raw.refractive_index.filter(|n| !(*n > 1.0 && *n <= 3.5)) {
+        let done = if index >= 1.0 && index.is_finite() { "kept" } else { "left out" };
+        warnings.push(format!("index of refraction {index:.4e} is that of no gem; {done}"));
+    }
+    design.refractive_index = raw.refractive_index.filter(|n| *n >= 1.0 && n.is_finite());
+    design.tiers = tiers(raw.facets, design.gear);
     Ok(Reading { design, warnings })
 }
 
 /// Facets grouped by the file's key, and by angle and distance where one key is used for all.
-fn tiers(raw: Raw) -> Vec<Tier> {
+fn tiers(facets: Vec<RawFacet>, gear: Gear) -> Vec<Tier> {
     let mut tiers: Vec<Tier> = Vec::new();
     let mut with_key: HashMap<i32, Vec<usize>> = HashMap::new();
-    for facet in raw.facets {
+    for facet in facets {
         let direction = facet.point.normalize();
         let normal = DVec3::new(direction.x, -direction.y, direction.z);
         let (angle, distance) = (angle_deg(normal), facet.point.length().recip());
@@ -232,7 +245,7 @@ fn tiers(raw: Raw) -> Vec<Tier> {
                 kept.clone_from(new);
             }
         }
-        let index = Some(index_of(raw.gear, normal));
+        let index = Some(index_of(gear, normal));
         tier.facets.push(Facet { name: facet.name, index, plane: Plane { normal, distance } });
     }
     tiers

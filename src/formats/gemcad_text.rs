@@ -1,16 +1,22 @@
 //! GemCad ASCII, `.asc`: tiers of angle, distance and gear indices.
 //!
-//! The program's own frame is the y-mirror of ours; with the formula of [`facet_normal`] the stone
-//! comes out the right way round. Distances have no unit and the origin is free.
+//! The grammar is that of the reader which GemCad's author publishes: words, not lines. Only `H`, `F` and `G`
+//! run to the end of their line; all else may share a line with others, go on in the next, and stand
+//! without a blank between keyword and number. The program's own frame is the y-mirror of ours; with the
+//! formula of [`crate::cut::design::facet_normal`] the stone comes out the right way round. Distances have no unit and the
+//! origin is free.
+
+mod tiers;
+mod words;
 
 use super::error::{FormatError, shown};
 use super::gemcad_text_write::write;
 use super::source::{Source, lines, number};
 use super::{Format, Reading, Writer};
-use crate::cut::design::facet_normal;
-use crate::cut::{Design, Facet, Gear, Tier};
-use crate::solid::{Plane, SolidError};
+use crate::cut::Gear;
 use crate::store::limits;
+use tiers::Entry;
+use words::{Word, Words, append, is_keyword_line, keyword, order};
 
 /// GemCad text designs, of every version in circulation.
 pub static FORMAT: Format = Format {
@@ -28,41 +34,27 @@ fn sniff(source: &Source) -> u8 {
     if start.get(..6).is_some_and(|s| s.eq_ignore_ascii_case("gemcad")) {
         return 100;
     }
-    let tier = |line: &str| {
-        let mut words = line.split_whitespace();
-        words.next() == Some("a")
-            && words.next().and_then(number).is_some()
-            && words.next().and_then(number).is_some()
-    };
-    if lines(start).any(|(_, line)| tier(line)) { 60 } else { 0 }
+    let tier = |line: &str| line.starts_with('a') && is_keyword_line(line);
+    if lines(start).any(|(_, line)| tier(line.trim())) { 60 } else { 0 }
 }
 
 /// A file of other text has remarks on every line: nobody reads more of them.
 const MOST_REMARKS: usize = 50;
 
-/// What lines begin with.
-const KEYWORDS: [&str; 6] = ["a", "g", "y", "I", "H", "F"];
-
-/// Whether an indented line goes on with the open tier: it begins with an index, or with what
-/// would have to be one, a name or instructions.
-fn is_of_a_tier(content: &str) -> bool {
-    let first = content.split_whitespace().next().unwrap_or_default();
-    let starts_as_number = first.starts_with(|c: char| c.is_ascii_digit() || "+-.\u{2212}".contains(c));
-    starts_as_number || first == "n" || first == "G"
+/// What the words that come next belong to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Open {
+    Nothing,
+    /// Indices of the last tier.
+    Tier,
+    /// As `Tier`, after instructions: these may go on in an indented line.
+    Instructions,
+    Header,
+    Footer,
 }
 
-/// A tier as the file gives it, before it is known which way its flat facets look.
-struct Entry {
-    line: usize,
-    angle_deg: f64,
-    rho: f64,
-    indices: Vec<(f64, String)>,
-    name: String,
-    instructions: String,
-}
-
-#[derive(Default)]
-struct File {
+struct File<'s> {
+    source: &'s Source<'s>,
     gear: Option<Gear>,
     symmetry: Option<(u32, bool)>,
     refractive_index: Option<f64>,
@@ -70,66 +62,94 @@ struct File {
     footers: Vec<String>,
     tiers: Vec<Entry>,
     facet_count: usize,
-    expecting_name: bool,
-    /// The letter that the last line with a keyword began with.
-    last: Option<char>,
+    open: Open,
     warnings: Vec<String>,
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
     let text = source.text();
-    let mut file = File::default();
-    let mut last = 1;
-    for (number, line) in lines(&text) {
-        last = number;
-        file.line(source, number, line)?;
+    let mut file = File {
+        source,
+        gear: None,
+        symmetry: None,
+        refractive_index: None,
+        headers: Vec::new(),
+        footers: Vec::new(),
+        tiers: Vec::new(),
+        facet_count: 0,
+        open: Open::Nothing,
+        warnings: Vec::new(),
+    };
+    let mut words = Words::of(&text);
+    while let Some(word) = words.next() {
+        file.word(word, &mut words)?;
     }
-    if file.expecting_name {
-        return Err(source.at_line(last, "a facet name after 'n'", ""));
-    }
+    file.through_the_centre();
     if file.tiers.is_empty() {
-        return Err(source.at_line(last, "tiers (lines 'a ANGLE DISTANCE INDEX …')", ""));
+        return Err(source.at_line(words.line(), "tiers (lines 'a ANGLE DISTANCE INDEX …')", ""));
     }
-    file.design(source)
+    file.design()
 }
 
-impl File {
-    fn line(&mut self, source: &Source, at: usize, line: &str) -> Result<(), FormatError> {
-        let content = line.trim();
-        if content.is_empty() {
+impl File<'_> {
+    fn word(&mut self, word: Word, words: &mut Words) -> Result<(), FormatError> {
+        if word.first && self.goes_on(&word) {
+            words.end_line(word.line);
             return Ok(());
         }
-        let indented = line.starts_with([' ', '\t']);
-        if let (true, Some(text)) = (indented, self.open_text(content)) {
-            text.push(' ');
-            text.push_str(content);
-            return Ok(());
-        }
-        let continues = indented && !self.tiers.is_empty() && (self.expecting_name || is_of_a_tier(content));
-        if self.expecting_name && !continues {
-            return Err(source.at_line(at, "a facet name after 'n'", content));
-        }
-        if continues {
-            return self.facets(source, at, content);
-        }
-        let (keyword, rest) = content.split_once(char::is_whitespace).unwrap_or((content, ""));
-        let rest = rest.trim();
-        match keyword {
-            "a" => self.tier(source, at, rest)?,
-            "H" => self.headers.push(rest.into()),
-            "F" => self.footers.push(rest.into()),
-            "I" => self.index(at, rest),
-            "y" => self.symmetry(at, rest),
-            "g" => self.gear(source, at, rest)?,
-            _ if content.starts_with([';', '#']) || self.is_title(keyword) => {}
-            // `g96 0.0`, and `96 0.0` as some writer leaves the letter out
-            _ if self.gear.is_none() && number(keyword.trim_start_matches('g')).is_some() => {
-                self.gear(source, at, content.trim_start_matches('g'))?;
+        if word.is_comment() || self.is_title(&word) {
+            if !word.first {
+                self.remark(|| format!("line {}: taken as a comment: {}", word.line, shown(&word.onward())));
             }
-            _ => self.remark(|| format!("line {at}: not understood and left out: {}", shown(content))),
+            words.end_line(word.line);
+            return Ok(());
         }
-        self.last = keyword.chars().next().filter(|_| keyword.len() == 1);
-        Ok(())
+        let in_tier = matches!(self.open, Open::Tier | Open::Instructions);
+        match (keyword(word.text), word.text) {
+            (Some((letter, value)), _) => self.keyword(word, letter, value, words),
+            (None, "n") if in_tier => self.name(word, words),
+            (None, "G") if in_tier => {
+                if let Some(tier) = self.tiers.last_mut() {
+                    append(&mut tier.instructions, word.rest);
+                }
+                self.open = Open::Instructions;
+                words.end_line(word.line);
+                Ok(())
+            }
+            (None, text) => match number(text) {
+                Some(index) if in_tier => self.facet(word, index),
+                // `96 0.0`, as some writer leaves the letter out
+                Some(_) if self.gear.is_none() && self.tiers.is_empty() => self.gear(word, text, words),
+                _ if in_tier && (!word.first || loses_facets(&word)) => {
+                    Err(self.source.at_line(word.line, "an index, 'n NAME' or 'G'", text))
+                }
+                _ => {
+                    self.leave_out(&word, words);
+                    Ok(())
+                }
+            },
+        }
+    }
+
+    /// Takes the line as one more of the open text, if that is what it is: any indented text but a line of
+    /// a keyword.
+    fn goes_on(&mut self, word: &Word) -> bool {
+        let line = word.onward();
+        let is_of_the_tier = number(word.text).is_some() || matches!(word.text, "n" | "G");
+        let text = match self.open {
+            _ if !word.indented || is_keyword_line(&line) => None,
+            Open::Header => self.headers.last_mut(),
+            Open::Footer => self.footers.last_mut(),
+            Open::Instructions if !is_of_the_tier => self.tiers.last_mut().map(|t| &mut t.instructions),
+            _ => None,
+        };
+        text.map(|text| append(text, &line)).is_some()
+    }
+
+    /// `GemCad 5.0` on the first line.
+    fn is_title(&self, word: &Word) -> bool {
+        let is_start = word.first && self.gear.is_none() && self.tiers.is_empty();
+        is_start && word.text.get(..6).is_some_and(|k| k.eq_ignore_ascii_case("gemcad"))
     }
 
     /// Keeps a remark on a line, if it is one of the first.
@@ -141,171 +161,201 @@ impl File {
         }
     }
 
-    /// The header or footer that an indented line goes on with: any text but another keyword.
-    fn open_text(&mut self, content: &str) -> Option<&mut String> {
-        let keyword = content.split_whitespace().next().is_some_and(|w| KEYWORDS.contains(&w));
-        match self.last.filter(|_| !keyword) {
-            Some('H') => self.headers.last_mut(),
-            Some('F') => self.footers.last_mut(),
-            _ => None,
+    fn leave_out(&mut self, word: &Word, words: &mut Words) {
+        self.remark(|| format!("line {}: not understood and left out: {}", word.line, shown(&word.onward())));
+        words.end_line(word.line);
+    }
+
+    fn keyword(
+        &mut self,
+        word: Word,
+        letter: char,
+        glued: &str,
+        words: &mut Words,
+    ) -> Result<(), FormatError> {
+        let text = |open| (open, word.rest.to_owned());
+        let (open, said) = match letter {
+            'H' => text(Open::Header),
+            'F' => text(Open::Footer),
+            _ => {
+                let value = match glued {
+                    "" => words.peek(0).map_or("", |w| w.text).to_owned(),
+                    glued => glued.to_owned(),
+                };
+                let counts = if letter == 'y' { order(&value).is_some() } else { number(&value).is_some() };
+                if !counts {
+                    return self.no_value(word, letter, words);
+                }
+                if glued.is_empty() {
+                    words.next();
+                }
+                match letter {
+                    'a' => return self.tier(word, &value, words),
+                    'g' => return self.gear(word, &value, words),
+                    'y' => self.symmetry(word, &value, words),
+                    _ => self.index(word, &value),
+                }
+                self.open = Open::Nothing;
+                return Ok(());
+            }
+        };
+        self.open = open;
+        if open == Open::Header {
+            self.headers.push(said)
+        } else {
+            self.footers.push(said)
+        }
+        words.end_line(word.line);
+        Ok(())
+    }
+
+    /// A keyword without its number: a tier or a gear that would be lost, or a word like others.
+    fn no_value(&mut self, word: Word, letter: char, words: &mut Words) -> Result<(), FormatError> {
+        let found = words.peek(0).filter(|w| w.line == word.line).map_or("", |w| w.text);
+        let meant = word.rest.split_whitespace().nth(1).is_some_and(|w| number(w).is_some());
+        match letter {
+            'a' if word.first && (meant || found.starts_with(|c: char| "+-.\u{2212}".contains(c))) => {
+                Err(self.source.at_line(word.line, "an angle from -90 to 90 degrees", found))
+            }
+            'g' if word.first && self.gear.is_none() => {
+                Err(self.source.at_line(word.line, "the number of gear teeth, not 0", found))
+            }
+            _ if matches!(self.open, Open::Tier | Open::Instructions) && !word.first => {
+                Err(self.source.at_line(word.line, "an index, 'n NAME' or 'G'", word.text))
+            }
+            _ => {
+                self.leave_out(&word, words);
+                Ok(())
+            }
         }
     }
 
-    /// `GemCad 5.0` on the first line.
-    fn is_title(&self, keyword: &str) -> bool {
-        self.gear.is_none() && keyword.get(..6).is_some_and(|k| k.eq_ignore_ascii_case("gemcad"))
-    }
-
-    fn gear(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {
-        let mut words = rest.split_whitespace();
-        let first = words.next().unwrap_or_default();
-        let teeth = number(first)
+    fn gear(&mut self, word: Word, teeth: &str, words: &mut Words) -> Result<(), FormatError> {
+        let teeth = number(teeth)
             .filter(|t| *t != 0.0)
-            .ok_or_else(|| source.at_line(at, "the number of gear teeth, not 0", first))?;
-        let offset = match words.next() {
-            Some(w) => number(w).ok_or_else(|| source.at_line(at, "the gear's offset in teeth", w))?,
-            None => 0.0,
+            .ok_or_else(|| self.source.at_line(word.line, "the number of gear teeth, not 0", teeth))?;
+        let offset = words.peek(0).filter(|w| w.line == word.line);
+        let offset = match offset.map(|w| (w, number(w.text))) {
+            Some((_, Some(offset))) => {
+                words.next();
+                offset
+            }
+            Some((w, None)) if !w.is_comment() && keyword(w.text).is_none() => {
+                return Err(self.source.at_line(word.line, "the gear's offset in teeth", w.text));
+            }
+            _ => 0.0,
         };
+        if self.gear.is_some() {
+            self.remark(|| format!("line {}: a second gear; it counts for the tiers after it", word.line));
+        }
         self.gear = Some(Gear { teeth, offset });
+        self.open = Open::Nothing;
         Ok(())
     }
 
     /// For information: no facet depends on it.
-    fn symmetry(&mut self, at: usize, rest: &str) {
-        let mut words = rest.split_whitespace();
-        let first = words.next().unwrap_or_default();
-        match number(first).filter(|n| n.fract() == 0.0 && (0.0..=1e4).contains(&n.abs())) {
-            Some(order) => {
-                let mirror = words.next().is_some_and(|w| w.eq_ignore_ascii_case("y"));
-                self.symmetry = Some((order.abs() as u32, mirror));
-            }
-            None => self.remark(|| format!("line {at}: no order of symmetry, left out: {}", shown(first))),
+    fn symmetry(&mut self, word: Word, value: &str, words: &mut Words) {
+        let Some((order, mirror)) = order(value) else { return };
+        let next = words.peek(0).filter(|w| mirror.is_none() && w.line == word.line);
+        let next = next.filter(|w| w.text.eq_ignore_ascii_case("y") || w.text.eq_ignore_ascii_case("n"));
+        if next.is_some() {
+            words.next();
         }
+        let mirror = mirror.unwrap_or(next.is_some_and(|w| w.text.eq_ignore_ascii_case("y")));
+        self.symmetry = Some((order, mirror));
     }
 
     /// For information: no facet depends on it.
-    fn index(&mut self, at: usize, rest: &str) {
-        let first = rest.split_whitespace().next().unwrap_or_default();
-        let Some(index) = number(first) else {
-            self.remark(|| format!("line {at}: no index of refraction, left out: {}", shown(first)));
-            return;
-        };
+    fn index(&mut self, word: Word, value: &str) {
+        let Some(index) = number(value) else { return };
         if !(index > 1.0 && index <= 3.5) {
             let done = if index < 1.0 { "left out" } else { "kept" };
-            self.remark(|| format!("line {at}: index of refraction {index} is that of no gem; {done}"));
+            self.remark(|| {
+                format!("line {}: index of refraction {index} is that of no gem; {done}", word.line)
+            });
         }
         self.refractive_index = Some(index).filter(|n| *n >= 1.0);
     }
 
-    fn tier(&mut self, source: &Source, at: usize, rest: &str) -> Result<(), FormatError> {
-        let (first, rest) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-        let angle_deg = number(first)
+    fn tier(&mut self, word: Word, angle: &str, words: &mut Words) -> Result<(), FormatError> {
+        let angle_deg = number(angle)
             .filter(|a| a.abs() <= 90.0)
-            .ok_or_else(|| source.at_line(at, "an angle from -90 to 90 degrees", first))?;
-        let rest = rest.trim_start();
-        let (second, rest) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-        let rho = number(second).ok_or_else(|| source.at_line(at, "the distance of the facets", second))?;
+            .ok_or_else(|| self.source.at_line(word.line, "an angle from -90 to 90 degrees", angle))?;
+        let second = words.next();
+        let at = second.map_or(word.line, |w| w.line);
+        let second = second.map_or("", |w| w.text);
+        let rho =
+            number(second).ok_or_else(|| self.source.at_line(at, "the distance of the facets", second))?;
+        if rho < 0.0 && angle_deg != 0.0 {
+            self.remark(|| {
+                format!("line {at}: a distance of {rho}, below 0, is not documented; taken as {}", -rho)
+            });
+        }
         let (indices, name, instructions) = Default::default();
-        self.tiers.push(Entry { line: at, angle_deg, rho, indices, name, instructions });
-        self.facets(source, at, rest)
+        let gear = self.gear;
+        self.tiers.push(Entry { line: word.line, gear, angle_deg, rho, indices, name, instructions });
+        self.open = Open::Tier;
+        Ok(())
     }
 
-    /// Indices, names and instructions, on the tier's own line or one that continues it.
-    fn facets(&mut self, source: &Source, at: usize, content: &str) -> Result<(), FormatError> {
-        let Some(tier) = self.tiers.last_mut() else { return Ok(()) };
-        let mut rest = content.trim_start();
-        while !rest.is_empty() {
-            let (word, after) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-            if std::mem::take(&mut self.expecting_name) {
-                // any word at all: facets are called G, n, a or 12
-                if let Some((_, name)) = tier.indices.last_mut() {
-                    *name = word.into();
-                }
-                if tier.name.is_empty() {
-                    tier.name = word.into();
-                }
-            } else if word == "n" {
-                self.expecting_name = true;
-            } else if word == "G" {
-                if !tier.instructions.is_empty() {
-                    tier.instructions.push(' ');
-                }
-                tier.instructions += after.trim();
-                return Ok(());
-            } else {
-                let index =
-                    number(word).ok_or_else(|| source.at_line(at, "an index, 'n NAME' or 'G'", word))?;
-                tier.indices.push((index, String::new()));
-                self.facet_count += 1;
-                source.within_at(at, &limits::FACETS, self.facet_count)?;
+    fn facet(&mut self, word: Word, index: f64) -> Result<(), FormatError> {
+        if let Some(tier) = self.tiers.last_mut() {
+            tier.indices.push((index, String::new()));
+        }
+        self.facet_count += 1;
+        self.source.within_at(word.line, &limits::FACETS, self.facet_count)
+    }
+
+    /// The name after `n`, of the index before it: any word at all, as facets are called G, n, a or 12, and
+    /// more words up to the next number or keyword.
+    fn name(&mut self, word: Word, words: &mut Words) -> Result<(), FormatError> {
+        let expected = "a facet name after 'n'";
+        let Some(first) = words.next() else {
+            return Err(self.source.at_line(words.line(), expected, ""));
+        };
+        if first.first && !first.indented && is_keyword_line(&first.onward()) {
+            return Err(self.source.at_line(first.line, expected, &first.onward()));
+        }
+        let mut name = first.text.to_owned();
+        while let Some(more) = words.peek(0).filter(|w| w.line == first.line) {
+            let ends = number(more.text).is_some() || matches!(more.text, "n" | "G") || more.is_comment();
+            if ends
+                || keyword(more.text).is_some_and(|(k, _)| "HF".contains(k))
+                || is_keyword_line(&more.onward())
+            {
+                break;
             }
-            rest = after.trim_start();
+            append(&mut name, more.text);
+            words.next();
+        }
+        if name.len() > first.text.len() {
+            self.remark(|| format!("line {}: a name of several words: {}", word.line, shown(&name)));
+        }
+        if let Some(tier) = self.tiers.last_mut() {
+            if tier.name.is_empty() {
+                tier.name.clone_from(&name);
+            }
+            if let Some((_, of_index)) = tier.indices.last_mut() {
+                *of_index = name;
+            }
         }
         Ok(())
     }
 
-    fn design(mut self, source: &Source) -> Result<Reading, FormatError> {
-        // a table lies at any index
-        for flat in self.tiers.iter_mut().filter(|t| t.angle_deg == 0.0 && t.indices.is_empty()) {
-            flat.indices.push((self.gear.map_or(0.0, |g| g.teeth.abs()), flat.name.clone()));
+    /// Leaves out tiers at distance 0, as GemCad's author's reader does: they would halve the stone.
+    fn through_the_centre(&mut self) {
+        let lines: Vec<usize> = self.tiers.iter().filter(|t| t.rho == 0.0).map(|t| t.line).collect();
+        for line in lines {
+            self.remark(|| {
+                format!("line {line}: a tier at distance 0, through the stone's centre; left out")
+            });
         }
-        if let Some(tier) = self.tiers.iter().find(|t| t.indices.is_empty()) {
-            return Err(source.at_line(tier.line, "at least one index in the tier", ""));
-        }
-        let gear = self.gear.unwrap_or_else(|| {
-            self.warnings.push("no gear is given: 96 teeth assumed".into());
-            Gear::default()
-        });
-        let mut design = Design::named(source.stem());
-        if let Some(title) = self.headers.iter().find(|h| !h.is_empty()) {
-            design.name = title.clone();
-        }
-        design.gear = gear;
-        design.symmetry = self.symmetry;
-        design.refractive_index = self.refractive_index;
-        design.tiers = self.tiers.iter().map(|t| t.tier(gear, t.looks_down(false))).collect();
-        let by_token = self.tiers.iter().any(|t| t.looks_down(true) != t.looks_down(false));
-        if by_token && matches!(design.solid(), Err(SolidError::Open { .. })) {
-            let tiers = self.tiers.iter().map(|t| t.tier(gear, t.looks_down(true))).collect();
-            let other = Design { tiers, ..design.clone() };
-            if other.solid().is_ok() {
-                self.warnings
-                    .push("a facet at angle -0.00 is taken as culet: the stone is open without".into());
-                design = other;
-            }
-        }
-        for (kept, lines) in [(&mut design.headers, self.headers), (&mut design.footers, self.footers)] {
-            *kept = lines;
-            // blank lines after the last say nothing, and the binary form cannot tell them from none
-            kept.truncate(kept.iter().rposition(|l| !l.is_empty()).map_or(0, |last| last + 1));
-        }
-        Ok(Reading { design, warnings: self.warnings })
+        self.tiers.retain(|t| t.rho != 0.0);
     }
 }
 
-impl Entry {
-    /// Whether the tier's facets are on the pavilion's side. For flat facets the sign of the
-    /// distance tells, or, if that leaves the stone open, the sign of the angle's zero.
-    fn looks_down(&self, by_token: bool) -> bool {
-        if self.angle_deg == 0.0 && !by_token && self.rho != 0.0 {
-            self.rho < 0.0
-        } else {
-            self.angle_deg.is_sign_negative() || (self.angle_deg == 0.0 && self.rho < 0.0)
-        }
-    }
-
-    fn tier(&self, gear: Gear, down: bool) -> Tier {
-        let angle = self.angle_deg.abs().copysign(if down { -1.0 } else { 1.0 });
-        let facet = |(index, name): &(f64, String)| Facet {
-            name: name.clone(),
-            index: Some(*index),
-            plane: Plane { normal: facet_normal(gear, angle, *index), distance: self.rho.abs() },
-        };
-        Tier {
-            name: self.name.clone(),
-            angle_deg: Some(angle),
-            instructions: self.instructions.clone(),
-            facets: self.indices.iter().map(facet).collect(),
-        }
-    }
+/// Whether a line that does not begin as one of a tier would lose facets: it is indented as such lines are,
+/// and has numbers.
+fn loses_facets(word: &Word) -> bool {
+    word.indented && word.rest.split_whitespace().any(|w| number(w).is_some())
 }

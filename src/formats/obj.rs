@@ -1,23 +1,20 @@
 //! Wavefront OBJ: polygons, with a group for each facet.
 //!
-//! Read by `tobj`, which names no lines, makes up normals where a face states none, adds indices
-//! unchecked and knows neither continued lines nor comments after a statement. So the text is
-//! checked line by line first, and only what a stone is made of is handed on. `mtllib` is never
-//! followed.
+//! Own reader: the crates for it name no lines, make up normals where a face states none, and know neither
+//! continued lines nor negative indices beyond what was seen. Of all statements only `v`, `vn`, `g`, `o` and
+//! `f` make a stone; `mtllib` is never followed.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F64, design_of_mesh};
-use super::source::{Source, lines, number};
+use super::shell::{Digits, Mesh, design_of_mesh};
+use super::source::{Source, lines, number, without_comment};
 use super::{Format, Reading, Surface, Writer};
 use crate::cut::Unit;
 use crate::solid::recover::Polygon;
 use crate::store::limits;
 use glam::DVec3;
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::sync::Arc;
-
-/// What `tobj` calls the group of faces that have none.
-const NO_GROUP: &str = "unnamed_object";
 
 /// OBJ meshes; one group a facet comes back as that facet, by name and to the last bit or so.
 pub static FORMAT: Format = Format {
@@ -42,132 +39,135 @@ fn sniff(source: &Source) -> u8 {
 }
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    let (vertices, polygons) = polygons(source)?;
-    design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)
+    design_of_mesh(source, &mesh(source)?)
+}
+
+/// How many there are of what faces name: corners, texture, normals.
+type Counts = [usize; 3];
+
+/// What of a file comes before its faces, which may name what stands behind them.
+#[derive(Default)]
+struct Points {
+    total: Counts,
+    /// Normals; one that is none is of no use, and never needed.
+    normals: Vec<Option<DVec3>>,
+    /// Corners that are no points, by number, with line and word: an error if a face names them.
+    odd: HashMap<usize, (usize, String)>,
+    faces: usize,
+}
+
+/// Which of the [`Counts`] a statement adds to.
+fn slot(kind: &str) -> Option<usize> {
+    ["v", "vt", "vn"].iter().position(|&k| k == kind)
+}
+
+/// `fo` is what `f` was called once.
+fn is_face(kind: &str) -> bool {
+    matches!(kind, "f" | "fo")
 }
 
 /// The mesh as it stands in the file.
-pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>), FormatError> {
-    let Checked { text, stated } = checked(source)?;
-    let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..Default::default() };
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default()))
-        .map_err(|cause| source.at_byte(0, "an OBJ mesh", cause.to_string()))?;
-    let (mut vertices, mut polygons) = (Vec::new(), Vec::with_capacity(stated.len()));
-    for tobj::Model { mesh, name } in models {
-        let name: Arc<str> = if name == NO_GROUP { Arc::default() } else { name.into() };
-        let (base, mut end) = (vertices.len(), 0);
-        vertices.extend(mesh.positions.chunks_exact(3).map(DVec3::from_slice));
-        // no arities: all are triangles
-        let triangles = if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 };
-        for arity in mesh.face_arities.iter().copied().chain(std::iter::repeat_n(3, triangles)) {
-            let its = end..end + arity as usize;
-            end = its.end;
-            let corners = mesh.indices[its.clone()].iter().map(|&i| base + i as usize).collect();
-            let normals = if stated[polygons.len()] { &mesh.normal_indices[its] } else { &[] };
-            let mut normals = normals.iter().map(|&n| DVec3::from_slice(&mesh.normals[3 * n as usize..]));
-            // normals that differ from corner to corner are for shading, not the facet's
-            let normal = normals.next().filter(|first| normals.all(|n| n == *first));
-            polygons.push(Polygon { name: name.clone(), corners, normal });
-        }
-    }
-    Ok((vertices, polygons))
-}
-
-/// An OBJ text that holds only sound `v`, `vn`, `g` and `f` statements, points first.
-#[derive(Default)]
-struct Checked {
-    text: String,
-    /// Whether every corner of a face states a normal, in the order of the faces.
-    stated: Vec<bool>,
-}
-
-/// Checks every statement that matters and leaves out the others. Of `v` only the place is kept:
-/// a fourth number is a weight for curves, three more are a colour. Indices become positive ones.
-fn checked(source: &Source) -> Result<Checked, FormatError> {
+pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
     let text = source.text();
-    let slot = |kind: &str| ["v", "vt", "vn"].iter().position(|&k| k == kind);
-    let (mut seen, mut total) = ([0usize; 3], [0usize; 3]);
-    joined(&text)
-        .filter_map(|(_, line)| slot(line.split_whitespace().next()?))
-        .for_each(|kind| total[kind] += 1);
-    let (mut out, mut faces, mut corners) = (Checked::default(), String::new(), 0);
+    let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
+    let points = points(source, &text, &mut mesh)?;
+    source.within(&limits::POLYGONS, points.faces)?;
+    let mut seen = Counts::default();
+    let (mut name, mut corners) = (Arc::<str>::default(), 0);
     for (at, line) in joined(&text) {
         let mut words = line.split_whitespace();
-        let Some(kind) = words.next() else { continue };
+        let kind = words.next().unwrap_or_default();
         if let Some(kind) = slot(kind) {
             seen[kind] += 1;
-        }
-        match kind {
-            "v" | "vn" => {
-                out.text += kind;
-                for _ in 0..3 {
-                    let word = words.next().unwrap_or_default();
-                    let what = if kind == "v" { "corner" } else { "normal" };
-                    // the normal of a face without area may be nan: 0 is as good as none
-                    let none = kind == "vn" && word.to_ascii_lowercase().contains("nan");
-                    let word = if none { "0" } else { word };
-                    number(word)
-                        .ok_or_else(|| source.at_line(at, format!("three numbers of a {what}"), word))?;
-                    out.text.push(' ');
-                    out.text += &word.replace('\u{2212}', "-");
+        } else if matches!(kind, "g" | "o") {
+            name = words.collect::<Vec<_>>().join(" ").into();
+        } else if is_face(kind) {
+            let mut polygon = Polygon { name: name.clone(), ..Polygon::default() };
+            let mut normals = Vec::new();
+            for word in words {
+                let (corner, normal) = reference(word, seen, points.total).ok_or_else(|| {
+                    let expected = format!("a corner from 1 to {} as in 3, 3/1 or 3//2", points.total[0]);
+                    source.at_line(at, expected, word)
+                })?;
+                if let Some((line, word)) = points.odd.get(&corner) {
+                    return Err(source.at_line(*line, "three numbers of a corner", word));
                 }
-                out.text.push('\n');
+                polygon.corners.push(corner);
+                normals.push(normal.and_then(|n| *points.normals.get(n)?));
             }
-            "g" | "o" => {
-                faces.push('g');
-                words.for_each(|word| faces.extend([" ", word]));
-                faces.push('\n');
+            if polygon.corners.len() < 3 {
+                return Err(source.at_line(at, "a face of at least 3 corners", line.trim()));
             }
-            "f" => {
-                let before = corners;
-                let mut stated = true;
-                faces.push('f');
-                for word in words {
-                    let (corner, normal) = reference(word, seen, total).ok_or_else(|| {
-                        let expected = format!("a corner from 1 to {} as in 3, 3/1 or 3//2", total[0]);
-                        source.at_line(at, expected, word)
-                    })?;
-                    let _ = write!(faces, " {corner}"); // a String takes every write
-                    if let Some(normal) = normal {
-                        let _ = write!(faces, "//{normal}");
-                    }
-                    stated &= normal.is_some();
-                    corners += 1;
-                }
-                faces.push('\n');
-                out.stated.push(stated);
-                source.within_at(at, &limits::POLYGONS, out.stated.len())?;
-                if corners - before < 3 {
-                    return Err(source.at_line(at, "a face of at least 3 corners", line.trim()));
-                }
-                source.within_at(at, &limits::CORNERS, corners)?;
-            }
-            _ => {}
+            corners += polygon.corners.len();
+            source.within_at(at, &limits::CORNERS, corners)?;
+            // normals that differ from corner to corner are for shading, not the facet's
+            polygon.normal = normals[0].filter(|first| normals.iter().all(|n| *n == Some(*first)));
+            mesh.polygons.push(polygon);
         }
     }
-    out.text += &faces;
-    Ok(out)
+    Ok(mesh)
 }
 
-/// Lines without comments, those that end in a backslash joined with the next.
+/// Reads corners and normals. Of `v` only the place is kept: a fourth number is a weight for curves, three
+/// more are a colour.
+fn points(source: &Source, text: &str, mesh: &mut Mesh) -> Result<Points, FormatError> {
+    let (mut points, mut free_form) = (Points::default(), None);
+    for (at, line) in joined(text) {
+        let mut words = line.split_whitespace();
+        let kind = words.next().unwrap_or_default();
+        let mut point = |digits: &mut Digits| {
+            let mut p = [0.0; 3];
+            for value in &mut p {
+                let word = words.next().unwrap_or_default();
+                *value = number(word).ok_or(word)?;
+                digits.see(word);
+            }
+            Ok::<_, &str>(DVec3::from_array(p))
+        };
+        match kind {
+            "v" => {
+                let place = point(&mut mesh.corners).unwrap_or_else(|word| {
+                    points.odd.insert(mesh.vertices.len(), (at, word.to_owned()));
+                    DVec3::NAN
+                });
+                mesh.vertices.push(place);
+            }
+            "vn" => points.normals.push(point(&mut mesh.normals).ok()),
+            "surf" | "curv" => free_form = free_form.or(Some(at)),
+            kind => points.faces += usize::from(is_face(kind)),
+        }
+        if let Some(kind) = slot(kind) {
+            points.total[kind] += 1;
+        }
+    }
+    match free_form {
+        Some(at) if points.faces == 0 => Err(source.at_line(at, "faces", "free-form curves or surfaces")),
+        _ => Ok(points),
+    }
+}
+
+/// Lines without comments, those that end in a backslash joined with the next; a comment does not go on.
 fn joined(text: &str) -> impl Iterator<Item = (usize, String)> {
     let mut all = lines(text);
     std::iter::from_fn(move || {
         let (at, line) = all.next()?;
-        let mut whole = line.to_owned();
-        while whole.ends_with('\\') {
+        let mut whole = without_comment(line).to_owned();
+        let mut goes_on = whole.len() == line.len();
+        while goes_on && whole.ends_with('\\') {
             whole.pop();
             whole.push(' ');
-            whole += all.next()?.1;
+            let next = all.next()?.1;
+            let said = without_comment(next);
+            goes_on = said.len() == next.len();
+            whole += said;
         }
-        whole.truncate(whole.find('#').unwrap_or(whole.len()));
         Some((at, whole))
     })
 }
 
-/// Corner and normal, from 1, of `v`, `v/t`, `v//n` or `v/t/n`; negative ones count back from the
-/// last one seen.
-fn reference(word: &str, seen: [usize; 3], total: [usize; 3]) -> Option<(usize, Option<usize>)> {
+/// Corner and normal, from 0, of `v`, `v/t`, `v//n` or `v/t/n`; negative ones count back from the last one
+/// seen. A normal that is not there is none.
+fn reference(word: &str, seen: Counts, total: Counts) -> Option<(usize, Option<usize>)> {
     let mut found = [None; 3];
     for (k, part) in word.split('/').enumerate() {
         let slot = found.get_mut(k)?;
@@ -177,7 +177,7 @@ fn reference(word: &str, seen: [usize; 3], total: [usize; 3]) -> Option<(usize, 
         }
         let n: i64 = part.parse().ok()?;
         let index = if n < 0 { n.checked_add(seen[k] as i64 + 1)? } else { n };
-        *slot = Some((1..=total[k] as i64).contains(&index).then_some(index as usize)?);
+        *slot = (1..=total[k] as i64).contains(&index).then_some(index as usize - 1);
     }
     Some((found[0]?, found[2]))
 }

@@ -12,7 +12,7 @@ mod pbrt;
 mod words;
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F64, recovered};
+use super::shell::{Digits, Mesh, recovered};
 use super::source::Source;
 use super::{Format, Reading};
 use crate::cut::Design;
@@ -36,16 +36,19 @@ pub static LIST: Format = Format {
     extensions: &["txt"],
     about: "Perfect Diamond data set as corners, then faces (form reconstructed, unverified)",
     sniff: list::sniff,
-    read: |source| stone(source, vec![list::mesh(source)?]),
+    read: |source| stone(source, list::mesh(source)?),
     write: None,
 };
 
 /// Corners and polygons of one shape.
-type Mesh = (Vec<DVec3>, Vec<Polygon>);
+type Shape = (Vec<DVec3>, Vec<Polygon>);
+
+/// The shapes of a file, and the digits of their numbers.
+type Shapes = (Vec<Shape>, Digits);
 
 /// The stone among the shapes: all of them together, or the only one that is a stone by itself.
-fn stone(source: &Source, shapes: Vec<Mesh>) -> Result<Reading, FormatError> {
-    let together = shapes.iter().fold(Mesh::default(), |(mut vertices, mut polygons), (v, p)| {
+fn stone(source: &Source, (shapes, digits): Shapes) -> Result<Reading, FormatError> {
+    let together = shapes.iter().fold(Shape::default(), |(mut vertices, mut polygons), (v, p)| {
         let first = vertices.len();
         vertices.extend(v);
         polygons.extend(p.iter().map(|p| Polygon {
@@ -54,15 +57,17 @@ fn stone(source: &Source, shapes: Vec<Mesh>) -> Result<Reading, FormatError> {
         }));
         (vertices, polygons)
     });
-    let as_stone = |(v, p): &Mesh| recovered(&source.stem(), v, p, STATED_IN_F64);
-    let (design, mut warnings) = match as_stone(&together) {
+    let as_stone = |(v, p): Shape| recovered(&source.stem(), &Mesh::of_text(v, p, digits));
+    let (design, mut warnings) = match as_stone(together) {
         Ok(found) => found,
         Err(cause) => {
-            let alone: Vec<_> = shapes.iter().take(MOST_SHAPES).filter_map(|s| as_stone(s).ok()).collect();
+            let count = shapes.len();
+            let alone = shapes.into_iter().take(MOST_SHAPES);
+            let alone: Vec<_> = alone.filter_map(|s| as_stone(s).ok()).collect();
             let [found] = <[_; 1]>::try_from(alone)
                 .map_err(|_| FormatError::Mesh { file: source.name.into(), cause })?;
             let (design, mut warnings) = found;
-            warnings.push(format!("the stone is one of {} shapes; the others were left out", shapes.len()));
+            warnings.push(format!("the stone is one of {} shapes; the others were left out", count));
             (design, warnings)
         }
     };

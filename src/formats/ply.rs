@@ -7,13 +7,14 @@ mod header;
 mod values;
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F32, STATED_IN_F64, design_of_mesh};
+use super::shell::{Digits, Mesh, design_of_mesh};
 use super::source::Source;
 use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use crate::store::limits;
 use glam::DVec3;
 use header::{Element, Header, Kind, Property};
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::sync::Arc;
 use values::Values;
@@ -23,7 +24,7 @@ pub static BINARY: Format = Format {
     name: "ply",
     extensions: &["ply"],
     about: "PLY mesh in binary: written with f64 corners and facets' normals",
-    sniff: |source| if header::begins(source.bytes) { 97 } else { 0 },
+    sniff: |source| if header::begins(source) { 97 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_binary)),
 };
@@ -33,51 +34,88 @@ pub static TEXT: Format = Format {
     name: "ply-text",
     extensions: &["ply"],
     about: "PLY mesh as text: facets' normals; written for `--to ply-text`",
-    sniff: |source| if header::begins(source.bytes) && header::says_text(source) { 98 } else { 0 },
+    sniff: |source| if header::begins(source) && header::says_text(source) { 98 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_text)),
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
-    let header = Header::of(source)?;
-    let mut values = Values::new(source, &header);
-    let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
-    let (mut exact, mut total) = (true, 0);
+    design_of_mesh(source, &mesh(source)?)
+}
+
+/// Whether the file begins as a PLY file does.
+pub(super) fn is_one(source: &Source) -> bool {
+    header::begins(source)
+}
+
+/// The mesh as it stands in the file.
+pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
+    let text = if header::says_text(source) { source.text() } else { Cow::Borrowed("") };
+    // text is decoded; of a binary file only a mark before it is no part of it
+    let bytes = match &*text {
+        "" => source.bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(source.bytes),
+        text => text.as_bytes(),
+    };
+    let header = Header::of(source, bytes)?;
+    let mut values = Values::new(source, &header, bytes);
+    let mut mesh = Mesh { corners: Digits::F64, normals: Digits::F64, ..Mesh::default() };
+    let mut total = 0;
     let fits = |n: usize, element: &Element| source.within_at(element.line, &limits::CORNERS, n);
     for element in &header.elements {
         match &*element.name {
             "vertex" => {
                 let places = places(source, element, ["x", "y", "z"])?;
-                exact = places.iter().all(|p| element.properties[*p].kind == Kind::F64) || header.is_text();
+                if places.iter().any(|p| element.properties[*p].kind == Kind::F32) {
+                    mesh.corners = Digits::F32;
+                }
                 each(element, &mut values, |row, _| {
-                    let corner = DVec3::from_array(places.map(|p| row[p]));
-                    if !corner.is_finite() {
-                        let found = format!("corner {} at {corner}", vertices.len());
-                        return Err(source.at_line(element.line, "finite numbers for x, y and z", &found));
-                    }
-                    vertices.push(corner);
-                    fits(vertices.len(), element)
+                    mesh.vertices.push(DVec3::from_array(places.map(|p| row[p])));
+                    fits(mesh.vertices.len(), element)
                 })?;
             }
             "face" => {
                 let list = list_of_corners(source, element)?;
                 let normal = places(source, element, ["nx", "ny", "nz"]).ok();
+                if normal.is_some_and(|at| at.iter().any(|p| element.properties[*p].kind == Kind::F32)) {
+                    mesh.normals = Digits::F32;
+                }
                 let named = header.facet_names.len() as u64 == element.count;
+                let already = mesh.polygons.len();
+                source.within(&limits::POLYGONS, already.saturating_add(element.count as usize))?;
                 each(element, &mut values, |row, corners| {
                     let normal = normal.map(|at| DVec3::from_array(at.map(|p| row[p])));
+                    let normal = normal.filter(|n| n.is_finite());
                     let corners: Vec<_> = corners[list].iter().map(|&c| c as usize).collect();
                     total += corners.len();
-                    let name = header.facet_names.get(polygons.len()).filter(|_| named);
+                    let name = header.facet_names.get(mesh.polygons.len() - already).filter(|_| named);
                     let name = name.map_or_else(Arc::default, |n| n.as_str().into());
-                    polygons.push(Polygon { name, corners, normal });
-                    source.within(&limits::POLYGONS, polygons.len())?;
+                    mesh.polygons.push(Polygon { name, corners, normal });
+                    fits(total, element)
+                })?;
+            }
+            "tristrips" => {
+                let list = list_of_corners(source, element)?;
+                each(element, &mut values, |_, corners| {
+                    // -1 begins another strip; winding alternates, and is made consistent later
+                    let strips = corners[list].split(|&c| c < 0.0);
+                    let triangles = strips.flat_map(|strip| strip.windows(3));
+                    mesh.polygons.extend(triangles.map(|t| Polygon {
+                        corners: t.iter().map(|&c| c as usize).collect(),
+                        ..Polygon::default()
+                    }));
+                    total += corners[list].len();
+                    source.within(&limits::POLYGONS, mesh.polygons.len())?;
                     fits(total, element)
                 })?;
             }
             _ => each(element, &mut values, |_, _| Ok(()))?,
         }
     }
-    design_of_mesh(source, &vertices, &polygons, if exact { STATED_IN_F64 } else { STATED_IN_F32 })
+    if header.is_text() {
+        (mesh.corners, mesh.normals) = (values.digits, values.digits);
+    }
+    mesh.warnings.extend(values.left_over());
+    Ok(mesh)
 }
 
 /// Reads every row of an element: single values, and the values of lists, by property.
@@ -103,7 +141,7 @@ fn each(
                         lists[i].push(values.next(property.kind, &property.name)?);
                     }
                     if is_corners(property) {
-                        values.check_corners(&lists[i])?;
+                        values.check_corners(&lists[i], element.name == "tristrips")?;
                     }
                 }
             }
@@ -131,11 +169,9 @@ fn is_corners(property: &Property) -> bool {
 }
 
 fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatError> {
-    element
-        .properties
-        .iter()
-        .position(is_corners)
-        .ok_or_else(|| source.at_line(element.line, "property list … vertex_indices of face", "none"))
+    let expected = format!("property list … vertex_indices of {}", element.name);
+    let list = element.properties.iter().position(is_corners);
+    list.ok_or_else(|| source.at_line(element.line, expected, "none"))
 }
 
 /// Triangles, as some readers know no polygons of several lengths in one file.

@@ -6,9 +6,9 @@
 //! not shine.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F64, design_of_mesh};
+use super::shell::{Mesh, design_of_mesh};
 use super::source::Source;
-use super::triangle_words::{first_count, records};
+use super::triangle_words::{Records, first_count, records};
 use super::{Format, Reading, Surface, Writer};
 use crate::solid::recover::Polygon;
 use glam::DVec3;
@@ -33,7 +33,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     let text = source.text();
     let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
-    let all = records(source, &text)?;
+    let Records { all, digits } = records(source, &text)?;
     let with_kind = all.iter().any(|r| !r.after.is_empty());
     for record in &all {
         let n = &record.numbers;
@@ -60,8 +60,8 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         let found: Vec<_> = kinds.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
         return Err(source.at_line(1, "triangles of kind T, the stone", &found.join(", ")));
     }
-    let mut reading = design_of_mesh(source, &vertices, &polygons, STATED_IN_F64)?;
     let others = all.len() - polygons.len();
+    let mut reading = design_of_mesh(source, &Mesh::of_text(vertices, polygons, digits))?;
     if others > 0 {
         reading.warnings.push(format!("{others} triangles of room and lights left out"));
     }

@@ -1,8 +1,9 @@
-//! Meshes that are no stones: what stands around them in a scene. OBJ and glTF, any shape.
+//! Meshes that are no stones: what stands around them in a scene. OBJ, glTF, STL or PLY, of any shape.
 
 use super::error::FormatError;
+use super::shell::Mesh;
 use super::source::Source;
-use super::{bytes_of, glb, obj};
+use super::{bytes_of, glb, obj, ply, stl};
 use glam::DVec3;
 use std::path::Path;
 
@@ -15,7 +16,7 @@ pub struct Triangles {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Reads an OBJ, glTF or GLB file, a regular one; polygons become fans of triangles.
+/// Reads an OBJ, glTF, GLB, STL or PLY file, a regular one; polygons become fans of triangles.
 ///
 /// Errors name the file and the place in it.
 pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
@@ -26,11 +27,14 @@ pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
 
 /// As [`triangles`], of a file's bytes.
 pub fn triangles_of(source: &Source) -> Result<Triangles, FormatError> {
-    let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(source) > 0) {
-        let (vertices, polygons, _) = glb::polygons(source)?;
-        (vertices, polygons)
+    let Mesh { vertices, polygons, .. } = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(source) > 0) {
+        glb::mesh(source)?
+    } else if ply::is_one(source) {
+        ply::mesh(source)?
+    } else if let Some(mesh) = stl::mesh(source) {
+        mesh?
     } else {
-        obj::polygons(source)?
+        obj::mesh(source)?
     };
     let mut triangles = Vec::new();
     for p in &polygons {

@@ -1,8 +1,8 @@
 //! What a reader is given: a file's bytes, its name for errors, and the text in it.
 
-use super::error::{FormatError, shown};
-use super::windows_1252;
+use super::error::{FormatError, shortened, shown};
 use crate::store::limits::Limit;
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -18,20 +18,36 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The text: UTF-8 if it is that, else Windows-1252; without byte-order mark and NUL padding.
+    /// The text, as [`decoded`] says, without NUL padding and DOS end-of-file marks.
     pub fn text(&self) -> Cow<'a, str> {
-        let bytes = self.bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(self.bytes);
-        let text = match std::str::from_utf8(bytes) {
-            Ok(text) => Cow::Borrowed(text),
-            Err(_) => windows_1252::decoded(bytes).into(),
-        };
-        if text.contains('\0') { text.replace('\0', "").into() } else { text }
+        let text = decoded(self.bytes);
+        let end = text.trim_end_matches(['\0', '\x1a']).len();
+        match text {
+            text if text[..end].contains('\0') => text[..end].replace('\0', "").into(),
+            Cow::Borrowed(text) => Cow::Borrowed(&text[..end]),
+            Cow::Owned(mut text) => {
+                text.truncate(end);
+                text.into()
+            }
+        }
     }
 
     /// The first 4,096 bytes as text, for telling formats apart.
     pub fn beginning(&self) -> String {
         let cut = &self.bytes[..self.bytes.len().min(4096)];
-        String::from_utf8_lossy(cut.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(cut)).replace('\0', "")
+        let text = match marked(self.bytes) {
+            Some((encoding, mark)) => {
+                encoding.decode_without_bom_handling(cut.get(mark..).unwrap_or_default()).0
+            }
+            None => String::from_utf8_lossy(cut),
+        };
+        text.replace('\0', "")
+    }
+
+    /// Whether the bytes are those of no text: control characters among the first.
+    pub fn is_binary(&self) -> bool {
+        self.beginning().contains(|c: char| c.is_ascii_control() && !c.is_ascii_whitespace() && c != '\x1a')
+            || (marked(self.bytes).is_none() && self.bytes.iter().take(64).any(|b| *b == 0))
     }
 
     /// The file's name without folder and ending.
@@ -73,8 +89,43 @@ impl<'a> Source<'a> {
         expected: impl Into<String>,
         found: impl Into<String>,
     ) -> FormatError {
-        FormatError::Byte { file: self.name.into(), offset, expected: expected.into(), found: found.into() }
+        let found = shortened(&found.into());
+        FormatError::Byte { file: self.name.into(), offset, expected: expected.into(), found }
     }
+}
+
+/// The encoding that a byte-order mark names, and the mark's length.
+///
+/// Binary files have no marks, but one may begin with the same two bytes: text has no NUL among its first
+/// characters, and every design in binary has.
+fn marked(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
+    /// In bytes: a binary design's first facet ends its name's length before that.
+    const NEAR: usize = 64;
+    let (encoding, mark) = Encoding::for_bom(bytes)?;
+    let near = encoding.decode_without_bom_handling(&bytes[mark..bytes.len().min(NEAR)]).0;
+    (encoding == UTF_8 || !near.trim_end_matches('\0').contains('\0')).then_some((encoding, mark))
+}
+
+/// The text that a file's bytes stand for: by its byte-order mark (UTF-8, or UTF-16 of either byte order),
+/// else UTF-8 if it is that, else what an XML declaration names, else Windows-1252, in which every byte
+/// stands for something.
+pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    match marked(bytes) {
+        Some((encoding, mark)) => encoding.decode_without_bom_handling(&bytes[mark..]).0,
+        None => match std::str::from_utf8(bytes) {
+            Ok(text) => text.into(),
+            Err(_) => declared(bytes).unwrap_or(WINDOWS_1252).decode_without_bom_handling(bytes).0,
+        },
+    }
+}
+
+/// The encoding that an XML declaration names.
+fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
+    let head = bytes.strip_prefix(b"<?xml")?;
+    let head = head.split(|b| *b == b'>').next()?;
+    let name = head.windows(9).position(|w| w == b"encoding=")? + 9;
+    let quote = head.get(name)?;
+    Encoding::for_label(head.get(name + 1..)?.split(|b| b == quote).next()?)
 }
 
 /// Lines with their numbers from 1, ended by LF, CRLF or a lone CR.
@@ -93,12 +144,17 @@ pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     split.enumerate().map(|(i, line)| (i + 1, line))
 }
 
-/// White-space separated words with the numbers of their lines, `#` to the end of a line left out.
+/// White-space separated words with the numbers of their lines, without comments.
 pub fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    lines(text).flat_map(|(n, line)| {
-        let said = line.split('#').next().unwrap_or_default();
-        said.split_whitespace().map(move |w| (n, w))
-    })
+    lines(text).flat_map(|(n, line)| without_comment(line).split_whitespace().map(move |w| (n, w)))
+}
+
+/// The line up to its comment: a `#` where a word begins, and all after it. Within a word, as in
+/// `Facet#1`, it is a letter like others.
+pub fn without_comment(line: &str) -> &str {
+    let starts = |at: usize| line[..at].chars().next_back().is_none_or(char::is_whitespace);
+    let comment = line.match_indices('#').map(|(at, _)| at).find(|at| starts(*at));
+    &line[..comment.unwrap_or(line.len())]
 }
 
 /// A finite number; the minus sign may be U+2212.
@@ -108,6 +164,12 @@ pub fn number(word: &str) -> Option<f64> {
         None => word.parse::<f64>(),
     };
     value.ok().filter(|v| v.is_finite())
+}
+
+/// Whether the word is how some library writes a value that is no number: `nan`, `-inf`, `1.#QNAN`.
+pub fn is_no_value(word: &str) -> bool {
+    let word = word.to_ascii_lowercase();
+    ["nan", "inf", "1.#ind", "1.#qnan", "1.#snan"].iter().any(|said| word.contains(said))
 }
 
 #[cfg(test)]
@@ -120,9 +182,20 @@ mod tests {
         assert_eq!(text(b"\xEF\xBB\xBFa\0\0"), "a");
         assert_eq!(text(b"Peter\x92s 40\xB0 cut"), "Peter’s 40° cut");
         assert_eq!(text("40° cut".as_bytes()), "40° cut");
+        assert_eq!(text(b"\xFF\xFEa\0\xB0\0"), "a°");
+        assert_eq!(text(b"\xFE\xFF\0a\0\xB0"), "a°");
+        assert_eq!(text(b"end\r\n\x1A\0"), "end\r\n");
+        assert_eq!(text(b"<?xml version='1.0' encoding='windows-1251'?>\xC0"), {
+            "<?xml version='1.0' encoding='windows-1251'?>А"
+        });
+        // the plane, tier and name of a facet that happens to begin so
+        assert_eq!(marked(b"\xFF\xFE34567890123456789012\x03\0\0\0\x02P1"), None);
         let split: Vec<_> = lines("a\r\nb\rc\n\nd").collect();
         assert_eq!(split, [(1, "a"), (2, "b"), (3, "c"), (4, ""), (5, "d")]);
         assert_eq!(number("\u{2212}42.5"), Some(-42.5));
         assert_eq!(number("nan"), None);
+        assert!(["NaN", "-inf", "-1.#IND00", "1.#QNAN"].into_iter().all(is_no_value) && !is_no_value("1.5"));
+        let said: Vec<_> = words("# all\ng Facet#1 2 # one\n\t#\u{a0}x\x0b3").map(|(_, w)| w).collect();
+        assert_eq!(said, ["g", "Facet#1", "2"]);
     }
 }

@@ -3,9 +3,9 @@
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::FormatError;
-use super::shell::{STATED_IN_F32, design_of_mesh};
+use super::shell::{Digits, Mesh, design_of_mesh};
 use super::source::{Source, lines, number};
-use super::{Format, Reading, Surface, Writer};
+use super::{Format, Surface, Writer};
 use crate::solid::recover::Polygon;
 use crate::store::limits;
 use glam::{DVec3, Vec3};
@@ -16,8 +16,8 @@ pub static BINARY: Format = Format {
     name: "stl",
     extensions: &["stl"],
     about: "STL mesh in binary: triangles in f32",
-    sniff: |source| if count_of_binary(source.bytes).is_some_and(|n| n > 0) { 95 } else { 0 },
-    read: read_binary,
+    sniff: sniff_binary,
+    read: |source| design_of_mesh(source, &binary_mesh(source)?),
     write: Some(Writer::Mesh(write_binary)),
 };
 
@@ -27,21 +27,40 @@ pub static TEXT: Format = Format {
     extensions: &["stl"],
     about: "STL mesh as text: triangles; written for `--to stl-text`",
     sniff: sniff_text,
-    read: read_text,
+    read: |source| design_of_mesh(source, &text_mesh(source)?),
     write: Some(Writer::Mesh(write_text)),
 };
 
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
 
-/// Number of triangles, if the size is that of a binary file.
-fn count_of_binary(bytes: &[u8]) -> Option<usize> {
+/// The number of triangles that a binary file states, and how many bytes it then has.
+fn stated(bytes: &[u8]) -> Option<(usize, usize)> {
     let count: [u8; 4] = bytes.get(HEADER..HEADER + 4)?.try_into().ok()?;
     let count = u32::from_le_bytes(count) as usize;
-    let needed = count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)?;
-    // some writers pad the end with zeros
-    let padded = || bytes.get(needed..).is_some_and(|rest| count > 0 && rest.iter().all(|b| *b == 0));
-    (needed == bytes.len() || padded()).then_some(count)
+    Some((count, count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)?))
+}
+
+fn sniff_binary(source: &Source) -> u8 {
+    match stated(source.bytes) {
+        Some((1.., size)) if size == source.bytes.len() => 95,
+        // what follows the triangles is of no use, if these are triangles at all
+        Some((1.., size)) if size < source.bytes.len() && is_like_triangles(source.bytes) => 60,
+        Some((1.., _)) if source.extension() == "stl" && source.is_binary() => 10,
+        _ => 0,
+    }
+}
+
+/// Whether the first triangles have coordinates that a mesh may have.
+fn is_like_triangles(bytes: &[u8]) -> bool {
+    const SOME: usize = 20;
+    let first = bytes[HEADER + 4..].chunks_exact(TRIANGLE).take(SOME);
+    let numbers = |t: &[u8]| t[12..48].chunks_exact(4).map(float).collect::<Vec<_>>();
+    first.flat_map(numbers).all(|x| x == 0.0 || (1e-12..1e12).contains(&x.abs()))
+}
+
+fn float(bytes: &[u8]) -> f64 {
+    f32::from_le_bytes([0, 1, 2, 3].map(|k| bytes.get(k).copied().unwrap_or_default())).into()
 }
 
 fn sniff_text(source: &Source) -> u8 {
@@ -55,75 +74,112 @@ fn sniff_text(source: &Source) -> u8 {
     }
 }
 
-fn read_binary(source: &Source) -> Result<Reading, FormatError> {
-    let count = count_of_binary(source.bytes).unwrap_or_default();
-    source.within(&limits::POLYGONS, count)?;
-    let (mut corners, mut normals) = (Vec::with_capacity(3 * count), Vec::with_capacity(count));
-    let records = source.bytes.get(HEADER + 4..).unwrap_or_default();
-    for record in records.chunks_exact(TRIANGLE).take(count) {
-        let float = |i: usize| f32::from_le_bytes([0, 1, 2, 3].map(|k| record[4 * i + k])) as f64;
-        let point = |i: usize| DVec3::new(float(3 * i), float(3 * i + 1), float(3 * i + 2));
-        normals.push(point(0));
-        corners.extend([1, 2, 3].map(point));
+/// The mesh of an STL file of either kind; none if it is none.
+pub(super) fn mesh(source: &Source) -> Option<Result<Mesh, FormatError>> {
+    let (binary, text) = (sniff_binary(source), sniff_text(source));
+    match binary.max(text) {
+        0 => None,
+        sure if sure == binary => Some(binary_mesh(source)),
+        _ => Some(text_mesh(source)),
     }
-    stone_of(source, &corners, &normals)
 }
 
-fn read_text(source: &Source) -> Result<Reading, FormatError> {
-    let (mut corners, mut normals) = (Vec::new(), Vec::new());
-    text_triangles(source, &mut corners, &mut normals)?;
-    source.within(&limits::POLYGONS, normals.len())?;
-    stone_of(source, &corners, &normals)
-}
-
-fn stone_of(source: &Source, corners: &[DVec3], normals: &[DVec3]) -> Result<Reading, FormatError> {
-    let polygon = |(i, n): (usize, &DVec3)| Polygon {
-        corners: vec![3 * i, 3 * i + 1, 3 * i + 2],
-        normal: Some(*n),
-        ..Polygon::default()
+fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
+    let (count, size) = stated(source.bytes).unwrap_or_default();
+    let Some(extra) = source.bytes.len().checked_sub(size) else {
+        let expected = format!("{size} bytes for {count} triangles");
+        return Err(source.at_byte(HEADER, expected, format!("{} bytes", source.bytes.len())));
     };
-    let polygons: Vec<Polygon> = normals.iter().enumerate().map(polygon).collect();
-    design_of_mesh(source, corners, &polygons, STATED_IN_F32)
+    source.within(&limits::POLYGONS, count)?;
+    let mut mesh = Mesh { corners: Digits::F32, normals: Digits::F32, ..Mesh::default() };
+    for record in source.bytes.get(HEADER + 4..size).unwrap_or_default().chunks_exact(TRIANGLE) {
+        let point = |i: usize| DVec3::from_array([0, 1, 2].map(|k| float(&record[4 * (3 * i + k)..])));
+        let first = mesh.vertices.len();
+        mesh.vertices.extend([1, 2, 3].map(point));
+        let normal = Some(point(0)).filter(|n| n.is_finite());
+        mesh.polygons.push(Polygon { corners: (first..first + 3).collect(), normal, ..Polygon::default() });
+    }
+    // some writers pad the end with zeros
+    if source.bytes[size..].iter().any(|b| *b != 0) {
+        mesh.warnings.push(format!("{extra} bytes after the last triangle are passed over"));
+    }
+    Ok(mesh)
 }
 
-/// Reads `normal` and `vertex` rows; the words between them say nothing more.
-fn text_triangles(
-    source: &Source,
-    corners: &mut Vec<DVec3>,
-    normals: &mut Vec<DVec3>,
-) -> Result<(), FormatError> {
+/// Reads `normal`, `loop` and `vertex`; the words between them say nothing more. White space of any kind
+/// parts words, so that a file may stand on one line.
+fn text_mesh(source: &Source) -> Result<Mesh, FormatError> {
     let text = source.text();
+    let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
+    let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
+    let mut words = words_of(&text).peekable();
+    // the polygon that has no corner yet, or is being read
+    let mut open: Option<Polygon> = None;
     let mut last = 1;
-    for (at, line) in lines(&text) {
+    while let Some((at, word)) = words.next() {
         last = at;
-        let mut words = line.split_whitespace();
-        let is = |word: Option<&str>, name: &str| word.is_some_and(|w| w.eq_ignore_ascii_case(name));
-        let is_normal = match words.next() {
-            first if is(first, "facet") && is(words.clone().next(), "normal") => {
-                words.next();
-                true
+        if is(word, "facet") {
+            finish(source, at, &mut open, &mut mesh)?;
+            open = Some(Polygon::default());
+        } else if let (true, Some(polygon)) = (is(word, "normal"), &mut open) {
+            let mut said = Vec::new();
+            while let Some((_, word)) =
+                words.next_if(|(_, w)| !["outer", "loop", "vertex"].iter().any(|n| is(w, n)))
+            {
+                said.push(word);
             }
-            first if is(first, "vertex") => false,
-            _ => continue,
-        };
-        if !is_normal && corners.len() >= 3 * normals.len() {
-            return Err(source.at_line(at, "'facet normal' before another vertex", line.trim()));
+            // what is no normal is as good as none
+            let values: Option<Vec<f64>> = said.iter().map(|w| number(w)).collect();
+            polygon.normal = values.filter(|v| v.len() == 3).map(|v| DVec3::from_slice(&v));
+            said.iter().for_each(|w| mesh.normals.see(w));
+        } else if is(word, "vertex") {
+            let Some(polygon) = &mut open else {
+                return Err(source.at_line(at, "'facet' before another vertex", word));
+            };
+            let mut p = [0.0; 3];
+            for value in &mut p {
+                let (at, word) = words.next().unwrap_or((at, ""));
+                *value = number(word).ok_or_else(|| source.at_line(at, "three numbers", word))?;
+                mesh.corners.see(word);
+            }
+            polygon.corners.push(mesh.vertices.len());
+            mesh.vertices.push(DVec3::from_array(p));
+        } else if is(word, "endfacet") {
+            finish(source, at, &mut open, &mut mesh)?;
         }
-        let mut p = DVec3::ZERO;
-        for k in 0..3 {
-            let word = words.next().unwrap_or_default();
-            // a triangle without area may state nan as its normal: 0 is as good as none
-            let none = is_normal && word.to_ascii_lowercase().contains("nan");
-            let value = if none { Some(0.0) } else { number(word) };
-            p[k] = value.ok_or_else(|| source.at_line(at, "three numbers", word))?;
-        }
-        if is_normal { normals.push(p) } else { corners.push(p) }
     }
-    if corners.len() == 3 * normals.len() && !normals.is_empty() {
-        return Ok(());
+    finish(source, last, &mut open, &mut mesh)?;
+    if mesh.polygons.is_empty() {
+        return Err(source.at_line(last, "at least one triangle", "none"));
     }
-    let found = format!("{} normals, {} vertices", normals.len(), corners.len());
-    Err(source.at_line(last, "three vertices to every normal", &found))
+    Ok(mesh)
+}
+
+/// Adds the polygon that was read, if there is one.
+fn finish(
+    source: &Source,
+    at: usize,
+    open: &mut Option<Polygon>,
+    mesh: &mut Mesh,
+) -> Result<(), FormatError> {
+    let Some(polygon) = open.take() else { return Ok(()) };
+    if polygon.corners.len() < 3 {
+        let found = format!("{} of them", polygon.corners.len());
+        return Err(source.at_line(at, "three vertices to every facet", &found));
+    }
+    mesh.polygons.push(polygon);
+    source.within_at(at, &limits::POLYGONS, mesh.polygons.len())
+}
+
+/// The words of the file without the solids' names: these end with their line, unless all stands on one.
+fn words_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    lines(text).flat_map(|(at, line)| {
+        let first = line.split_whitespace().next().unwrap_or_default();
+        let names = ["solid", "endsolid"].iter().any(|n| first.eq_ignore_ascii_case(n));
+        let holds = names && line.split_whitespace().any(|w| w.eq_ignore_ascii_case("vertex"));
+        let said = if names && !holds { "" } else { line };
+        said.split_whitespace().map(move |word| (at, word))
+    })
 }
 
 fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {

@@ -1,7 +1,8 @@
 //! What the two `.asc` triangle lists share: records that begin with a word `triangle…`.
 
 use super::error::FormatError;
-use super::source::{Source, number, words};
+use super::shell::Digits;
+use super::source::{Source, is_no_value, number, words};
 use crate::store::limits;
 
 /// Of words after the numbers no reader knows more than one; two are enough to complain.
@@ -22,23 +23,35 @@ fn begins(word: &str) -> bool {
     word.get(..8).is_some_and(|start| start.eq_ignore_ascii_case("triangle"))
 }
 
-/// All records of the text. Words before the first are passed over.
-pub fn records<'t>(source: &Source, text: &'t str) -> Result<Vec<Record<'t>>, FormatError> {
+/// The records of a file, and the digits of their numbers.
+pub struct Records<'t> {
+    pub all: Vec<Record<'t>>,
+    pub digits: Digits,
+}
+
+/// All records of the text. Words before the first are passed over. A number that is none, as normals and
+/// colours may be, is nan.
+pub fn records<'t>(source: &Source, text: &'t str) -> Result<Records<'t>, FormatError> {
     let mut records: Vec<Record> = Vec::new();
+    let mut digits = Digits::TEXT;
     for (line, word) in words(text) {
         let last = records.last_mut();
-        match (number(word), last) {
+        let value = number(word).or(is_no_value(word).then_some(f64::NAN));
+        match (value, last) {
             _ if begins(word) => {
                 records.push(Record { line, numbers: Vec::new(), after: Vec::new() });
                 source.within_at(line, &limits::POLYGONS, records.len())?;
             }
-            (Some(value), Some(record)) if record.after.is_empty() => record.numbers.push(value),
+            (Some(value), Some(record)) if record.after.is_empty() => {
+                digits.see(word);
+                record.numbers.push(value);
+            }
             (Some(_), _) => return Err(source.at_line(line, "the word 'triangle'", word)),
             (None, Some(record)) if record.after.len() < MOST_AFTER => record.after.push(word),
             (None, _) => {}
         }
     }
-    Ok(records)
+    Ok(Records { all: records, digits })
 }
 
 /// How many numbers the first record has, if the file begins as such a list does; the record may
@@ -46,5 +59,5 @@ pub fn records<'t>(source: &Source, text: &'t str) -> Result<Vec<Record<'t>>, Fo
 pub fn first_count(source: &Source) -> Option<usize> {
     let start = source.beginning();
     let mut all = words(&start).map(|(_, w)| w).skip_while(|w| w.eq_ignore_ascii_case("object"));
-    begins(all.next()?).then(|| all.take_while(|w| number(w).is_some()).count())
+    begins(all.next()?).then(|| all.take_while(|w| number(w).is_some() || is_no_value(w)).count())
 }

@@ -1,26 +1,17 @@
 //! Windows-1252, the encoding that faceting programs write without saying so.
 
-/// Windows-1252 from 0x80 to 0x9F; the rest is Latin-1. The five that it leaves undefined stay
-/// control characters. Source: the table of the WHATWG Encoding Standard.
-const HIGH: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}',
-    '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
+use encoding_rs::WINDOWS_1252;
 
 /// The text that the bytes stand for; every byte stands for something.
 pub fn decoded(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .map(|&b| if (0x80..0xA0).contains(&b) { HIGH[b as usize - 0x80] } else { b as char })
-        .collect()
+    WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned()
 }
 
 /// The byte of a character, if it has one.
 pub fn byte_of(c: char) -> Option<u8> {
-    match u32::from(c) {
-        code @ (0..0x80 | 0xA0..=0xFF) => Some(code as u8),
-        _ => HIGH.iter().position(|h| *h == c).map(|i| 0x80 + i as u8),
-    }
+    let mut utf_8 = [0; 4];
+    let (bytes, _, unmappable) = WINDOWS_1252.encode(c.encode_utf8(&mut utf_8));
+    bytes.first().copied().filter(|_| !unmappable)
 }
 
 /// The bytes of the text, `?` for what Windows-1252 does not have.

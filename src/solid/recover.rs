@@ -4,7 +4,7 @@
 //! triangles. What comes out are the planes that the stone was cut by, and whether the mesh was
 //! a closed convex surface at all.
 
-use super::body::{Body, BodyFacet};
+use super::body::Body;
 use super::plane::Plane;
 use super::polyhedron::{Polyhedron, SolidError};
 use super::surface::{Surface, welded};
@@ -12,16 +12,28 @@ use crate::store::limits::{self, Exceeded};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Distances below which two corners are one, in parts of the mesh's diagonal, tried in turn until
-/// the surface closes: rounding of `f64` and of long decimals, then of `f32`, then of five and four
-/// digits. Starting coarser would swallow the short edges of a finely written mesh.
-const WELD: [f64; 4] = [1e-9, 1e-6, 1e-5, 1e-4];
+/// Corners of one facet lie in one plane within so many roundings of a stored coordinate: three coordinates of
+/// a corner, and the plane's own.
+const ROUNDINGS: f64 = 4.0;
 
-/// Heights within which the corners of two neighbours are coplanar, in parts of the mesh's
-/// diagonal, tried in turn until the facets make a convex solid of the mesh's volume. The first is
-/// ten times the rounding of `f32` in a corner (2^-25 of a coordinate); the second a tenth of the
-/// sagitta of a girdle of 2,000 flats; the last still is below a micrometre on a stone of 6.5 mm.
-const COPLANAR: [f64; 4] = [3e-7, 1e-6, 1e-5, 1e-4];
+/// Distances below which two corners are one, in parts of the mesh's diagonal, however exactly they are
+/// stored: the least, which is above the rounding of `f64` in what was computed to be the same, and the
+/// most. Between them the distance grows until the surface closes: starting coarser would swallow the short
+/// edges of a finely written mesh.
+const WELD: [f64; 2] = [1e-9, 1e-4];
+
+/// Heights within which the corners of two neighbours are coplanar, in parts of the mesh's diagonal,
+/// however exactly they are stored. The least is what programs that write for readers in `f32` move corners
+/// by; the most is 5 µm on a stone of 6.5 mm. Between them the height grows until the facets make a convex solid of the
+/// mesh's volume: so the noise of a scan is found where it is more than the roundings.
+const COPLANAR: [f64; 2] = [3e-7, 5e-4];
+
+/// From one try to the next either grows by this.
+const STEP: f64 = 4.0;
+
+/// Stated normals must fit the corners within this part of the mesh's diagonal at the best: well above the
+/// rounding of `f64`.
+const FITS: f64 = 1e-11;
 
 /// A corner may stand out of a facet's plane by the coplanar tolerance, or by this part of it over
 /// the facet's narrowness if that is more: the roundings that the tolerance is meant for are a few
@@ -31,6 +43,20 @@ const DOUBT: f64 = 0.25;
 /// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
 /// between a mesh and the solid of its planes.
 const VOLUME_SLACK: f64 = 30.0;
+
+/// How exactly a mesh is stored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stored {
+    /// The most that a coordinate of a corner may be off by rounding, in the mesh's unit.
+    pub corner: f64,
+    /// The most that a coordinate of a stated unit normal may be off by rounding.
+    pub normal: f64,
+}
+
+impl Stored {
+    /// In `f64`, as good as exact.
+    pub const EXACT: Stored = Stored { corner: 0.0, normal: 0.0 };
+}
 
 /// One polygon of a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -48,6 +74,8 @@ pub struct Polygon {
 pub struct Recovered {
     /// Name and plane of each facet, in the order of the polygons.
     pub facets: Vec<(String, Plane)>,
+    /// Number of corners that lie on edges of other polygons, which are divided on one side only.
+    pub divided_edges: usize,
     /// Number of edges that are not shared by exactly two polygons.
     pub open_edges: usize,
     /// Whether no corner stands out of any facet's plane.
@@ -111,19 +139,19 @@ pub enum RecoverError {
 /// Finds the facets of a mesh.
 ///
 /// - `vertices`: in any unit
-/// - `stated_within`: a stated normal is taken if the facet's corners lie in its plane within this
-///   part of the mesh's diagonal (1e-11 for a text format in full `f64`, 3e-7 for `f32`);
-///   otherwise the normal is the area-weighted mean of the merged polygons
+/// - `stored`: how exactly. What counts as one corner and as one plane follows from it. A stated normal is
+///   taken if it is known better than the facet's corners tell it, and if these lie in its plane; otherwise
+///   the normal is the area-weighted mean of the merged polygons
 ///
-/// Corners are welded, faces without three different corners dropped, windings made consistent
-/// and outward, coplanar neighbours merged unless both have names and stated normals and differ in
-/// both. A mesh that is open or not convex comes back with its flags saying so;
+/// Corners are welded, corners on edges made corners of both sides, faces without three different corners
+/// dropped, windings made consistent and outward, coplanar neighbours merged unless both have names and
+/// stated normals and differ in both. A mesh that is open or not convex comes back with its flags saying so;
 /// [`Recovered::stone`] turns those into errors. Checked below, in `tests/formats.rs` and
 /// on real designs in `tests/corpus.rs`.
 pub fn facets_of_polygons(
     vertices: &[DVec3],
     polygons: &[Polygon],
-    stated_within: f64,
+    stored: Stored,
 ) -> Result<Recovered, RecoverError> {
     limits::POLYGONS.check(polygons.len())?;
     for (polygon, p) in polygons.iter().enumerate() {
@@ -140,9 +168,13 @@ pub fn facets_of_polygons(
     if !(size > 0.0 && size.is_finite()) {
         return Err(RecoverError::Empty);
     }
+    let rounding = ROUNDINGS * stored.corner / size;
     let mut surface = Surface::default();
-    for weld in WELD {
+    for weld in steps(WELD, WELD[0].max(rounding)) {
         surface = Surface::of(vertices, polygons, &welded(vertices, lo, hi, weld * size));
+        if surface.open_edges > 0 {
+            surface = surface.with_corners_on_edges(polygons, COPLANAR[0].max(rounding) * size);
+        }
         if surface.open_edges == 0 {
             break;
         }
@@ -150,37 +182,60 @@ pub fn facets_of_polygons(
     if surface.faces.is_empty() {
         return Err(RecoverError::Empty);
     }
-    let mut best: Option<Recovered> = None;
-    for tolerance in COPLANAR {
-        let found = judge(&surface, polygons, tolerance, stated_within, size)?;
+    let mut best: Result<Recovered, RecoverError> = Err(RecoverError::Empty);
+    for tolerance in steps(COPLANAR, COPLANAR[0].max(rounding)) {
+        let found = match judge(&surface, polygons, tolerance, stored, size) {
+            // of noise no stone is made, but a stone may have that many facets
+            Err(many) if best.is_err() && !surface.is_convex_at_edges(tolerance * size) => {
+                best = Err(many);
+                continue;
+            }
+            Err(many) => return best.map_err(|_| many),
+            Ok(found) => found,
+        };
         let hopeless = matches!(found.verdict, Err(RecoverError::Open(_) | RecoverError::Shells(_)));
         if found.verdict.is_ok() || hopeless {
             return Ok(found);
         }
-        if best.as_ref().is_none_or(|b| found.stands_out < b.stands_out) {
-            best = Some(found);
+        if best.as_ref().is_ok_and(|b| found.stands_out >= b.stands_out) {
+            continue;
         }
+        best = Ok(found);
     }
-    best.ok_or(RecoverError::Empty)
+    best
+}
+
+/// From `first` on, by steps, up to the most.
+fn steps([_, most]: [f64; 2], first: f64) -> impl Iterator<Item = f64> {
+    let mut all: Vec<f64> =
+        std::iter::successors(Some(first), |t| Some(t * STEP)).take_while(|t| *t < most).collect();
+    all.push(most.max(first));
+    all.into_iter()
 }
 
 fn judge(
     surface: &Surface,
     polygons: &[Polygon],
     tolerance: f64,
-    stated_within: f64,
+    stored: Stored,
     size: f64,
 ) -> Result<Recovered, RecoverError> {
     let regions = surface.regions(polygons, tolerance * size);
-    limits::FACETS.check(regions.len())?;
+    let is_solid = surface.shells == 1 && surface.open_edges == 0;
+    if is_solid {
+        limits::FACETS.check(regions.len())?;
+    }
     let mut facets = Vec::with_capacity(regions.len());
-    let (mut stands_out, mut convex) = (0.0f64, surface.shells == 1 && surface.open_edges == 0);
+    let (mut stands_out, mut convex) = (0.0f64, is_solid);
     let corners = surface.corners();
-    for region in &regions {
+    for region in regions.iter().filter(|_| is_solid) {
         // a facet narrower than the tolerance has no plane of its own: what it cuts off is smaller
         // than the tolerance, and its normal is noise
         let narrowness = surface.narrowness(region, size);
-        let Some(plane) = surface.plane(region, polygons, stated_within * size, narrowness > tolerance)
+        // a stated normal that is known no better than the corners tell it is not needed
+        let known = stored.normal * narrowness * size <= 2.0 * stored.corner.max(FITS * size);
+        let within = (ROUNDINGS * stored.corner + 2.0 * stored.normal * size).max(FITS * size);
+        let Some(plane) = surface.plane(region, polygons, known.then_some(within), narrowness > tolerance)
         else {
             continue;
         };
@@ -193,27 +248,28 @@ fn judge(
         facets.push((name_of(surface, polygons, region), plane));
     }
     let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
-    let body = || {
-        let named = |r: &Vec<usize>| BodyFacet {
-            name: name_of(surface, polygons, r),
-            normal: surface.area_of(r).normalize_or(DVec3::Z),
-        };
-        let facets = regions.iter().map(named).collect();
-        let (vertices, triangles, facet_of) = surface.triangles(&regions);
-        let shells = surface.shells;
-        Box::new(Body { vertices, facets, triangles, facet_of, shells, stands_out, volume })
-    };
+    let body = || Box::new(surface.body(polygons, &regions, stands_out, size));
     let verdict = match (surface.open_edges, surface.shells, convex) {
         (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
         (_, 2.., _) => Err(RecoverError::Shells(body())),
         (_, _, false) => Err(RecoverError::NotConvex(body())),
         _ => enclose(&facets, volume, tolerance),
     };
-    Ok(Recovered { facets, open_edges: surface.open_edges, convex, stands_out, volume, tolerance, verdict })
+    let divided_edges = surface.divided_edges;
+    Ok(Recovered {
+        facets,
+        divided_edges,
+        open_edges: surface.open_edges,
+        convex,
+        stands_out,
+        volume,
+        tolerance,
+        verdict,
+    })
 }
 
 /// The first name among a region's polygons.
-fn name_of(surface: &Surface, polygons: &[Polygon], region: &[usize]) -> String {
+pub(super) fn name_of(surface: &Surface, polygons: &[Polygon], region: &[usize]) -> String {
     let names = region.iter().map(|&f| &polygons[surface.faces[f].polygon].name);
     names.into_iter().find(|n| !n.is_empty()).map_or_else(String::new, |n| n.to_string())
 }
@@ -273,7 +329,7 @@ mod tests {
     fn triangles_of_any_winding_become_named_outward_facets() {
         for wind in [|_: usize| false, |_| true, |i| i % 3 == 0] {
             let (vertices, polygons) = cube(wind);
-            let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+            let found = facets_of_polygons(&vertices, &polygons, Stored::EXACT).expect("a mesh");
             assert!(found.closed() && found.convex && (found.volume - 1.0).abs() < 1e-15);
             let facets = found.stone().expect("a stone");
             assert_eq!(facets.len(), 6);
@@ -288,11 +344,11 @@ mod tests {
     fn open_and_dented_meshes_say_so() {
         let (mut vertices, mut polygons) = cube(|_| false);
         polygons.pop();
-        let found = facets_of_polygons(&vertices, &polygons, 1e-11).expect("a mesh");
+        let found = facets_of_polygons(&vertices, &polygons, Stored::EXACT).expect("a mesh");
         assert!(!found.closed() && !found.convex);
         assert_eq!(found.stone(), Err(RecoverError::Open(3)));
         vertices[7] = DVec3::splat(0.4);
-        let found = facets_of_polygons(&vertices, &cube(|_| false).1, 1e-11).expect("a mesh");
+        let found = facets_of_polygons(&vertices, &cube(|_| false).1, Stored::EXACT).expect("a mesh");
         assert!(found.closed() && !found.convex);
         assert!(matches!(found.stone(), Err(RecoverError::NotConvex(_))));
     }
@@ -300,8 +356,9 @@ mod tests {
     #[test]
     fn corners_that_are_not_there_are_errors() {
         let (vertices, polygons) = cube(|_| false);
-        let error = facets_of_polygons(&vertices[..7], &polygons, 1e-11).expect_err("a corner is missing");
+        let error =
+            facets_of_polygons(&vertices[..7], &polygons, Stored::EXACT).expect_err("a corner is missing");
         assert_eq!(error, RecoverError::NoCorner { polygon: 2, corner: 7, vertices: 7 });
-        assert_eq!(facets_of_polygons(&vertices, &[], 1e-11), Err(RecoverError::Empty));
+        assert_eq!(facets_of_polygons(&vertices, &[], Stored::EXACT), Err(RecoverError::Empty));
     }
 }

@@ -1,6 +1,8 @@
 //! A mesh as a surface: welded corners, consistent outward winding, coplanar regions.
 
-use super::mesh::triangles_of;
+mod flat;
+mod junctions;
+
 use super::plane::Plane;
 use super::recover::Polygon;
 use glam::DVec3;
@@ -26,6 +28,8 @@ pub(super) struct Surface {
     pub faces: Vec<SurfaceFace>,
     neighbours: Vec<Vec<usize>>,
     stated_inward: bool,
+    /// Corners that were put on edges of other faces.
+    pub divided_edges: usize,
     /// Edges not shared by exactly two faces in opposite directions.
     pub open_edges: usize,
     /// Connected parts.
@@ -100,18 +104,32 @@ fn area_vector(vertices: &[DVec3], corners: &[usize]) -> DVec3 {
 impl Surface {
     /// The surface of the polygons, corners replaced by those they are welded to.
     pub fn of(vertices: &[DVec3], polygons: &[Polygon], first: &[usize]) -> Surface {
-        let mut surface = Surface { vertices: vertices.to_vec(), ..Surface::default() };
         // faces that are drawn from both sides are there twice
         let mut seen = HashSet::new();
+        let mut outlines = Vec::new();
         for (polygon, p) in polygons.iter().enumerate() {
             let corners = without_repeats(p.corners.iter().map(|&c| first[c]));
             let mut set = corners.clone();
             set.sort_unstable();
             if corners.len() > 2 && seen.insert(set) {
-                let area = area_vector(vertices, &corners);
-                surface.faces.push(SurfaceFace { polygon, corners, area });
+                outlines.push((polygon, corners));
             }
         }
+        Surface::of_outlines(vertices.to_vec(), polygons, outlines)
+    }
+
+    /// The surface of outlines, each the polygon's of that number.
+    fn of_outlines(
+        vertices: Vec<DVec3>,
+        polygons: &[Polygon],
+        outlines: Vec<(usize, Vec<usize>)>,
+    ) -> Surface {
+        let face = |(polygon, corners): (usize, Vec<usize>)| {
+            let area = area_vector(&vertices, &corners);
+            SurfaceFace { polygon, corners, area }
+        };
+        let faces = outlines.into_iter().map(face).collect();
+        let mut surface = Surface { faces, vertices, ..Surface::default() };
         surface.orient();
         surface.stated_inward = surface.states_inward(polygons);
         surface
@@ -136,6 +154,8 @@ impl Surface {
                 _ => self.open_edges += 1,
             }
         }
+        // the order of a map is none
+        beside.iter_mut().for_each(|b: &mut Vec<(usize, bool)>| b.sort_unstable());
         let mut turned: Vec<Option<bool>> = vec![None; self.faces.len()];
         for start in 0..self.faces.len() {
             if turned[start].is_some() {
@@ -247,6 +267,7 @@ impl Surface {
             }
             regions.push(region);
         }
+        let mut regions = self.absorbed(regions, polygons, within);
         regions.sort_by_key(|r| r.iter().map(|&f| self.faces[f].polygon).min());
         regions
     }
@@ -267,46 +288,29 @@ impl Surface {
         region.iter().map(|&f| self.faces[f].area).sum()
     }
 
-    /// Corners in use, triangles in those corners, and the region of each. A face without area,
-    /// which is of no region, goes with a neighbour: without it the surface would be open.
-    pub fn triangles(&self, regions: &[Vec<usize>]) -> (Vec<DVec3>, Vec<[usize; 3]>, Vec<usize>) {
-        let mut number: HashMap<usize, usize> = HashMap::new();
-        let mut vertices = Vec::new();
-        let mut region_of: HashMap<usize, usize> = HashMap::new();
-        regions.iter().enumerate().for_each(|(r, faces)| {
-            faces.iter().for_each(|&f| {
-                region_of.insert(f, r);
-            });
-        });
-        let (mut triangles, mut regions) = (Vec::new(), Vec::new());
-        for (f, face) in self.faces.iter().enumerate() {
-            let beside = || self.neighbours[f].iter().find_map(|g| region_of.get(g));
-            let region = region_of.get(&f).or_else(beside).copied().unwrap_or_default();
-            let points: Vec<DVec3> = face.corners.iter().map(|&c| self.vertices[c]).collect();
-            for triangle in triangles_of(&points, face.area.normalize_or(DVec3::Z)) {
-                triangles.push(triangle.map(|i| {
-                    *number.entry(face.corners[i]).or_insert_with(|| {
-                        vertices.push(points[i]);
-                        vertices.len() - 1
-                    })
-                }));
-                regions.push(region);
-            }
-        }
-        (vertices, triangles, regions)
+    /// Whether no face rises above the plane of a neighbour by more than `within`.
+    pub fn is_convex_at_edges(&self, within: f64) -> bool {
+        (0..self.faces.len()).all(|f| {
+            let SurfaceFace { corners, area, .. } = &self.faces[f];
+            let Some(normal) = area.try_normalize() else { return true };
+            let plane = Plane { normal, distance: normal.dot(self.vertices[corners[0]]) };
+            let below = |c: &usize| plane.height(self.vertices[*c]) <= within;
+            self.neighbours[f].iter().all(|g| self.faces[*g].corners.iter().all(below))
+        })
     }
 
     fn points(&self, region: &[usize]) -> impl Iterator<Item = DVec3> + Clone {
         region.iter().flat_map(|&f| self.faces[f].corners.iter().map(|&c| self.vertices[c]))
     }
 
-    /// The plane of a region: with its first stated normal that fits the corners, else with the
-    /// area-weighted mean normal if the region is `broad` enough to have one.
+    /// The plane of a region: with its first stated normal that fits the corners within `stated_within`, if
+    /// stated ones are wanted; else with the area-weighted mean normal, if the region is `broad` enough to
+    /// have one.
     pub fn plane(
         &self,
         region: &[usize],
         polygons: &[Polygon],
-        stated_within: f64,
+        stated_within: Option<f64>,
         broad: bool,
     ) -> Option<Plane> {
         let area = self.area_of(region);
@@ -318,7 +322,9 @@ impl Surface {
                 own().fold((0.0, 0usize), |(s, n), &c| (s + plane.height(self.vertices[c]), n + 1));
             Plane { normal, distance: sum / n as f64 }
         };
-        let fits = |plane: &Plane| own().all(|&c| plane.height(self.vertices[c]).abs() <= stated_within);
+        let fits = |plane: &Plane| {
+            own().all(|&c| stated_within.is_some_and(|most| plane.height(self.vertices[c]).abs() <= most))
+        };
         let stated = region.iter().find_map(|&f| polygons[self.faces[f].polygon].normal);
         stated
             .filter(|n| n.is_finite() && n.length() > 0.0)
@@ -331,8 +337,8 @@ impl Surface {
 
     /// Whether the stated normals, weighed by area, point into the mesh.
     fn states_inward(&self, polygons: &[Polygon]) -> bool {
-        let agreement =
-            |f: &SurfaceFace| polygons[f.polygon].normal.map_or(0.0, |n| n.normalize_or_zero().dot(f.area));
+        let finite = |n: DVec3| if n.is_finite() { n.normalize_or_zero() } else { DVec3::ZERO };
+        let agreement = |f: &SurfaceFace| polygons[f.polygon].normal.map_or(0.0, |n| finite(n).dot(f.area));
         self.faces.iter().map(agreement).sum::<f64>() < 0.0
     }
 

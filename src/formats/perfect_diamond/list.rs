@@ -2,9 +2,10 @@
 //!
 //! Rows may begin with `v` and `f` or not; lines of counts before the rows are passed over.
 
-use super::Mesh;
+use super::Shapes;
 use crate::formats::error::FormatError;
-use crate::formats::source::{Source, lines, number};
+use crate::formats::shell::Digits;
+use crate::formats::source::{Source, lines, number, without_comment};
 use crate::solid::recover::Polygon;
 use crate::store::limits;
 use glam::DVec3;
@@ -15,6 +16,7 @@ struct Row {
     letter: Option<char>,
     numbers: Vec<f64>,
     whole: bool,
+    digits: Digits,
 }
 
 /// How surely this is such a list: surely for `v` and `f` rows that count from 0, which OBJ cannot;
@@ -32,7 +34,7 @@ pub fn sniff(source: &Source) -> u8 {
 
 /// The row on a line: none for an empty line, none within for one that is no row.
 fn row(line: usize, text: &str) -> Option<Option<Row>> {
-    let said = text.split('#').next().unwrap_or_default();
+    let said = without_comment(text);
     let mut words = said.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty()).peekable();
     let letter = match *words.peek()? {
         "v" | "vertex" => Some('v'),
@@ -42,19 +44,20 @@ fn row(line: usize, text: &str) -> Option<Option<Row>> {
     if letter.is_some() {
         words.next();
     }
-    let (mut numbers, mut whole) = (Vec::new(), true);
+    let (mut numbers, mut whole, mut digits) = (Vec::new(), true, Digits::TEXT);
     for word in words {
         match number(word) {
             Some(x) => numbers.push(x),
             None => return Some(None),
         }
+        digits.see(word);
         whole &= word.bytes().all(|b| b.is_ascii_digit());
     }
-    Some(Some(Row { line, letter, numbers, whole }))
+    Some(Some(Row { line, letter, numbers, whole, digits }))
 }
 
 /// The mesh of the list.
-pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
+pub fn mesh(source: &Source) -> Result<Shapes, FormatError> {
     let text = source.text();
     let mut rows = Vec::new();
     for (at, line) in lines(&text) {
@@ -70,11 +73,14 @@ pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
     // without letters, the faces are the rows of whole numbers at the end
     let bare_faces = rows.iter().rev().take_while(|r| r.whole && r.letter.is_none()).count();
     let first_face = rows.len() - bare_faces;
-    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    let (mut vertices, mut faces, mut digits) = (Vec::new(), Vec::new(), Digits::TEXT);
     for (i, row) in rows.iter().enumerate() {
         let face = row.letter == Some('f') || (row.letter.is_none() && i >= first_face);
         match (face, row.numbers.len()) {
-            (false, 3) => vertices.push(DVec3::from_slice(&row.numbers)),
+            (false, 3) => {
+                vertices.push(DVec3::from_slice(&row.numbers));
+                digits = digits.or(row.digits);
+            }
             (true, 3..) if row.whole => {
                 faces.push(row);
                 source.within_at(row.line, &limits::POLYGONS, faces.len())?;
@@ -108,5 +114,5 @@ pub fn mesh(source: &Source) -> Result<Mesh, FormatError> {
         }
         polygons.push(Polygon { corners, ..Polygon::default() });
     }
-    Ok((vertices, polygons))
+    Ok((vec![(vertices, polygons)], digits))
 }

@@ -3,11 +3,12 @@
 //! Matrices are written column after column, as pbrt's own files are. pbrt's frame is left-handed
 //! and so may be the data: whether the stone is its own mirror image is part of what is unverified.
 
-use super::Mesh;
 use super::words::{Word, words};
+use super::{Shape, Shapes};
 use crate::formats::beside;
 use crate::formats::error::FormatError;
-use crate::formats::source::Source;
+use crate::formats::shell::Digits;
+use crate::formats::source::{Source, is_no_value};
 use crate::solid::recover::Polygon;
 use crate::store::limits;
 use glam::{DMat4, DVec3};
@@ -29,20 +30,21 @@ pub fn sniff(source: &Source) -> u8 {
 }
 
 /// Every triangle mesh of the scene, in the scene's frame.
-pub fn meshes(source: &Source) -> Result<Vec<Mesh>, FormatError> {
+pub fn meshes(source: &Source) -> Result<Shapes, FormatError> {
     let mut scene =
         Scene { at: DMat4::IDENTITY, saved: Vec::new(), meshes: Vec::new(), bytes: 0, included: 0 };
     scene.file(source, 0)?;
     if scene.meshes.is_empty() {
         return Err(source.at_line(1, "a Shape \"trianglemesh\"", "no such shape"));
     }
-    Ok(scene.meshes)
+    // pbrt of that time works in f32, and so did what wrote for it
+    Ok((scene.meshes, Digits::F32))
 }
 
 struct Scene {
     at: DMat4,
     saved: Vec<DMat4>,
-    meshes: Vec<Mesh>,
+    meshes: Vec<Shape>,
     /// Bytes of all files so far.
     bytes: usize,
     included: usize,
@@ -146,7 +148,7 @@ impl Scene {
             return Err(source.at_line(line, "three numbers a triangle in \"integer indices\"", &found));
         }
         let count = points.len() / 3;
-        if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i.fract() != 0.0 || i >= count as f64) {
+        if let Some(i) = indices.iter().find(|&&i| !(i >= 0.0 && i.fract() == 0.0 && i < count as f64)) {
             let expected = format!("corners from 0 to {}", count - 1);
             return Err(source.at_line(line, expected, &i.to_string()));
         }
@@ -176,6 +178,7 @@ fn parameter<'t>(
                 Some((_, Word::Number(x))) => values.push(x),
                 Some((_, Word::Close)) => break,
                 Some((_, Word::Text(_) | Word::Name("true" | "false" | ","))) => {}
+                Some((_, Word::Name(name))) if is_no_value(name) => values.push(f64::NAN),
                 Some((at, other)) => return Err(source.at_line(at, "a number or ]", &other.shown())),
                 None => return Err(source.at_line(line, "] after the parameter's values", "")),
             }

@@ -78,13 +78,22 @@ pub struct Header {
 }
 
 /// Whether the file begins as a PLY file does.
-pub fn begins(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+pub fn begins(source: &Source) -> bool {
+    let start = source.beginning();
+    start.starts_with("ply\n") || start.starts_with("ply\r")
 }
 
 /// Whether the header says that values are words.
 pub fn says_text(source: &Source) -> bool {
-    lines(&source.beginning()).any(|(_, line)| line.trim_start().starts_with("format ascii"))
+    let mut said = None;
+    for (_, line) in lines(&source.beginning()) {
+        match line.split_whitespace().next() {
+            Some("format") => said = said.or(Some(line.trim_start().starts_with("format ascii"))),
+            Some("end_header") => break,
+            _ => {}
+        }
+    }
+    said == Some(true)
 }
 
 impl Header {
@@ -94,12 +103,14 @@ impl Header {
     }
 
     /// Reads the header.
-    pub fn of(source: &Source) -> Result<Header, FormatError> {
+    ///
+    /// - `bytes`: the file's, or those of its decoded text
+    pub fn of(source: &Source, bytes: &[u8]) -> Result<Header, FormatError> {
         let mut header =
             Header { storage: Storage::Text, elements: Vec::new(), facet_names: Vec::new(), end: 0, line: 0 };
         let mut storage = None;
         loop {
-            let Some((line, after)) = line_at(source.bytes, header.end) else {
+            let Some((line, after)) = line_at(bytes, header.end) else {
                 return Err(source.at_line(header.line + 1, "end_header", ""));
             };
             header.end = after;
@@ -148,9 +159,12 @@ impl Header {
         }
         header.storage = storage
             .ok_or_else(|| source.at_line(header.line, "a line 'format …' before it", "end_header"))?;
-        let face = |e: &Element| e.name == "face" && e.count > 0;
+        let face = |e: &Element| matches!(&*e.name, "face" | "tristrips") && e.count > 0;
         if !header.elements.iter().any(face) {
-            return Err(source.at_line(header.line, "an element 'face' before it", "end_header"));
+            // a scan as a grid of ranges, a cloud of points
+            let others: Vec<&str> = header.elements.iter().map(|e| &*e.name).collect();
+            let found = format!("end_header after {}", others.join(", "));
+            return Err(source.at_line(header.line, "an element 'face' before it", &found));
         }
         header.line += 1;
         Ok(header)
@@ -161,6 +175,8 @@ impl Header {
 fn line_at(bytes: &[u8], at: usize) -> Option<(&[u8], usize)> {
     let rest = bytes.get(at..)?;
     let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'))?;
-    let long = if rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
+    // where lines end in a lone CR, a byte like LF after the last is the first of the values
+    let pairs = !bytes.starts_with(b"ply\r") || bytes.starts_with(b"ply\r\n");
+    let long = if pairs && rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
     Some((&rest[..end], at + end + long))
 }

@@ -2,37 +2,55 @@
 
 use super::header::{Header, Kind, Storage};
 use crate::formats::error::FormatError;
-use crate::formats::source::{Source, number, words};
+use crate::formats::shell::Digits;
+use crate::formats::source::{Source, is_no_value, lines, number};
 use crate::store::limits;
 
 /// Reads value after value.
 pub struct Values<'s> {
     source: &'s Source<'s>,
+    /// The file's bytes, or those of its decoded text.
+    bytes: &'s [u8],
     storage: Storage,
     /// Words with their lines, for text.
     words: Box<dyn Iterator<Item = (usize, &'s str)> + 's>,
     /// The line of the last word, or the offset of the next byte.
     at: usize,
     vertices: u64,
+    /// Digits of the numbers with a fraction that were read from words.
+    pub digits: Digits,
 }
 
 impl<'s> Values<'s> {
-    pub fn new(source: &'s Source<'s>, header: &Header) -> Values<'s> {
-        let rest = source.bytes.get(header.end..).unwrap_or_default();
-        // what is not UTF-8 there is no number, and an error says where it stands
-        let text = match std::str::from_utf8(rest) {
-            Ok(text) => text,
-            Err(e) => rest.get(..e.valid_up_to()).and_then(|r| std::str::from_utf8(r).ok()).unwrap_or(""),
-        };
+    /// - `bytes`: the file's, or those of its decoded text
+    pub fn new(source: &'s Source<'s>, header: &Header, bytes: &'s [u8]) -> Values<'s> {
+        let rest = bytes.get(header.end..).unwrap_or_default();
+        let text = if header.is_text() { std::str::from_utf8(rest).unwrap_or_default() } else { "" };
         let first = header.line - 1;
         let vertices = header.elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
+        let words =
+            lines(text).flat_map(move |(n, line)| line.split_whitespace().map(move |w| (n + first, w)));
         Values {
             source,
+            bytes,
             storage: header.storage,
-            words: Box::new(words(text).map(move |(n, w)| (n + first, w))),
+            words: Box::new(words),
             at: if header.is_text() { header.line } else { header.end },
             vertices,
+            digits: Digits::TEXT,
         }
+    }
+
+    /// A remark on what follows the last value.
+    pub fn left_over(&mut self) -> Option<String> {
+        let (n, what) = match self.storage {
+            Storage::Text => (self.words.by_ref().count(), "words"),
+            _ => {
+                let rest = self.bytes.get(self.at..).unwrap_or_default();
+                (if rest.iter().all(|b| matches!(b, b'\r' | b'\n' | 0)) { 0 } else { rest.len() }, "bytes")
+            }
+        };
+        (n > 0).then(|| format!("{n} {what} after the last element are passed over"))
     }
 
     fn wrong(&self, expected: String, found: &str) -> FormatError {
@@ -49,7 +67,10 @@ impl<'s> Values<'s> {
                 let (line, word) = self.words.next().unwrap_or((self.at, ""));
                 self.at = line;
                 // confidence, shading normals and the like may be nan
-                let none = word.to_ascii_lowercase().contains("nan").then_some(f64::NAN);
+                let none = is_no_value(word).then_some(f64::NAN);
+                if word.contains('.') {
+                    self.digits.see(word);
+                }
                 number(word).or(none).ok_or_else(|| self.wrong(format!("a number for {name}"), word))
             }
             _ => match kind {
@@ -67,7 +88,7 @@ impl<'s> Values<'s> {
 
     /// The next bytes, least first.
     fn bytes<const N: usize>(&mut self, name: &str) -> Result<[u8; N], FormatError> {
-        let rest = self.source.bytes.get(self.at..).unwrap_or_default();
+        let rest = self.bytes.get(self.at..).unwrap_or_default();
         let Some(bytes) = rest.first_chunk::<N>() else {
             return Err(self.wrong(format!("{N} bytes of {name}"), ""));
         };
@@ -91,8 +112,11 @@ impl<'s> Values<'s> {
     }
 
     /// Checks that a list names corners that are there.
-    pub fn check_corners(&self, corners: &[f64]) -> Result<(), FormatError> {
-        let sound = |c: &f64| *c >= 0.0 && c.fract() == 0.0 && *c < self.vertices as f64;
+    ///
+    /// - `strips`: whether -1 may stand between them
+    pub fn check_corners(&self, corners: &[f64], strips: bool) -> Result<(), FormatError> {
+        let sound =
+            |c: &f64| strips && *c == -1.0 || *c >= 0.0 && c.fract() == 0.0 && *c < self.vertices as f64;
         match corners.iter().find(|c| !sound(c)) {
             None => Ok(()),
             Some(c) => {
