@@ -90,6 +90,11 @@ impl Command {
     }
 }
 
+/// The definition of the command line: every command with its options, for tests, manuals and completions.
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
