@@ -36,7 +36,7 @@ pub use surface::Surface;
 use crate::cut::{Design, Unit};
 use crate::solid::Body;
 use crate::solid::polyhedron::Fate;
-use crate::store::{limits, replace};
+use crate::store::{limits, replace, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -114,6 +114,13 @@ pub fn read(path: &Path) -> Result<Imported, FormatError> {
 /// As [`read`], for what a file names: only a regular file is read.
 pub fn read_regular(path: &Path) -> Result<Imported, FormatError> {
     read_as(path, limits::FILE.read_regular(path))
+}
+
+/// Reads standard input; files that it refers to are refused.
+pub fn read_standard_input() -> Result<Imported, FormatError> {
+    let path = Path::new("standard input");
+    let bytes = within_limit(path, stdin::bytes())?;
+    read_bytes("standard input", &bytes, None)
 }
 
 fn read_as(path: &Path, bytes: Bytes) -> Result<Imported, FormatError> {

@@ -1,7 +1,8 @@
-//! Mathematics that knows nothing of gems: random streams, sampling warps, statistics.
+//! Mathematics that knows nothing of gems: random streams, sampling warps, statistics, numbers as typed.
 
 pub mod histogram;
 pub mod points;
 pub mod random;
 pub mod sample;
 pub mod stats;
+pub mod typed;

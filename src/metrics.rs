@@ -37,6 +37,7 @@ mod windowing;
 mod wlr;
 
 use crate::experiments;
+use crate::math::typed;
 use crate::solid::Polyhedron;
 
 /// One score.
@@ -110,7 +111,7 @@ impl Metric {
 
     /// The metric called `name`, or none.
     pub fn named(name: &str) -> Option<&'static Metric> {
-        METRICS.iter().copied().find(|m| m.name == name)
+        METRICS.iter().copied().find(|m| typed::is_called(m.name, name))
     }
 }
 

@@ -5,6 +5,7 @@ use super::drawing::Drawing;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
+use super::values;
 use crate::cut::families;
 use crate::formats;
 use crate::store::replace;
@@ -22,7 +23,7 @@ pub struct Args {
     #[arg(default_value = DEFAULT_STONE)]
     stone: String,
     /// Exact total of facets; girdle flats are added or taken to meet it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::whole(1..=1_000_000, "a total of facets is a whole number"))]
     facets: Option<u32>,
     /// Girdle diameter (width) in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]

@@ -2,6 +2,8 @@
 
 use super::design::Design;
 use super::document::{Document, DocumentError};
+use super::families::FAMILIES;
+use crate::math::typed;
 use std::collections::BTreeMap;
 
 include!(concat!(env!("OUT_DIR"), "/embedded_cuts.rs"));
@@ -13,7 +15,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// The document of the cut called `name`, or none if there is no such cut.
 pub fn document(name: &str) -> Option<Result<Document, DocumentError>> {
-    EMBEDDED_CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| Document::parse(text))
+    EMBEDDED_CUTS.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, text)| Document::parse(text))
 }
 
 /// The cut called `name` with parameters overridden, or none if there is no such cut.
@@ -31,11 +33,15 @@ const IMPOSSIBLE: &[(&str, &str, &str)] = &[(
 
 /// Why there is no cut of that name, and the nearest that there is.
 pub fn impossible(name: &str) -> Option<(&'static str, &'static str)> {
-    IMPOSSIBLE.iter().find(|(n, ..)| *n == name).map(|(_, why, nearest)| (*why, *nearest))
+    IMPOSSIBLE.iter().find(|(n, ..)| typed::is_called(n, name)).map(|(_, why, nearest)| (*why, *nearest))
 }
 
-/// The cut's name most like `name`.
-pub fn nearest(name: &str) -> &'static str {
-    let distance = |n: &&str| (1e6 * (1.0 - strsim::jaro_winkler(n, name))) as u64;
-    names().min_by_key(distance).unwrap_or_default()
+/// The cut or family called `name` in any case, as it is written; none if there is none.
+pub fn called(name: &str) -> Option<&'static str> {
+    names().chain(FAMILIES.iter().map(|f| f.name)).find(|n| typed::is_called(n, name))
+}
+
+/// The cut that is probably meant by `name`, if one is near.
+pub fn nearest(name: &str) -> Option<&'static str> {
+    typed::nearest(name, names())
 }

@@ -77,6 +77,11 @@ impl Inputs {
     }
 }
 
+/// The program: this one, or another build of it that the environment names.
+fn program() -> PathBuf {
+    std::env::var_os("PAIRS_PROGRAM").map_or_else(|| env!("CARGO_BIN_EXE_cutlab").into(), PathBuf::from)
+}
+
 /// A folder with the inputs in it.
 pub struct Bench {
     folder: TempDir,
@@ -109,7 +114,7 @@ impl Bench {
             Ok(file) => Stdio::from(file),
             Err(_) => Stdio::null(), // while the inputs are made
         };
-        let mut child = Command::new(env!("CARGO_BIN_EXE_cutlab"))
+        let mut child = Command::new(program())
             .args(words)
             .current_dir(self.path())
             .env("RAYON_NUM_THREADS", threads.to_string())

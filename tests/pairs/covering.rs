@@ -33,6 +33,11 @@ pub fn pairs_in(row: &[usize]) -> impl Iterator<Item = (Choice, Choice)> {
     (0..row.len()).flat_map(move |a| (a + 1..row.len()).map(move |b| (at(a), at(b))))
 }
 
+/// Whether the pair is in a row.
+pub fn is_in(row: &[usize], pair: &(Choice, Choice)) -> bool {
+    row[pair.0.0] == pair.0.1 && row[pair.1.0] == pair.1.1
+}
+
 /// Rows that hold all of `open` together, none of which holds one of `refused`. What no row can hold is
 /// taken out of `open`.
 ///
@@ -48,7 +53,7 @@ pub fn rows(
     while let Some(first) = open.iter().min().copied() {
         open.remove(&first);
         let Some(row) = row(factors, first, &open, refused) else { continue };
-        pairs_in(&row).for_each(|p| drop(open.remove(&p)));
+        open.retain(|p| !is_in(&row, p));
         rows.push(row);
     }
     rows

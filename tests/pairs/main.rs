@@ -6,8 +6,8 @@
 //! (`bench.rs`), and `oracles.rs` says what must hold of it. `cutlab` refuses some pairs: which ones is
 //! found out, and each refusal is a case of its own.
 //!
-//! `cargo test --release --test pairs` runs a sample, `-- --ignored` all of it. `PAIRS=score,sweep` in
-//! the environment names the commands to run.
+//! `cargo test --release --test pairs` runs a sample, `-- --ignored` all of it. In the environment
+//! `PAIRS=score,sweep` names the commands to run, and `PAIRS_PROGRAM` another build to run them with.
 
 mod bench;
 mod case;

@@ -89,6 +89,7 @@ const SAMPLES: &[Sample] = &[
     ("generate", "facets", &[&["73"]]),
     ("*", "polarisation", &[&["on"], &["off"]]),
     ("*", "seed", &[&["7"]]),
+    ("*", "threads", &[&["2"]]),
     // pictures
     ("render", "scene", &[&["scene.toml"], &["table"], &["spot"]]),
     ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),

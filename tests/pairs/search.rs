@@ -125,7 +125,7 @@ impl<'a> Search<'a> {
                     }
                     Verdict::Refused => (),
                     verdict => {
-                        covering::pairs_in(row).for_each(|p| drop(open.remove(&p)));
+                        open.retain(|p| !covering::is_in(row, p));
                         if let Verdict::Bad(faults) = verdict {
                             faults.into_iter().for_each(|f| self.count(row, f, report));
                         }
