@@ -8,7 +8,7 @@ use crate::solid::Body;
 use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
-use crate::store::terminal::printable;
+pub use crate::store::terminal::printable;
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::Path;

@@ -2,6 +2,7 @@
 
 use super::values;
 use crate::cut::families::{FAMILIES, Parameter};
+use crate::cut::library;
 use crate::math::typed::Unit;
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::collections::BTreeMap;
@@ -32,6 +33,7 @@ fn help(uses: &[(&str, &Parameter)]) -> String {
         .iter()
         .map(|(family, p)| {
             let (from, to) = p.range;
+            let family = library::plain(family).unwrap_or(family);
             format!("{family}: {}{unit} ({from} to {to}{unit})", p.default, unit = p.unit)
         })
         .collect();

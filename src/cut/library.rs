@@ -23,6 +23,20 @@ pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<De
     Some(document(name)?.and_then(|d| d.design(overrides)))
 }
 
+/// The TOML text of the cut called `name`, or none if there is no such cut.
+pub fn text(name: &str) -> Option<&'static str> {
+    EMBEDDED_CUTS.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, text)| *text)
+}
+
+/// The cut that is the family called `family` as it comes, with no parameter changed.
+pub fn plain(family: &str) -> Option<&'static str> {
+    let is_plain = |name: &&str| match document(name) {
+        Some(Ok(document)) => document.family.as_deref() == Some(family) && document.parameters.is_empty(),
+        _ => false,
+    };
+    names().find(is_plain)
+}
+
 /// Names that no cut can have: what is asked for, why not, and the cut nearest to it.
 const IMPOSSIBLE: &[(&str, &str, &str)] = &[(
     "heart",
