@@ -4,6 +4,7 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::words::quoted;
 use super::{folders, stones, values};
+use crate::formats::stone::STANDARD_INPUT;
 use crate::math::typed::{self, NumberError, Unit};
 use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
@@ -171,6 +172,9 @@ impl Inputs {
         let (mut identity, mut files) = (Identity::of(command), BTreeMap::new());
         for stone in stones {
             identity.add(stone);
+            if stone == STANDARD_INPUT {
+                identity.add_file(&Held::by_standard_input());
+            }
             if let Some(file) = folders::file_of(stone) {
                 let held = Held::by(file);
                 identity.add_file(&held);
@@ -203,7 +207,7 @@ impl Inputs {
 
 /// Refuses an output that is one of the inputs.
 pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
-    let same = |stone: &str| Path::new(stone) == output;
+    let same = |stone: &str| stone != STANDARD_INPUT && Path::new(stone) == output;
     match stones.find(|s| same(s)) {
         Some(stone) => Err(Failure::input(format!("{stone} is an input: write to another file"))),
         None => Ok(()),
