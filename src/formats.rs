@@ -239,7 +239,8 @@ pub fn written_to(path: &Path) -> Result<&'static Format, FormatError> {
 
 /// The format to write that is called `asked`, by name or ending.
 pub fn written_as(asked: &str) -> Result<&'static Format, FormatError> {
-    written(|f| f.name == asked || f.extensions.contains(&asked)).ok_or_else(|| no_writer(asked))
+    let name = asked.trim().trim_start_matches('.').to_lowercase();
+    written(|f| f.name == name || f.extensions.contains(&&*name)).ok_or_else(|| no_writer(asked))
 }
 
 fn written(wanted: impl Fn(&Format) -> bool) -> Option<&'static Format> {

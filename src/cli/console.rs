@@ -53,6 +53,11 @@ impl Console {
         write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| Failure::output(&e))
     }
 
+    /// What was made, where files are the result: standard output, unless quiet.
+    pub fn tell(&self, text: &str) -> Result<(), Failure> {
+        if self.quiet { Ok(()) } else { self.print(text) }
+    }
+
     /// A result that is a file's bytes: standard output.
     pub fn print_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         Ok(crate::store::replace::write("-".as_ref(), bytes)?)

@@ -96,7 +96,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     } else if console.json {
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
     } else {
-        console.print(&summary)?;
+        console.tell(&summary)?;
     }
     Ok(Code::Done)
 }

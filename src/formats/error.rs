@@ -120,7 +120,7 @@ pub enum FormatError {
         cause: DocumentError,
     },
     /// `name:key=value` with something else in place of a `key=value`.
-    #[error("stone '{spec}': '{found}' is not a parameter: {why}")]
+    #[error("stone '{spec}', at '{found}': {why}")]
     Parameter {
         /// The stone as asked for.
         spec: String,
@@ -154,7 +154,10 @@ pub enum FormatError {
         nearest: &'static str,
     },
     /// A format or extension that is not written.
-    #[error("cannot write '{asked}': its ending must be one of {}", .known.join(", "))]
+    #[error(
+        "cannot write '{asked}': its ending must be one of {}; cutlab generate also draws diagrams (.svg, .png)",
+        .known.join(", ")
+    )]
     NoWriter {
         /// The file or format asked for.
         asked: String,

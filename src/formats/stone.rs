@@ -76,7 +76,7 @@ fn parameters(spec: &str, rest: Option<&str>) -> Result<BTreeMap<String, f64>, F
                 part.bytes().all(|b| b.is_ascii_digit()) && last.ends_with(|c: char| c.is_ascii_digit());
             return Err(wrong(match are_digits {
                 true => format!("write decimals with a point, as {last}.{part}"),
-                false => "it has the form key=number".into(),
+                false => "a parameter is written as key=number".into(),
             }));
         };
         let key = key.trim().to_lowercase();

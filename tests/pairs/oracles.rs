@@ -65,10 +65,12 @@ fn ends(case: &Case, ran: &Ran) -> Vec<Fault> {
         faults.push(fault("exit code 0 or 2", format!("{:?}: {said}", ran.code)));
     }
     if ran.code == Some(2) {
-        if said.lines().count() != 1 || !said.starts_with("cutlab: ") {
+        // what failed of several may be told as JSON instead
+        let told = case.has("json") && serde_json::from_slice::<serde_json::Value>(&ran.stdout).is_ok();
+        if !told && (said.lines().count() != 1 || !said.starts_with("cutlab: ")) {
             faults.push(fault("a refusal is one line", said));
         }
-        if !ran.files.is_empty() || !ran.stdout.is_empty() {
+        if !ran.files.is_empty() || !(told || ran.stdout.is_empty()) {
             faults.push(fault("a refusal does nothing", format!("{said}: {:?}", ran.files.keys())));
         }
     }
@@ -96,7 +98,9 @@ fn written(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
         }
     }
     for (name, bytes) in &ran.files {
-        if let Some(found) = files::fault(name, bytes, inputs) {
+        // a part of a small table may have no rows, and JSON lines have no head
+        let no_rows = bytes.is_empty() && case.has("shard");
+        if let Some(found) = files::fault(name, bytes, inputs).filter(|_| !no_rows) {
             faults.push(fault("every output is whole", format!("{}: {found}", name.display())));
         }
         let width = case.values("width").first().and_then(|w| w.parse::<u32>().ok());

@@ -60,6 +60,9 @@ fn cell_fault(row: &Row, metric: &cutlab::metrics::Metric) -> Option<String> {
     }
 }
 
+/// What directions in single precision may be off by, in radians or degrees.
+const ROUNDING: f64 = 1e-5;
+
 /// What differs between tables of the same stones and metrics by beams and by photons: more than five
 /// errors, or a cell that one of them has.
 pub fn disagreement(beams: &[Row], photons: &[Row]) -> Option<String> {
@@ -74,7 +77,7 @@ pub fn disagreement(beams: &[Row], photons: &[Row]) -> Option<String> {
             };
             match (of(a), of(b)) {
                 (Some((x, e)), Some((y, f))) => {
-                    let apart = (x - y).abs() > 5.0 * e.hypot(f) + 2e-9;
+                    let apart = (x - y).abs() > 5.0 * e.hypot(f) + ROUNDING * m.scale;
                     apart.then(|| format!("{}: {x} ± {e} by beams, {y} ± {f} by photons", m.name))
                 }
                 (None, None) => None,
