@@ -15,7 +15,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// The document of the cut called `name`, or none if there is no such cut.
 pub fn document(name: &str) -> Option<Result<Document, DocumentError>> {
-    EMBEDDED_CUTS.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, text)| Document::parse(text))
+    source(name).map(Document::parse)
 }
 
 /// The cut called `name` with parameters overridden, or none if there is no such cut.
@@ -23,8 +23,8 @@ pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<De
     Some(document(name)?.and_then(|d| d.design(overrides)))
 }
 
-/// The TOML text of the cut called `name`, or none if there is no such cut.
-pub fn text(name: &str) -> Option<&'static str> {
+/// The design file of the cut called `name`, as it stands in `cuts/`.
+pub fn source(name: &str) -> Option<&'static str> {
     EMBEDDED_CUTS.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, text)| *text)
 }
 

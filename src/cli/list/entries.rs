@@ -182,7 +182,7 @@ fn cut(name: &'static str) -> Entry {
         "family": document.family,
         "parameters": parameters.collect::<Vec<_>>(),
     });
-    let text = library::text(name).unwrap_or_default().into();
+    let text = library::source(name).unwrap_or_default().into();
     Entry { name: name.into(), about: document.about, text, facts }
 }
 
