@@ -21,12 +21,14 @@ mod stones;
 mod sweep;
 mod tables;
 mod validate;
+mod values;
 mod words;
 
 use crate::store::limits;
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
@@ -41,7 +43,7 @@ struct Cli {
 
 const AFTER_HELP: &str = "\
 STONE is a name from `cutlab list cuts`, a name with parameters
-(round-brilliant:crown-angle=35,pavilion-angle=41), or a file.
+(round-brilliant:crown-angle=35,pavilion-angle=41), a file, or - for standard input.
 Exit codes: 0 done, 1 some stones (or figures of validate) failed, 2 usage or no input was good,
 3 could not read or write, 130 interrupted.
 Environment: CUTLAB_LIMIT=4 raises every limit on what is read four times (all: cutlab list limits).";
@@ -90,6 +92,34 @@ impl Command {
     }
 }
 
+/// The definition of the command line: every command with its options, for tests, manuals and completions.
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// The arguments, with a number that follows an option whose value may be left out joined to it:
+/// `--glare 8` is `--glare=8`, and in `--glare a.asc` what follows is a stone.
+fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) -> Vec<OsString> {
+    let options: Vec<String> = command
+        .get_subcommands()
+        .flat_map(|sub| sub.get_arguments())
+        .filter(|arg| arg.is_require_equals_set())
+        .filter_map(|arg| arg.get_long().map(|long| format!("--{long}")))
+        .collect();
+    let mut joined: Vec<OsString> = Vec::new();
+    for argument in arguments {
+        let is_number = argument.to_str().is_some_and(|text| text.parse::<f64>().is_ok());
+        match joined.last_mut() {
+            Some(last) if is_number && options.iter().any(|option| option.as_str() == last.as_os_str()) => {
+                last.push("=");
+                last.push(argument);
+            }
+            _ => joined.push(argument),
+        }
+    }
+    joined
+}
+
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
@@ -102,10 +132,11 @@ pub fn run() -> ExitCode {
     {
         return Failure::input(problem).report();
     }
-    let cli = match Cli::try_parse() {
+    let cli = match Cli::try_parse_from(joined(std::env::args_os(), &command())) {
         Ok(cli) => cli,
-        Err(error) => return outcome::usage(&error, &Cli::command()),
+        Err(error) => return outcome::usage(&error, &command()),
     };
+    cli.console.start_threads();
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),
@@ -115,6 +146,14 @@ pub fn run() -> ExitCode {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_number_after_an_option_that_may_stand_alone_is_its_value() {
+        let said = |line: &str| joined(line.split(' ').map(OsString::from), &command());
+        assert_eq!(said("cutlab render --glare 8 cube"), ["cutlab", "render", "--glare=8", "cube"]);
+        assert_eq!(said("cutlab render --glare cube"), ["cutlab", "render", "--glare", "cube"]);
+        assert_eq!(said("cutlab render --width 8"), ["cutlab", "render", "--width", "8"]);
+    }
 
     #[test]
     fn the_command_line_is_consistent() {

@@ -38,7 +38,7 @@ use crate::cut::{Design, USUAL_WIDTH_MM, Unit};
 use crate::optics::Material;
 use crate::solid::Body;
 use crate::solid::polyhedron::Fate;
-use crate::store::{limits, replace};
+use crate::store::{limits, replace, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -116,6 +116,13 @@ pub fn read(path: &Path) -> Result<Imported, FormatError> {
 /// As [`read`], for what a file names: only a regular file is read.
 pub fn read_regular(path: &Path) -> Result<Imported, FormatError> {
     read_as(path, limits::FILE.read_regular(path))
+}
+
+/// Reads standard input; files that it refers to are refused.
+pub fn read_standard_input() -> Result<Imported, FormatError> {
+    let path = Path::new("standard input");
+    let bytes = within_limit(path, stdin::bytes())?;
+    read_bytes("standard input", &bytes, None)
 }
 
 fn read_as(path: &Path, bytes: Bytes) -> Result<Imported, FormatError> {
@@ -270,7 +277,8 @@ pub fn written_to(path: &Path) -> Result<&'static Format, FormatError> {
 
 /// The format to write that is called `asked`, by name or ending.
 pub fn written_as(asked: &str) -> Result<&'static Format, FormatError> {
-    written(|f| f.name == asked || f.extensions.contains(&asked)).ok_or_else(|| no_writer(asked))
+    let name = asked.trim().trim_start_matches('.').to_lowercase();
+    written(|f| f.name == name || f.extensions.contains(&&*name)).ok_or_else(|| no_writer(asked))
 }
 
 fn written(wanted: impl Fn(&Format) -> bool) -> Option<&'static Format> {

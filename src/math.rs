@@ -1,4 +1,4 @@
-//! Mathematics that knows nothing of gems: random streams, sampling warps, statistics.
+//! Mathematics that knows nothing of gems: random streams, sampling warps, statistics, numbers as typed.
 
 pub mod histogram;
 pub mod points;
@@ -6,3 +6,4 @@ pub mod random;
 pub mod sample;
 pub mod statistic;
 pub mod stats;
+pub mod typed;

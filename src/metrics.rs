@@ -38,6 +38,7 @@ mod wlr;
 
 use crate::experiments;
 pub use crate::math::statistic::Statistic;
+use crate::math::typed;
 use crate::solid::Polyhedron;
 
 /// One score.
@@ -111,7 +112,7 @@ impl Metric {
 
     /// The metric called `name`, or none.
     pub fn named(name: &str) -> Option<&'static Metric> {
-        METRICS.iter().copied().find(|m| m.name == name)
+        METRICS.iter().copied().find(|m| typed::is_called(m.name, name))
     }
 }
 

@@ -13,6 +13,7 @@ pub mod placed;
 pub mod pose;
 pub mod surface;
 
+use crate::math::typed;
 use glam::Vec3;
 use std::path::Path;
 
@@ -60,7 +61,7 @@ pub static SCENES: &[(&str, &str)] = &[
 
 /// The scene of the catalogue called `name`.
 pub fn preset(name: &str) -> Option<Result<SceneFile, SceneError>> {
-    let (name, text) = SCENES.iter().find(|(n, _)| *n == name)?;
+    let (name, text) = SCENES.iter().find(|(n, _)| typed::is_called(n, name))?;
     Some(SceneFile::parse(name, name, text, Path::new("")))
 }
 

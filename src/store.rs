@@ -5,3 +5,5 @@ pub mod limits;
 pub mod lock;
 pub mod progress;
 pub mod replace;
+pub mod stdin;
+pub mod terminal;

@@ -281,15 +281,15 @@ fn stones_are_named_in_one_grammar() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/square.asc");
     assert_eq!(stone::open(&file.display().to_string()).expect("a file").format, "gemcad");
     for (spec, said) in [
-        ("round-briliant", "no cut and no file is called 'round-briliant': did you mean 'round-brilliant'?"),
+        ("round-briliant", "no cut and no file is called 'round-briliant'; did you mean 'round-brilliant'?"),
         ("round-briliant:table=55", "did you mean 'round-brilliant'?"),
-        ("round-brilliant:table", "expected key=value with a number, found 'table'"),
-        ("round-brilliant:table=wide", "expected key=value with a number, found 'table=wide'"),
-        ("round-brilliant:table=55,table=56", "found 'table=56'"),
+        ("round-brilliant:table", "at 'table': a parameter is written as key=number"),
+        ("round-brilliant:table=wide", "at 'table=wide': a number is needed"),
+        ("round-brilliant:table=55,table=56", "at 'table=56': table is given twice"),
         ("round-brilliant:tabel=55", "tabel"),
         ("octahedron:facets=9", "8"),
         ("", "no cut and no file is called ''"),
-        ("no/such/file.asc", "no cut and no file is called"),
+        ("no/such/file.asc", "there is no file 'no/such/file.asc'"),
     ] {
         let error = stone::open(spec).map(|i| i.format).expect_err(spec).to_string();
         assert!(error.contains(said) && !error.contains('\n'), "{error}");

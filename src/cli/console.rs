@@ -1,7 +1,9 @@
 //! What a command says and where: results on standard output, notes and progress on standard
 //! error.
 
-use super::outcome::{Failure, complain, printable};
+use super::outcome::{Failure, complain};
+use super::values;
+use crate::store::terminal::{printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 
@@ -14,14 +16,46 @@ pub struct Console {
     /// Results as JSON
     #[arg(long, global = true, display_order = 1000)]
     pub json: bool,
+    /// Work on this many threads [RAYON_NUM_THREADS, or one for each processor]; the results are the
+    /// same on any number
+    #[arg(long, short = 'j', global = true, display_order = 1000, value_name = "N", value_parser = values::whole(1..=MOST_THREADS, "threads are a whole number"))]
+    threads: Option<u32>,
 }
 
+/// More threads than that only take memory, and minutes to start.
+const MOST_THREADS: u32 = 256;
+/// How many threads there are, if `--threads` does not say.
+const THREADS: &str = "RAYON_NUM_THREADS";
+
 impl Console {
-    /// A result: standard output.
+    /// Starts the threads that work is done on, as many as were asked for but no more than
+    /// [`MOST_THREADS`].
+    pub fn start_threads(&self) {
+        let asked = std::env::var(THREADS).ok().and_then(|n| n.trim().parse::<u64>().ok()).unwrap_or(0);
+        if self.threads.is_none() && asked > u64::from(MOST_THREADS) {
+            self.note(&format!(
+                "note: {THREADS}={asked}: {MOST_THREADS} threads are used, the most there can be"
+            ));
+        }
+        let threads = self.threads.map_or(asked.min(MOST_THREADS.into()), u64::from);
+        // there is no pool yet, so it can only fail for want of threads: then fewer are started on demand
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
+    }
+
+    /// A result: standard output, without what a terminal would obey.
     pub fn print(&self, text: &str) -> Result<(), Failure> {
+        self.put(&printable(text))
+    }
+
+    fn put(&self, text: &str) -> Result<(), Failure> {
         let mut out = std::io::stdout().lock();
         let newline = if text.ends_with('\n') { "" } else { "\n" };
         write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| Failure::output(&e))
+    }
+
+    /// What was made, where files are the result: standard output, unless quiet.
+    pub fn tell(&self, text: &str) -> Result<(), Failure> {
+        if self.quiet { Ok(()) } else { self.print(text) }
     }
 
     /// A result that is a file's bytes: standard output.
@@ -32,7 +66,7 @@ impl Console {
     /// A result as JSON: standard output.
     pub fn print_json(&self, value: &impl serde::Serialize) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(value).map_err(|e| Failure::input(e.to_string()))?;
-        self.print(&text)
+        self.put(&printable_json(&text))
     }
 
     /// A remark: standard error, unless quiet.

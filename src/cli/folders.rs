@@ -2,7 +2,8 @@
 
 use super::outcome::Failure;
 use super::stones;
-use crate::formats::{self, FormatError, stone};
+use crate::formats::stone::{self, STANDARD_INPUT};
+use crate::formats::{self, FormatError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -98,5 +99,5 @@ fn designs(folder: &Path) -> Result<Vec<String>, Failure> {
 
 /// The file that a STONE is read from, if it is one.
 pub fn file_of(stone: &str) -> Option<&Path> {
-    Some(Path::new(stone)).filter(|path| !stones::is_cut(stone) && path.is_file())
+    Some(Path::new(stone)).filter(|path| stone != STANDARD_INPUT && !stones::is_cut(stone) && path.is_file())
 }

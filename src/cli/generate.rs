@@ -6,6 +6,7 @@ use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use crate::cut::{Design, families};
+use super::values;
 use crate::formats;
 use crate::optics::Material;
 use crate::store::replace;
@@ -23,7 +24,7 @@ pub struct Args {
     #[arg(default_value = DEFAULT_STONE)]
     stone: String,
     /// Exact total of facets; girdle flats are added or taken to meet it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::whole(1..=1_000_000, "a total of facets is a whole number"))]
     facets: Option<u32>,
     /// Girdle diameter (width) in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
@@ -106,7 +107,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     } else if console.json {
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
     } else {
-        console.print(&summary)?;
+        console.tell(&summary)?;
     }
     Ok(Code::Done)
 }

@@ -8,6 +8,8 @@ use crate::solid::Body;
 use crate::solid::SolidError;
 use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
+pub use crate::store::terminal::printable;
+use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -207,12 +209,6 @@ fn one_line(text: &str) -> String {
     printable(&lines.join("; "))
 }
 
-/// The text with control characters, but line ends, escaped: a file's name or words may hold any.
-pub fn printable(text: &str) -> String {
-    let shown = |c: char| if c.is_control() && c != '\n' { c.escape_default().to_string() } else { c.into() };
-    text.chars().map(shown).collect()
-}
-
 /// Ends after the argument parser: help and version go to standard output, an error becomes one
 /// line that ends in what to type next.
 pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
@@ -239,7 +235,7 @@ pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
 
 /// The help command nearest to what was typed.
 fn help_command(command: &clap::Command) -> String {
-    let typed: Vec<String> = std::env::args().skip(1).collect();
+    let typed: Vec<OsString> = std::env::args_os().skip(1).collect();
     let sub = command.get_subcommands().map(clap::Command::get_name).find(|s| typed.iter().any(|t| t == s));
     sub.map_or_else(|| "cutlab --help".into(), |s| format!("cutlab {s} --help"))
 }

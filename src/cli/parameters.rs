@@ -1,7 +1,10 @@
 //! The parameters of all families as flags: a family's file adds its own by being in the catalogue.
 
+use super::values;
 use crate::cut::families::{FAMILIES, Parameter};
-use clap::{Arg, ArgMatches, Command, FromArgMatches, value_parser};
+use crate::cut::library;
+use crate::math::typed::Unit;
+use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::collections::BTreeMap;
 
 /// A key that every stone has, with a flag of its own.
@@ -30,6 +33,7 @@ fn help(uses: &[(&str, &Parameter)]) -> String {
         .iter()
         .map(|(family, p)| {
             let (from, to) = p.range;
+            let family = library::plain(family).unwrap_or(family);
             format!("{family}: {}{unit} ({from} to {to}{unit})", p.default, unit = p.unit)
         })
         .collect();
@@ -53,7 +57,7 @@ impl clap::Args for Parameters {
                     .help(help(&uses))
                     .help_heading("Parameters of the cut")
                     .allow_negative_numbers(true)
-                    .value_parser(value_parser!(f64)),
+                    .value_parser(values::number(Unit::of(unit))),
             )
         })
     }
@@ -87,7 +91,7 @@ impl Parameters {
             return spec.into();
         }
         let (name, own) = spec.split_once(':').unwrap_or((spec, ""));
-        let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_string();
+        let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_lowercase();
         let kept =
             own.split(',').filter(|item| !item.trim().is_empty() && !self.0.contains_key(&key_of(item)));
         let given = self.0.iter().map(|(key, value)| format!("{key}={value}"));

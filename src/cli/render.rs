@@ -6,7 +6,8 @@ mod rounds;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
-use super::stones;
+use super::{stones, values};
+use crate::math::typed::{self, Unit};
 use crate::photons::{self, Shots, file};
 use crate::render::animation::Turn;
 use crate::render::{self, Curve, Maps, Tone, tone};
@@ -42,16 +43,16 @@ pub struct Args {
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels across; the scene has a default
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_parser = values::whole(1..=16384, "a width is a whole number of pixels"))]
     width: Option<u32>,
     /// Pixels down; the scene has a default
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_parser = values::whole(1..=16384, "a height is a whole number of pixels"))]
     height: Option<u32>,
     /// Camera rays a pixel: 25, or 1 in each round of --progressive
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_parser = values::whole(1..=1_000_000, "camera rays are a whole number"))]
     spp: Option<u32>,
     /// Seed of all random numbers
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = values::seed)]
     seed: u64,
     #[command(flatten)]
     stops: rounds::Stops,
@@ -68,7 +69,7 @@ pub struct Args {
     #[arg(long)]
     passes: bool,
     /// An animation of this many pictures
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = values::whole(1..=100_000, "an animation has a whole number of pictures"))]
     frames: Option<u32>,
     /// What turns in an animation: camera, stone or light
     #[arg(long, default_value = "camera", value_parser = turn)]
@@ -112,15 +113,15 @@ impl Args {
 }
 
 fn exposure(text: &str) -> Result<Exposure, String> {
-    match text.parse::<f32>() {
-        _ if text == "auto" => Ok(Exposure::Auto),
-        Ok(stops) if stops.abs() <= 30.0 => Ok(Exposure::Stops(stops)),
-        _ => Err("an exposure is a number of stops from -30 to 30, or auto".into()),
+    if text.trim().eq_ignore_ascii_case("auto") {
+        return Ok(Exposure::Auto);
     }
+    let stops = typed::within(text, Unit::None, -30.0..=30.0, "an exposure is auto, or a number of stops")?;
+    Ok(Exposure::Stops(stops as f32))
 }
 
 fn one_of<T: Copy, const N: usize>(all: &[(&str, T); N], name: &str) -> Result<T, String> {
-    let found = all.iter().find(|(n, _)| *n == name).map(|(_, value)| *value);
+    let found = all.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, value)| *value);
     found.ok_or_else(|| format!("there is {}", all.each_ref().map(|(n, _)| *n).join(", ")))
 }
 
@@ -137,17 +138,12 @@ fn curve(name: &str) -> Result<Curve, String> {
 }
 
 fn f_number(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(n) if (1.0..=64.0).contains(&n) => Ok(n),
-        _ => Err("an f-number from 1 to 64 is needed".into()),
-    }
+    let number = text.trim().strip_prefix("f/").unwrap_or(text);
+    Ok(typed::within(number, Unit::None, 1.0..=64.0, "an f-number is a number")? as f32)
 }
 
 fn counted(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(n) if (1..=50_000_000).contains(&n) => Ok(n),
-        _ => Err("a number from 1 to 50000000 is needed".into()),
-    }
+    Ok(typed::whole(text, 1..=50_000_000, "photons are a whole number")? as usize)
 }
 
 /// Takes the picture or pictures.
@@ -180,9 +176,9 @@ fn scene_file(name: &str) -> Result<SceneFile, Failure> {
     if path.extension().is_some_and(|e| e == "toml") || path.exists() {
         return Ok(SceneFile::open(path)?);
     }
-    let near = stones::nearest(name, SCENES.iter().map(|(n, _)| *n));
+    let near = typed::suggestion(typed::nearest(name, SCENES.iter().map(|(n, _)| *n)));
     Err(Failure::input(format!(
-        "no scene is called '{name}', the nearest is '{near}' (all: cutlab list scenes), and there is no such file"
+        "no scene and no file is called '{name}'{near} (all scenes: cutlab list scenes)"
     )))
 }
 

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::stones::{self, DEFAULT_STONE};
-use super::words;
+use super::{values, words};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::optics::dispersion::VISIBLE_UM;
@@ -36,7 +36,7 @@ pub struct Args {
     #[command(flatten)]
     substance: stones::Substance,
     /// Seed of the random streams
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
 }
 

@@ -6,7 +6,9 @@ use super::outcome::{Code, Failure};
 use super::scoring::{self, Inputs, Scoring};
 use super::stones::DEFAULT_STONE;
 use super::tables::{self, Study, Table};
+use super::values;
 use super::words::quoted;
+use crate::math::typed::Unit;
 use crate::study::batch::Line;
 use crate::study::score::Tilt;
 use crate::study::sweep::Steps;
@@ -38,6 +40,7 @@ pub struct Args {
         value_name = "AZIMUTH",
         default_value_t = 0.0,
         allow_hyphen_values = true,
+        value_parser = values::number(Unit::Degrees),
         requires = "tilt"
     )]
     tilt_axis: f64,
@@ -87,7 +90,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 
 /// Value parser of `--tilt`.
 fn tilt(text: &str) -> Result<Steps, String> {
-    let steps: Steps = text.parse()?;
+    let steps = Steps::read(text, Unit::Degrees)?;
     match steps.from.abs().max(steps.to.abs()) < 90.0 {
         true => Ok(steps),
         false => Err("a stone can be tilted by less than 90°".into()),

@@ -3,7 +3,9 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::words::quoted;
-use super::{folders, stones};
+use super::{folders, stones, values};
+use crate::formats::stone::STANDARD_INPUT;
+use crate::math::typed::{self, NumberError, Unit};
 use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
 use crate::optics::dispersion::lines;
@@ -33,7 +35,7 @@ pub struct Scoring {
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stones::on_off, action = clap::ArgAction::Set)]
     polarisation: bool,
     /// Seed of the random streams
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     pub seed: u64,
     #[command(flatten)]
     pub substance: stones::Substance,
@@ -170,6 +172,9 @@ impl Inputs {
         let (mut identity, mut files) = (Identity::of(command), BTreeMap::new());
         for stone in stones {
             identity.add(stone);
+            if stone == STANDARD_INPUT {
+                identity.add_file(&Held::by_standard_input());
+            }
             if let Some(file) = folders::file_of(stone) {
                 let held = Held::by(file);
                 identity.add_file(&held);
@@ -202,7 +207,7 @@ impl Inputs {
 
 /// Refuses an output that is one of the inputs.
 pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
-    let same = |stone: &str| Path::new(stone) == output;
+    let same = |stone: &str| stone != STANDARD_INPUT && Path::new(stone) == output;
     match stones.find(|s| same(s)) {
         Some(stone) => Err(Failure::input(format!("{stone} is an input: write to another file"))),
         None => Ok(()),
@@ -212,23 +217,24 @@ pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>
 /// Value parser of `--metrics`.
 fn metric(name: &str) -> Result<&'static Metric, String> {
     Metric::named(name).ok_or_else(|| {
-        let near = stones::nearest(name, METRICS.iter().map(|m| m.name));
-        format!("no metric is called '{name}', the nearest is '{near}' (all: cutlab list metrics)")
+        let near = typed::nearest(name, METRICS.iter().map(|m| m.name));
+        let name = name.trim();
+        format!("no metric is called '{name}'{} (all: cutlab list metrics)", typed::suggestion(near))
     })
 }
 
 /// Value parser of `--error`.
 fn error(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(e) if e > 0.0 && e.is_finite() => Ok(e),
-        _ => Err("a standard error is a number above 0".into()),
+    match typed::number(text, Unit::None) {
+        Ok(e) if e > 0.0 => Ok(e),
+        Ok(_) | Err(NumberError::No | NumberError::Infinite) => {
+            Err("a standard error is a number above 0".into())
+        }
+        Err(error) => Err(error.to_string()),
     }
 }
 
 /// Value parser of `--observer`.
 fn half_angle(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(a) if (0.0..=90.0).contains(&a) => Ok(a),
-        _ => Err("a half-angle is a number of degrees from 0 to 90".into()),
-    }
+    typed::within(text, Unit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
 }

@@ -5,6 +5,7 @@ use super::outcome::{Code, Failure};
 use crate::cut::families::Family;
 use crate::cut::{Design, USUAL_WIDTH_MM, Unit, families, library};
 use crate::formats::{Imported, stone};
+use crate::math::typed;
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
 use rayon::prelude::*;
@@ -51,28 +52,24 @@ pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
 
 /// Whether STONE names a cut of the library or a family, with parameters or not.
 pub fn is_cut(spec: &str) -> bool {
-    let name = spec.split(':').next().unwrap_or_default();
-    library::names().any(|n| n == name) || families::family(name).is_ok()
+    stone::cut_name(spec).is_some()
 }
 
 /// The family that STONE is made by; none for a file and for a cut of fixed tiers.
 pub fn family(spec: &str) -> Option<&'static Family> {
-    let name = spec.split(':').next().unwrap_or_default();
+    let name = stone::cut_name(spec)?;
     let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
     families::family(family.as_deref().unwrap_or(name)).ok()
 }
 
 /// Value parser of `--size`.
 pub fn millimetres(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(mm) if (1e-3..=1e3).contains(&mm) => Ok(mm),
-        _ => Err("a girdle width is a number of millimetres from 0.001 to 1000".into()),
-    }
+    typed::within(text, typed::Unit::Millimetres, 1e-3..=1e3, "a girdle width is a number of millimetres")
 }
 
 /// Value parser of `--polarisation`.
 pub fn on_off(text: &str) -> Result<bool, String> {
-    match text {
+    match &*text.trim().to_lowercase() {
         "on" => Ok(true),
         "off" => Ok(false),
         _ => Err("polarisation is on or off".into()),
@@ -82,17 +79,14 @@ pub fn on_off(text: &str) -> Result<bool, String> {
 /// Value parser of `--material`.
 pub fn material(name: &str) -> Result<&'static Material, String> {
     Material::named(name).ok_or_else(|| {
-        let near = nearest(name, MATERIALS.iter().map(|m| m.name.as_ref()));
-        format!("no material is called '{name}', the nearest is '{near}' (all: cutlab list materials)")
+        let near = typed::nearest(name, MATERIALS.iter().map(|m| m.name.as_ref()));
+        format!("no material is called '{name}'{} (all: cutlab list materials)", typed::suggestion(near))
     })
 }
 
 /// Value parser of `--ri`.
 pub fn refractive_index(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(n) if (1.0..=10.0).contains(&n) => Ok(n),
-        _ => Err("a refractive index is a number from 1 to 10".into()),
-    }
+    typed::within(text, typed::Unit::None, 1.0..=10.0, "a refractive index is a number")
 }
 
 /// What a stone is made of, as asked for on the command line.
@@ -133,12 +127,6 @@ impl Substance {
     }
 }
 
-/// The candidate most like `name`.
-pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
-    let likeness = |c: &&str| strsim::normalized_damerau_levenshtein(c, name);
-    candidates.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).unwrap_or_default()
-}
-
 /// Girdle width of a stone of which nobody says how large it is, in millimetres.
 pub const USUAL_SIZE: f64 = USUAL_WIDTH_MM;
 
@@ -177,5 +165,5 @@ pub fn sized(design: Design, size: Option<f64>) -> Result<Design, Failure> {
 pub fn file_stem(spec: &str) -> String {
     let name = spec.split(':').next().unwrap_or(spec);
     let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    if stem.is_empty() { "stone".into() } else { stem.into_owned() }
+    if stem.is_empty() || spec == stone::STANDARD_INPUT { "stone".into() } else { stem.into_owned() }
 }

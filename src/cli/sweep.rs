@@ -7,6 +7,7 @@ use super::scoring::{Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
+use crate::math::typed;
 use crate::report::plot::{self, Axis};
 use crate::report::raster;
 use crate::store::replace;
@@ -37,7 +38,7 @@ pub struct Args {
     #[arg(long, value_name = "KEY=FROM:TO:STEP", required = true)]
     vary: Vec<Varied>,
     /// So many points spread evenly between the ends of the ranges, in place of the grid
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    #[arg(long, value_name = "N", value_parser = scattered)]
     scatter: Option<u64>,
     /// Draw a curve (one --vary) or a map (two), .svg or .png; a file called METRIC.svg shows that
     /// metric, of any other name one is drawn for each, NAME-METRIC.svg
@@ -47,6 +48,11 @@ pub struct Args {
     table: Table,
     #[command(flatten)]
     scoring: Scoring,
+}
+
+/// Value parser of `--scatter`.
+fn scattered(text: &str) -> Result<u64, String> {
+    typed::whole(text, 1..=1_000_000_000, "--scatter takes a whole number of points")
 }
 
 /// Scores every point and writes the table.

@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
-use super::words;
+use super::{values, words};
 use crate::report::validation::{self, count, expectation, written};
 use crate::store::replace;
 use crate::study::validate::{self, Lab, Outcome, Report, Verdict};
@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
     /// Seed of the random streams
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
 }
 

@@ -2,7 +2,7 @@
 
 /// The command as typed.
 pub fn typed() -> String {
-    let words = std::env::args().skip(1).map(|word| quoted(&word));
+    let words = std::env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
     std::iter::once("cutlab".to_string()).chain(words).collect::<Vec<_>>().join(" ")
 }
 

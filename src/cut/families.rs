@@ -11,6 +11,7 @@ pub mod round_brilliant;
 mod step_cut;
 
 use super::design::Design;
+use crate::math::typed::{self, Unit, shown};
 use std::collections::BTreeMap;
 
 /// One parameter of a family.
@@ -84,7 +85,7 @@ pub enum CutError {
         key: String,
     },
     /// A value outside its range.
-    #[error("{key} = {value}{unit} is out of range: {from} to {to}{unit}")]
+    #[error("{key} = {}{unit} is out of range: {from} to {to}{unit}", shown(*.value))]
     OutOfRange {
         /// The parameter.
         key: &'static str,
@@ -139,10 +140,16 @@ impl Values {
 
 /// The family called `name`.
 pub fn family(name: &str) -> Result<&'static Family, CutError> {
-    FAMILIES.iter().copied().find(|f| f.name == name).ok_or_else(|| CutError::UnknownFamily {
+    FAMILIES.iter().copied().find(|f| typed::is_called(f.name, name)).ok_or_else(|| CutError::UnknownFamily {
         name: name.into(),
         known: FAMILIES.iter().map(|f| f.name).collect(),
     })
+}
+
+/// The unit of the parameter `key`, which all families have alike.
+pub fn unit(key: &str) -> Unit {
+    let mut parameters = FAMILIES.iter().flat_map(|f| f.parameters);
+    parameters.find(|p| p.key == key).map_or(Unit::None, |p| Unit::of(p.unit))
 }
 
 /// Builds a design of a family from the given values and the defaults of the rest.

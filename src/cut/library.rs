@@ -2,6 +2,8 @@
 
 use super::design::Design;
 use super::document::{Document, DocumentError};
+use super::families::FAMILIES;
+use crate::math::typed;
 use std::collections::BTreeMap;
 
 include!(concat!(env!("OUT_DIR"), "/embedded_cuts.rs"));
@@ -13,12 +15,26 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// The document of the cut called `name`, or none if there is no such cut.
 pub fn document(name: &str) -> Option<Result<Document, DocumentError>> {
-    EMBEDDED_CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| Document::parse(text))
+    source(name).map(Document::parse)
 }
 
 /// The cut called `name` with parameters overridden, or none if there is no such cut.
 pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<Design, DocumentError>> {
     Some(document(name)?.and_then(|d| d.design(overrides)))
+}
+
+/// The design file of the cut called `name`, as it stands in `cuts/`.
+pub fn source(name: &str) -> Option<&'static str> {
+    EMBEDDED_CUTS.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, text)| *text)
+}
+
+/// The cut that is the family called `family` as it comes, with no parameter changed.
+pub fn plain(family: &str) -> Option<&'static str> {
+    let is_plain = |name: &&str| match document(name) {
+        Some(Ok(document)) => document.family.as_deref() == Some(family) && document.parameters.is_empty(),
+        _ => false,
+    };
+    names().find(is_plain)
 }
 
 /// Names that no cut can have: what is asked for, why not, and the cut nearest to it.
@@ -31,11 +47,15 @@ const IMPOSSIBLE: &[(&str, &str, &str)] = &[(
 
 /// Why there is no cut of that name, and the nearest that there is.
 pub fn impossible(name: &str) -> Option<(&'static str, &'static str)> {
-    IMPOSSIBLE.iter().find(|(n, ..)| *n == name).map(|(_, why, nearest)| (*why, *nearest))
+    IMPOSSIBLE.iter().find(|(n, ..)| typed::is_called(n, name)).map(|(_, why, nearest)| (*why, *nearest))
 }
 
-/// The cut's name most like `name`.
-pub fn nearest(name: &str) -> &'static str {
-    let distance = |n: &&str| (1e6 * (1.0 - strsim::jaro_winkler(n, name))) as u64;
-    names().min_by_key(distance).unwrap_or_default()
+/// The cut or family called `name` in any case, as it is written; none if there is none.
+pub fn called(name: &str) -> Option<&'static str> {
+    names().chain(FAMILIES.iter().map(|f| f.name)).find(|n| typed::is_called(n, name))
+}
+
+/// The cut that is probably meant by `name`, if one is near.
+pub fn nearest(name: &str) -> Option<&'static str> {
+    typed::nearest(name, names())
 }

@@ -1,6 +1,7 @@
 //! The one error of every reader and writer. Each is one line.
 
 use crate::cut::document::DocumentError;
+use crate::math::typed::suggestion;
 use crate::solid::recover::RecoverError;
 use crate::solid::{Body, SolidError};
 use crate::store::limits::Exceeded;
@@ -119,20 +120,28 @@ pub enum FormatError {
         cause: DocumentError,
     },
     /// `name:key=value` with something else in place of a `key=value`.
-    #[error("stone '{spec}': expected key=value with a number, found '{found}'")]
+    #[error("stone '{spec}', at '{found}': {why}")]
     Parameter {
         /// The stone as asked for.
         spec: String,
         /// The part that is not understood.
         found: String,
+        /// Why not.
+        why: String,
     },
     /// Neither a cut nor a file.
-    #[error("no cut and no file is called '{spec}': did you mean '{nearest}'?")]
+    #[error("no cut and no file is called '{spec}'{} (all cuts: cutlab list cuts)", suggestion(*.nearest))]
     NoSuchStone {
         /// The stone as asked for.
         spec: String,
-        /// The library's nearest name.
-        nearest: &'static str,
+        /// The library's name that is probably meant.
+        nearest: Option<&'static str>,
+    },
+    /// What can only be the name of a file, and is not.
+    #[error("there is no file '{spec}'")]
+    NoSuchFile {
+        /// The file as asked for.
+        spec: String,
     },
     /// A cut that cannot be made.
     #[error("there is no cut '{spec}': {why}; the nearest is '{nearest}'")]
@@ -145,7 +154,10 @@ pub enum FormatError {
         nearest: &'static str,
     },
     /// A format or extension that is not written.
-    #[error("cannot write '{asked}': its ending must be one of {}", .known.join(", "))]
+    #[error(
+        "cannot write '{asked}': its ending must be one of {}; cutlab generate also draws diagrams (.svg, .png)",
+        .known.join(", ")
+    )]
     NoWriter {
         /// The file or format asked for.
         asked: String,

@@ -1,19 +1,24 @@
 //! The one grammar for stones, wherever cutlab is told one: `round-brilliant`,
-//! `round-brilliant:crown-angle=35,table=57`, or a file.
+//! `round-brilliant:crown-angle=35,table=57`, a file, or `-` for standard input.
 
 use super::error::FormatError;
-use super::{Imported, read, read_regular};
+use super::{Imported, read, read_regular, read_standard_input};
 use crate::cut::document::DocumentError;
 use crate::cut::{Design, families, library};
+use crate::math::typed;
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::Path;
+
+/// The STONE that is read from standard input.
+pub const STANDARD_INPUT: &str = "-";
 
 /// Opens a stone: a library cut or family, with or without parameters, or a file of any format.
 ///
 /// A library name wins over a file of that name, which `./name` reaches. Errors are one line and
-/// name the nearest cut where there is neither. Checked in `tests/formats.rs`.
+/// suggest a cut whose name is near where there is neither. Checked in `tests/formats.rs`.
 pub fn open(spec: &str) -> Result<Imported, FormatError> {
-    open_by(spec, read)
+    if spec == STANDARD_INPUT { read_standard_input() } else { open_by(spec, read) }
 }
 
 /// As [`open`], for a stone that a file names: only a regular file is read.
@@ -23,20 +28,37 @@ pub fn open_regular(spec: &str) -> Result<Imported, FormatError> {
 
 fn open_by(spec: &str, read: fn(&Path) -> Result<Imported, FormatError>) -> Result<Imported, FormatError> {
     let (name, rest) = spec.split_once(':').map_or((spec, None), |(name, rest)| (name, Some(rest)));
-    let known = library::names().any(|n| n == name) || families::FAMILIES.iter().any(|f| f.name == name);
-    if known {
+    if let Some(name) = cut_name(spec) {
         let design = cut(name, &parameters(spec, rest)?)
             .map_err(|cause| FormatError::Cut { file: spec.into(), cause })?;
         return Ok(Imported { design, format: "library", warnings: Vec::new() });
     }
     let path = Path::new(spec);
-    if !spec.is_empty() && std::fs::symlink_metadata(path).is_ok() {
+    let missing = match std::fs::symlink_metadata(path) {
+        Ok(_) => false,
+        // what there is no right to look at may be there
+        Err(e) => spec.is_empty() || e.kind() != ErrorKind::PermissionDenied,
+    };
+    if !missing {
         return read(path);
     }
     if let Some((why, nearest)) = library::impossible(name) {
         return Err(FormatError::Impossible { spec: spec.into(), why, nearest });
     }
+    if spec.contains(['/', '\\']) || Path::new(name).extension().is_some() {
+        return Err(FormatError::NoSuchFile { spec: spec.into() });
+    }
     Err(FormatError::NoSuchStone { spec: spec.into(), nearest: library::nearest(name) })
+}
+
+/// The cut of the library or the family that a STONE names, as it is written in the catalogue; none
+/// for a file.
+///
+/// A name in another case is that cut's too, unless there is a file of just that name.
+pub fn cut_name(spec: &str) -> Option<&'static str> {
+    let name = spec.split(':').next().unwrap_or_default();
+    let cut = library::called(name)?;
+    (cut == name || std::fs::symlink_metadata(spec).is_err()).then_some(cut)
 }
 
 fn cut(name: &str, values: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
@@ -46,13 +68,26 @@ fn cut(name: &str, values: &BTreeMap<String, f64>) -> Result<Design, DocumentErr
 /// `key=value,key=value`; nothing after the colon is no parameter.
 fn parameters(spec: &str, rest: Option<&str>) -> Result<BTreeMap<String, f64>, FormatError> {
     let mut values = BTreeMap::new();
+    let mut last = "";
     for part in rest.unwrap_or_default().split(',').map(str::trim).filter(|p| !p.is_empty()) {
-        let wrong = || FormatError::Parameter { spec: spec.into(), found: part.into() };
-        let (key, value) = part.split_once('=').ok_or_else(wrong)?;
-        let value: f64 = value.trim().parse().map_err(|_| wrong())?;
-        if key.trim().is_empty() || values.insert(key.trim().to_owned(), value).is_some() {
-            return Err(wrong());
+        let wrong = |why: String| FormatError::Parameter { spec: spec.into(), found: part.into(), why };
+        let Some((key, value)) = part.split_once('=') else {
+            let are_digits =
+                part.bytes().all(|b| b.is_ascii_digit()) && last.ends_with(|c: char| c.is_ascii_digit());
+            return Err(wrong(match are_digits {
+                true => format!("write decimals with a point, as {last}.{part}"),
+                false => "a parameter is written as key=number".into(),
+            }));
+        };
+        let key = key.trim().to_lowercase();
+        let value = typed::number(value, families::unit(&key)).map_err(|e| wrong(e.to_string()))?;
+        if key.is_empty() {
+            return Err(wrong("its key is missing".into()));
         }
+        if values.insert(key.clone(), value).is_some() {
+            return Err(wrong(format!("{key} is given twice")));
+        }
+        last = part;
     }
     Ok(values)
 }

@@ -6,6 +6,7 @@ mod d65;
 mod equal_energy;
 
 use super::colour;
+use crate::math::typed;
 use glam::Vec3;
 
 /// A light source's spectrum.
@@ -41,7 +42,7 @@ pub static ILLUMINANTS: &[&Illuminant] = &[&d65::D65, &a::A, &d50::D50, &equal_e
 impl Illuminant {
     /// The illuminant called `name`, or none.
     pub fn named(name: &str) -> Option<&'static Illuminant> {
-        ILLUMINANTS.iter().copied().find(|i| i.name == name)
+        ILLUMINANTS.iter().copied().find(|i| typed::is_called(i.name, name))
     }
 
     /// CIE standard illuminant D65, daylight.

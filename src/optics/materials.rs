@@ -26,6 +26,7 @@ mod zircon;
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, lines};
+use crate::math::typed;
 use std::borrow::Cow;
 
 /// What a stone is made of.
@@ -81,7 +82,7 @@ pub static MATERIALS: &[&Material] = &[
 impl Material {
     /// The material called `name`, or none.
     pub fn named(name: &str) -> Option<&'static Material> {
-        MATERIALS.iter().copied().find(|m| m.name == name)
+        MATERIALS.iter().copied().find(|m| typed::is_called(&m.name, name))
     }
 
     /// A material known by one index alone, without dispersion, colour or weight.

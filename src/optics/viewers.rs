@@ -3,6 +3,7 @@
 //! The light belongs to the viewer, so the picture of a viewer and the score of that name mean the
 //! same bands. Elevations are above the girdle plane of a stone seen face-up, in degrees.
 
+use crate::math::typed;
 use glam::Vec3;
 
 /// A zone of the sky of one colour.
@@ -84,7 +85,7 @@ pub static VIEWERS: &[Viewer] = &[
 impl Viewer {
     /// The viewer called `name`.
     pub fn named(name: &str) -> Option<&'static Viewer> {
-        VIEWERS.iter().find(|v| v.name == name)
+        VIEWERS.iter().find(|v| typed::is_called(v.name, name))
     }
 
     /// The zone (its number) of a unit direction whose z is `z`.

@@ -37,7 +37,7 @@ pub enum MapFileError {
     #[error(transparent)]
     Write(#[from] WriteError),
     /// Not a photon map, damaged, or of another version.
-    #[error("{path} is no photon map that can be used: {problem}; delete it to have it made anew")]
+    #[error("{path} is not a photon map that can be used: {problem}; delete it to have it made anew")]
     Unusable {
         /// The file.
         path: PathBuf,

@@ -138,7 +138,7 @@ pub static LIGHTS: &[&Kind] =
 impl Kind {
     /// The kind called `name`.
     pub fn named(name: &str) -> Option<&'static Kind> {
-        LIGHTS.iter().copied().find(|k| k.name == name)
+        LIGHTS.iter().copied().find(|k| crate::math::typed::is_called(k.name, name))
     }
 }
 

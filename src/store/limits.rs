@@ -169,7 +169,7 @@ impl Limit {
 /// may do anything, and whoever named it may be a stranger.
 pub fn regular(path: &Path) -> Result<File, Error> {
     if !std::fs::metadata(path)?.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, "it is no file"));
+        return Err(Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
     }
     File::open(path)
 }

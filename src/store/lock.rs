@@ -34,7 +34,10 @@ pub fn take(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
     loop {
         // a pipe in its place would be waited for without end
         if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) {
-            return Err(Error::new(ErrorKind::InvalidInput, format!("{} is no file", path.display())));
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!("{} is not a regular file", path.display()),
+            ));
         }
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {

@@ -1,8 +1,9 @@
 //! Whole-file replace: a reader sees the old file or the complete new one, never a part.
 
 use super::lock;
+use super::terminal::Terminal;
 use std::fs::File;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
@@ -24,7 +25,8 @@ pub fn is_stream(path: &Path) -> bool {
 /// Opens what [`is_stream`].
 pub fn open_stream(path: &Path) -> Result<Box<dyn Write + Send>, WriteError> {
     if path == Path::new("-") {
-        return Ok(Box::new(std::io::stdout()));
+        let stdout = std::io::stdout();
+        return Ok(if stdout.is_terminal() { Box::new(Terminal::new(stdout)) } else { Box::new(stdout) });
     }
     let opened = std::fs::OpenOptions::new().write(true).open(path);
     Ok(Box::new(opened.map_err(|cause| WriteError { path: path.to_owned(), cause })?))

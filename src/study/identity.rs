@@ -1,7 +1,7 @@
 //! What a table is a function of, in one short word.
 
 use crate::formats;
-use crate::store::limits;
+use crate::store::{limits, stdin};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -26,6 +26,11 @@ impl Held {
             content.extend(format!("{:?}", formats::read(path)).bytes());
         }
         Held(read.is_ok().then(|| Sha256::digest(&content).into()))
+    }
+
+    /// What standard input holds.
+    pub fn by_standard_input() -> Held {
+        Held(stdin::bytes().ok().and_then(Result::ok).map(|bytes| Sha256::digest(&bytes).into()))
     }
 
     /// Whether the file could be read.

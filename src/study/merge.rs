@@ -33,7 +33,7 @@ pub enum MergeError {
         cause: std::io::Error,
     },
     /// A companion that is none.
-    #[error("{0} is no companion of a table that cutlab wrote: {1}")]
+    #[error("{0} is not the companion of a table that cutlab wrote: {1}")]
     Meta(PathBuf, String),
     /// A table that is not what its companion says.
     #[error("{0} is not as it was written: its checksum is not the one in {1}")]

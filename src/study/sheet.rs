@@ -5,6 +5,7 @@ use crate::experiments::weigh::Effort as Work;
 use crate::experiments::{BATCHES, Experiment, ExperimentError, Traced};
 use crate::math::statistic::Statistic;
 use crate::math::stats::{Estimate, Sum};
+use crate::math::typed::shown;
 use crate::metrics::{Metric, Reading};
 
 /// So many points of the hemisphere are as dear as one photon that finishes beams, which then outweigh it.
@@ -148,6 +149,7 @@ impl Sheet<'_> {
 
     /// Notes an error that was not reached.
     fn complain(&mut self, name: &str, target: f64, error: f64, samples: u64) {
+        let target = shown(target);
         let note =
             format!("{name}: standard error {target} not reached: {error:.2e} after {samples} samples");
         let before = self.row.error.take();

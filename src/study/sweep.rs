@@ -1,7 +1,9 @@
 //! Sweeps: the values that parameters run through, and the stone at each point.
 
+use crate::cut::families;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
+use crate::math::typed::{self, NumberError, Unit};
 use std::fmt;
 use std::str::FromStr;
 
@@ -37,20 +39,27 @@ fn rounded(x: f64) -> f64 {
     (x * 1e9).round() / 1e9
 }
 
-impl FromStr for Steps {
-    type Err = String;
-
+impl Steps {
     /// `FROM:TO:STEP`, or one number.
-    fn from_str(text: &str) -> Result<Steps, String> {
-        let wrong = || format!("'{text}' is no range: FROM:TO:STEP, as 30:38:0.5, or one number");
-        let numbers: Vec<f64> =
-            text.split(':').map(|n| n.trim().parse()).collect::<Result<_, _>>().map_err(|_| wrong())?;
+    ///
+    /// - `unit`: what the numbers are taken in
+    pub fn read(text: &str, unit: Unit) -> Result<Steps, String> {
+        let wrong =
+            || format!("'{text}' is not a range (expected FROM:TO:STEP, as 30:38:0.5, or one number)");
+        let mut numbers = Vec::new();
+        for part in text.split(':') {
+            numbers.push(match typed::number(part, unit) {
+                Ok(x) => x,
+                Err(NumberError::No | NumberError::Infinite) => return Err(wrong()),
+                Err(error) => return Err(error.to_string()),
+            });
+        }
         let (from, to, step) = match numbers[..] {
             [at] => (at, at, 1.0),
             [from, to, step] => (from, to, step),
             _ => return Err(wrong()),
         };
-        if ![from, to, step].iter().all(|x| x.is_finite() && x.abs() < 1e9) {
+        if ![from, to, step].iter().all(|x| x.abs() < 1e9) {
             return Err(wrong());
         }
         let steps = (to - from) / step;
@@ -87,7 +96,8 @@ impl FromStr for Varied {
     fn from_str(text: &str) -> Result<Varied, String> {
         let (key, steps) =
             text.split_once('=').ok_or("expected KEY=FROM:TO:STEP, as crown-angle=30:38:0.5")?;
-        Ok(Varied { key: key.trim().into(), steps: steps.parse()? })
+        let key = key.trim().to_lowercase();
+        Ok(Varied { steps: Steps::read(steps, families::unit(&key))?, key })
     }
 }
 
@@ -164,7 +174,8 @@ mod tests {
 
     #[test]
     fn ranges_hold_their_ends_and_decimal_values() {
-        let values = |text: &str| text.parse::<Steps>().expect("a range").values().collect::<Vec<_>>();
+        let values =
+            |text: &str| Steps::read(text, Unit::None).expect("a range").values().collect::<Vec<_>>();
         assert_eq!(values("40:42:0.1").len(), 21);
         assert_eq!(values("40:42:0.1")[3], 40.3);
         assert_eq!(values("30:38:0.5").last(), Some(&38.0));
@@ -172,7 +183,7 @@ mod tests {
         assert_eq!(values("2:0:-1"), [2.0, 1.0, 0.0]);
         assert_eq!(values("7"), [7.0]);
         for bad in ["", "1:2", "1:2:0", "2:1:1", "a:b:c", "0:inf:1", "0:1:1e-12", "1:2:3:4"] {
-            assert!(bad.parse::<Steps>().is_err(), "{bad}");
+            assert!(Steps::read(bad, Unit::None).is_err(), "{bad}");
         }
     }
 

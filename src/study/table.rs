@@ -54,6 +54,17 @@ pub enum Cell {
 }
 
 impl Cell {
+    /// The cell in a CSV: a text that a spreadsheet would compute (it begins with `=`, `+`, `-`, `@`, a tab
+    /// or a carriage return) has an apostrophe before it, which makes it text. Checked in `tests/words.rs`.
+    fn for_spreadsheet(&self) -> Cell {
+        match self {
+            Cell::Text(text) if text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r']) => {
+                Cell::Text(format!("'{text}"))
+            }
+            cell => cell.clone(),
+        }
+    }
+
     /// A number as tables show it.
     pub fn number(x: f64) -> Cell {
         Cell::Number(rounded(x))
@@ -104,7 +115,7 @@ impl Form {
     /// One row, without the line's end. No line's end is in it either, unless a CSV text has one.
     pub fn row(self, columns: &[String], cells: &[Cell]) -> Result<Vec<u8>, TableError> {
         if self == Form::Csv {
-            return record(cells);
+            return record(cells.iter().map(Cell::for_spreadsheet).collect::<Vec<_>>());
         }
         let mut out = Vec::new();
         let fail = |e: serde_json::Error| TableError::Row(e.to_string());

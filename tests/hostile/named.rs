@@ -41,12 +41,12 @@ fn traps() -> tempfile::TempDir {
 }
 
 const TRAPS: [(&str, &str); 7] = [
-    ("pipe", "it is no file"),
-    ("to-pipe", "it is no file"),
-    ("folder", "it is no file"),
-    ("to-folder", "it is no file"),
-    ("/dev/zero", "it is no file"),
-    ("to-zero", "it is no file"),
+    ("pipe", "it is not a regular file"),
+    ("to-pipe", "it is not a regular file"),
+    ("folder", "it is not a regular file"),
+    ("to-folder", "it is not a regular file"),
+    ("/dev/zero", "it is not a regular file"),
+    ("to-zero", "it is not a regular file"),
     ("to-huge", "bytes in a"),
 ];
 
@@ -112,9 +112,11 @@ fn what_scenes_name_is_counted_together() {
 #[test]
 fn designs_include_regular_files() {
     let folder = traps();
-    for (name, says) in
-        [("pipe", "it is no file"), ("folder", "it is no file"), ("huge", "bytes in a design")]
-    {
+    for (name, says) in [
+        ("pipe", "it is not a regular file"),
+        ("folder", "it is not a regular file"),
+        ("huge", "bytes in a design"),
+    ] {
         let pbrt = format!("WorldBegin\nInclude \"{name}\"\nWorldEnd\n");
         fs::write(folder.path().join("stone.pbrt"), pbrt).expect("written");
         ends_in_one_line(folder.path(), "show stone.pbrt", says);
@@ -172,16 +174,18 @@ fn pipes_in_the_places_of_its_own_files_are_not_waited_for() {
     ends_in_one_line(folder.path(), "generate -q octahedron -o o.obj", "is no file");
     let render =
         "render -q octahedron --width 8 --height 6 --spp 1 --photons 40 --nearest 5 -o p.png --photon-map";
-    for (name, says) in
-        [("pipe", "it is no file"), ("/dev/zero", "it is no file"), ("huge", "bytes in a photon map")]
-    {
+    for (name, says) in [
+        ("pipe", "it is not a regular file"),
+        ("/dev/zero", "it is not a regular file"),
+        ("huge", "bytes in a photon map"),
+    ] {
         ends_in_one_line(folder.path(), &format!("{render} {name}"), says);
     }
     pipe("a.csv");
     pipe("b.meta.json");
     fs::write(folder.path().join("b.csv"), "stone\n").expect("written");
     for part in ["a.csv", "b.csv"] {
-        ends_in_one_line(folder.path(), &format!("merge {part} -o all.csv"), "it is no file");
+        ends_in_one_line(folder.path(), &format!("merge {part} -o all.csv"), "it is not a regular file");
     }
     // what an import would write over is left alone
     let stone = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/octahedron.obj");

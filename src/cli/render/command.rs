@@ -3,13 +3,13 @@
 use std::path::Path;
 
 /// Options, with a value, that do not change a picture.
-const SILENT: [&str; 3] = ["-o", "--output", "--photon-map"];
+const SILENT: [&str; 5] = ["-o", "--output", "--photon-map", "-j", "--threads"];
 /// The same without a value.
 const SILENT_FLAGS: [&str; 5] = ["-q", "--quiet", "--json", "--passes", "--force"];
 
 /// The process's command line without output names; paths are bare file names.
 pub fn normalised() -> String {
-    normalise(std::env::args().skip(1))
+    normalise(std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()))
 }
 
 fn normalise(args: impl Iterator<Item = String>) -> String {

@@ -3,6 +3,8 @@
 use super::Args;
 use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
+use crate::cli::values;
+use crate::math::typed::{self, NumberError, Unit};
 use crate::render::{Film, Progressive, Settings};
 use crate::scene::Scene;
 use crate::store::kept::Kept;
@@ -19,10 +21,10 @@ pub struct Stops {
     #[arg(long, conflicts_with = "photon_map")]
     pub progressive: bool,
     /// Stop after this many rounds
-    #[arg(long, value_name = "N", requires = "progressive", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", requires = "progressive", value_parser = values::whole(1..=u32::MAX, "rounds are a whole number"))]
     rounds: Option<u32>,
     /// Stop after the round that ends past this time: 60s, 5min, 1h30m
-    #[arg(long, value_name = "TIME", requires = "progressive", value_parser = humantime::parse_duration)]
+    #[arg(long, value_name = "TIME", requires = "progressive", value_parser = values::duration)]
     time: Option<Duration>,
     /// Stop when 4×4 pixels are off by this share of the mean on average, 2% or 0.02; after eight rounds at
     /// the earliest, for fewer cannot tell
@@ -31,10 +33,13 @@ pub struct Stops {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number.trim_end(), 0.01));
-    match number.parse::<f64>() {
+    let unit = if text.trim().ends_with('%') { 0.01 } else { 1.0 };
+    match typed::number(text, Unit::Percent) {
         Ok(n) if n > 0.0 && n * unit < 10.0 => Ok(n * unit),
-        _ => Err("a share above 0 is needed, such as 2% or 0.02".into()),
+        Ok(_) | Err(NumberError::No | NumberError::Infinite) => {
+            Err("a share above 0 is needed, such as 2% or 0.02".into())
+        }
+        Err(error) => Err(error.to_string()),
     }
 }
 

@@ -1,0 +1,244 @@
+//! The entries of each catalogue.
+
+use super::Entry;
+use crate::cut::document::Document;
+use crate::cut::{families, library};
+use crate::formats::{FORMATS, Format};
+use crate::metrics::{METRICS, Metric, Reading};
+use crate::optics::dispersion::lines;
+use crate::optics::illuminants::ILLUMINANTS;
+use crate::optics::materials::MATERIALS;
+use crate::optics::{Illuminant, Material, colour};
+use crate::scene::lights::{Kind as LightKind, LIGHTS};
+use crate::scene::{SCENES, preset};
+use crate::store::limits::{self as limit, Limit};
+use serde_json::{Value, json};
+
+/// Width of a block's text, without its label.
+const WIDTH: usize = 84;
+
+/// A name and lines with labels.
+fn block(head: &str, lines: &[(&str, String)]) -> String {
+    let label = lines.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    let mut out = format!("{head}\n");
+    for (name, text) in lines.iter().filter(|(_, text)| !text.is_empty()) {
+        for (i, line) in textwrap(text).iter().enumerate() {
+            out += &format!("    {:label$}  {line}\n", if i == 0 { name } else { "" });
+        }
+    }
+    out
+}
+
+/// Words in lines of up to [`WIDTH`] characters.
+fn textwrap(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
+                *line += " ";
+                *line += word;
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+}
+
+/// Scores.
+pub fn metrics() -> Vec<Entry> {
+    METRICS.iter().map(|m| metric(m)).collect()
+}
+
+fn metric(m: &Metric) -> Entry {
+    let unit = match m.unit {
+        "" if m.scale == 1.0 && m.range.1 <= 1.0 => "a fraction",
+        "" => "a number",
+        unit => unit,
+    };
+    let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
+    let error = match (m.reading, m.by_beams) {
+        (Reading::Solid(_), _) => "none: a closed form",
+        (_, true) => "of 64 batches of random rays; beams with --exact",
+        (_, false) => "of 64 batches of random rays",
+    };
+    let shapes = if m.dented { "convex, and with dents" } else { "convex" };
+    let text = block(
+        &format!("{}: {}", m.name, m.about),
+        &[
+            ("definition", m.definition.into()),
+            ("observer", observer),
+            ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
+            ("experiment", m.reading.experiment().into()),
+            ("stones", shapes.into()),
+            ("error", error.into()),
+            ("source", m.source.into()),
+        ],
+    );
+    let facts = json!({
+        "unit": m.unit,
+        "range": [m.range.0, m.range.1],
+        "observer_deg": m.observer,
+        "experiment": m.reading.experiment(),
+        "by_beams": m.by_beams,
+        "dented": m.dented,
+        "definition": m.definition,
+        "source": m.source,
+    });
+    Entry { name: m.name.into(), about: m.about.into(), text, facts }
+}
+
+/// Materials.
+pub fn materials() -> Vec<Entry> {
+    MATERIALS.iter().map(|m| material(m)).collect()
+}
+
+fn material(m: &Material) -> Entry {
+    let n_e = m.extraordinary.map(|law| law.index(lines::D));
+    let b_g = m.index(lines::G) - m.index(lines::B);
+    let valid = [1000.0 * m.valid_um.0, 1000.0 * m.valid_um.1];
+    let density = m.specific_gravity.map_or_else(|| "unknown".into(), |sg| format!("{sg} g/cm³"));
+    let colour = through(m);
+    let absorption = m.absorption.map_or_else(String::new, |a| format!("{}; {}", a.about, a.source));
+    let text = block(
+        &format!("{}: {}", m.name, m.about),
+        &[
+            (
+                "index",
+                format!(
+                    "n_D {:.4}{}",
+                    m.index_d(),
+                    n_e.map_or_else(String::new, |n| format!(", n_e {n:.4}"))
+                ),
+            ),
+            ("dispersion", format!("n_G − n_B {b_g:.4}")),
+            ("valid", format!("{:.0} to {:.0} nm", valid[0], valid[1])),
+            ("density", density.clone()),
+            (
+                "colour",
+                colour
+                    .as_ref()
+                    .map_or_else(|| "none".into(), |c| format!("{c} through {DEPTH_MM} mm by daylight")),
+            ),
+            ("absorption", absorption),
+            ("source", m.source.into()),
+        ],
+    );
+    let facts = json!({
+        "n_d": round(m.index_d()),
+        "n_e": n_e.map(round),
+        "dispersion_b_g": round(b_g),
+        "valid_nm": valid.map(f64::round),
+        "density_g_cm3": m.specific_gravity,
+        "colour_10_mm": colour,
+        "absorption": m.absorption.map(|a| json!({ "about": a.about, "source": a.source })),
+        "source": m.source,
+    });
+    let about = format!("n {:.4}, B–G {b_g:.4}, {density}: {}", m.index_d(), m.about);
+    Entry { name: m.name.to_string(), about, text, facts }
+}
+
+/// To six decimals, beyond which no index is known.
+fn round(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6
+}
+
+/// Depth at which a material shows its colour, mm: what light goes through in a small stone.
+const DEPTH_MM: f64 = 10.0;
+
+/// The colour of daylight through [`DEPTH_MM`] of a material that absorbs, as `#rrggbb`.
+fn through(m: &Material) -> Option<String> {
+    let absorption = m.absorption?;
+    let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm) / 1000.0)).exp() as f32;
+    let byte = |x| (255.0 * colour::srgb_encode(x)).round() as u8;
+    let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
+    Some(format!("#{r:02x}{g:02x}{b:02x}"))
+}
+
+/// Cuts of the library.
+pub fn cuts() -> Vec<Entry> {
+    library::names().map(cut).collect()
+}
+
+fn cut(name: &'static str) -> Entry {
+    let document = match library::document(name) {
+        Some(Ok(document)) => document,
+        // a test keeps both from happening
+        Some(Err(error)) => Document { about: error.to_string(), ..Document::default() },
+        None => Document::default(),
+    };
+    let family = document.family.as_deref().and_then(|f| families::family(f).ok());
+    let parameters = family.map_or(&[][..], |f| f.parameters).iter().map(|p| {
+        let own = document.parameters.get(p.key).copied();
+        json!({
+            "key": p.key,
+            "default": own.unwrap_or(p.default),
+            "range": [p.range.0, p.range.1],
+            "unit": p.unit.trim(),
+            "about": p.about,
+        })
+    });
+    let facts = json!({
+        "source": document.source,
+        "family": document.family,
+        "parameters": parameters.collect::<Vec<_>>(),
+    });
+    let text = library::source(name).unwrap_or_default().into();
+    Entry { name: name.into(), about: document.about, text, facts }
+}
+
+/// Lights by which colours are judged.
+pub fn illuminants() -> Vec<Entry> {
+    let entry = |i: &&Illuminant| Entry {
+        name: i.name.into(),
+        about: i.about.into(),
+        text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.into())]),
+        facts: json!({ "source": i.source }),
+    };
+    ILLUMINANTS.iter().map(entry).collect()
+}
+
+/// File formats.
+pub fn formats() -> Vec<Entry> {
+    let entry = |f: &&Format| {
+        let how = if f.write.is_some() { "read, written" } else { "read" };
+        let about = format!("{} ({how}; .{})", f.about, f.extensions.join(", ."));
+        Entry {
+            name: f.name.into(),
+            text: format!("{}: {about}", f.name),
+            about,
+            facts: json!({ "extensions": f.extensions, "written": f.write.is_some() }),
+        }
+    };
+    FORMATS.iter().map(entry).collect()
+}
+
+/// Scenes for pictures.
+pub fn scenes() -> Vec<Entry> {
+    let entry = |(name, text): &(&'static str, &'static str)| {
+        let about = preset(name).and_then(Result::ok).map_or_else(String::new, |s| s.about().into());
+        Entry { name: (*name).into(), about, text: (*text).into(), facts: Value::Null }
+    };
+    SCENES.iter().map(entry).collect()
+}
+
+/// Kinds of light for scene files.
+pub fn lights() -> Vec<Entry> {
+    let entry = |k: &&LightKind| Entry {
+        name: k.name.into(),
+        about: k.about.into(),
+        text: format!("{}: {}", k.name, k.about),
+        facts: Value::Null,
+    };
+    LIGHTS.iter().map(entry).collect()
+}
+
+/// How much a file may hold.
+pub fn limits() -> Vec<Entry> {
+    let entry = |l: &&Limit| Entry {
+        name: l.most().to_string(),
+        about: l.of.into(),
+        text: format!("{} {}", l.most(), l.of),
+        facts: json!({ "most": l.most(), "of": l.of }),
+    };
+    limit::ALL.iter().map(entry).collect()
+}

@@ -1,0 +1,266 @@
+//! Numbers and names as people type them on a command line or in a stone's parameters.
+
+use std::ops::RangeInclusive;
+
+/// Text that is not the number that is needed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NumberError {
+    /// A comma where the decimal point belongs, or between thousands.
+    #[error("write decimals with a point and no separators, as {0}")]
+    Comma(String),
+    /// Two numbers, as in a width by a height.
+    #[error("one number is needed, '{0}' is two")]
+    Two(String),
+    /// A number with a unit other than its own.
+    #[error("'{unit}' is not the unit: give {wanted}, as {number}")]
+    Unit {
+        /// What follows the number.
+        unit: String,
+        /// What is needed.
+        wanted: &'static str,
+        /// The number alone.
+        number: String,
+    },
+    /// Larger than a number can be, or `nan`.
+    #[error("a finite number is needed")]
+    Infinite,
+    /// A number with decimals where none can be.
+    #[error("a whole number is needed")]
+    Decimals,
+    /// Nothing of the kind.
+    #[error("a number is needed")]
+    No,
+}
+
+/// The unit that a number is taken in. It may be typed after the number or left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// None: an index, a ratio, a count.
+    None,
+    /// Degrees.
+    Degrees,
+    /// Hundredths.
+    Percent,
+    /// Millimetres.
+    Millimetres,
+}
+
+impl Unit {
+    /// The unit whose sign, blanks apart, is `sign`.
+    pub fn of(sign: &str) -> Unit {
+        match sign.trim() {
+            "°" => Unit::Degrees,
+            "%" => Unit::Percent,
+            "mm" => Unit::Millimetres,
+            _ => Unit::None,
+        }
+    }
+
+    fn signs(self) -> &'static [&'static str] {
+        match self {
+            Unit::None => &[],
+            Unit::Degrees => &["°", "º", "degrees", "degree", "deg"],
+            Unit::Percent => &["%", "percent"],
+            Unit::Millimetres => &["mm", "millimetres", "millimeters"],
+        }
+    }
+
+    fn wanted(self) -> &'static str {
+        match self {
+            Unit::None => "the number alone",
+            Unit::Degrees => "degrees",
+            Unit::Percent => "per cent",
+            Unit::Millimetres => "millimetres",
+        }
+    }
+}
+
+/// A finite number, with or without its unit: `34.5`, `34.5°`, `57 %`, `8mm`. The minus sign may be
+/// U+2212.
+///
+/// - `unit`: what it is taken in
+pub fn number(text: &str, unit: Unit) -> Result<f64, NumberError> {
+    let typed = text.trim().replace('\u{2212}', "-");
+    let lower = typed.to_lowercase();
+    let alone = unit.signs().iter().find_map(|sign| lower.strip_suffix(sign)).unwrap_or(&lower).trim_end();
+    match alone.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        Ok(_) => Err(NumberError::Infinite),
+        Err(_) => Err(misread(alone, unit)),
+    }
+}
+
+/// Why a text is not a number.
+fn misread(text: &str, unit: Unit) -> NumberError {
+    let is_number = |t: &str| t.trim().parse::<f64>().is_ok_and(f64::is_finite);
+    if let Some((a, b)) = text.split_once(['x', '×', '*'])
+        && is_number(a)
+        && is_number(b)
+    {
+        return NumberError::Two(text.into());
+    }
+    let digits = text.bytes().all(|b| b.is_ascii_digit() || b",.'_+- ".contains(&b));
+    if digits && text.contains(',') {
+        let (whole, decimals) = text.rsplit_once(',').unwrap_or((text, ""));
+        let whole: String = whole.chars().filter(|c| !",.'_ ".contains(*c)).collect();
+        let thousands = decimals.len() == 3 && text.matches(',').count() > 1 || decimals.contains('.');
+        let right = if thousands {
+            text.chars().filter(|c| !",'_ ".contains(*c)).collect()
+        } else {
+            format!("{whole}.{decimals}")
+        };
+        if is_number(&right) {
+            return NumberError::Comma(right);
+        }
+    }
+    // the longest beginning that is a number, and what follows it
+    let ends = text.char_indices().map(|(i, _)| i).skip(1);
+    if let Some(end) = ends.filter(|end| is_number(&text[..*end])).last() {
+        let (number, sign) = (text[..end].trim().to_owned(), text[end..].trim().to_owned());
+        if sign.chars().all(|c| c.is_alphabetic() || "°º%′″'\"²³".contains(c)) {
+            return NumberError::Unit { unit: sign, wanted: unit.wanted(), number };
+        }
+    }
+    NumberError::No
+}
+
+/// A number in a range, or a sentence that says what is needed.
+///
+/// - `what`: begins the sentence: `a girdle width is a number of millimetres`
+pub fn within(text: &str, unit: Unit, range: RangeInclusive<f64>, what: &str) -> Result<f64, String> {
+    let needed = || format!("{what} from {} to {}", shown(*range.start()), shown(*range.end()));
+    match number(text, unit) {
+        Ok(x) if range.contains(&x) => Ok(x),
+        Ok(_) | Err(NumberError::Infinite | NumberError::No) => Err(needed()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// A whole number in a range, or a sentence that says what is needed.
+///
+/// - `what`: begins the sentence: `a width is a whole number of pixels`
+pub fn whole(text: &str, range: RangeInclusive<u64>, what: &str) -> Result<u64, String> {
+    let needed = || match range.end() {
+        &u64::MAX => format!("{what} from {} on", range.start()),
+        end => format!("{what} from {} to {end}", range.start()),
+    };
+    let typed = text.trim();
+    match typed.parse::<u64>() {
+        Ok(n) if range.contains(&n) => return Ok(n),
+        Ok(_) => return Err(needed()),
+        Err(_) => (),
+    }
+    match number(typed, Unit::None) {
+        // `1e5`, as a number with decimals or a sign would be
+        Ok(x) if x.fract() == 0.0 && (0.0..1e15).contains(&x) && range.contains(&(x as u64)) => Ok(x as u64),
+        Ok(x) if x.fract() != 0.0 => Err(NumberError::Decimals.to_string()),
+        Ok(_) | Err(NumberError::Infinite | NumberError::No) => Err(needed()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Whether a name of a catalogue is the one typed: in any case, blanks around it left out.
+pub fn is_called(name: &str, typed: &str) -> bool {
+    name.eq_ignore_ascii_case(typed.trim())
+}
+
+/// The candidate that is meant by `typed`, if one is so near that it probably is: up to a third of its
+/// letters differ, or `typed` begins it.
+pub fn nearest<'a>(typed: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let typed = typed.trim().to_lowercase();
+    let letters = typed.chars().count();
+    let distance = |name: &str| match letters >= 3 && name.starts_with(&typed) {
+        true => 1,
+        false => strsim::damerau_levenshtein(&name.to_lowercase(), &typed),
+    };
+    let (name, distance) = candidates.map(|n| (n, distance(n))).min_by_key(|(_, d)| *d)?;
+    (3 * distance <= letters).then_some(name)
+}
+
+/// `, did you mean 'NAME'?`, or nothing.
+pub fn suggestion(near: Option<&str>) -> String {
+    near.map_or_else(String::new, |name| format!("; did you mean '{name}'?"))
+}
+
+/// A number for a message: all its digits, with an exponent where it would have many zeros.
+pub fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-5..1e10).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_understood_with_their_unit() {
+        for (text, unit, x) in [
+            ("34.5", Unit::Degrees, 34.5),
+            ("34.5°", Unit::Degrees, 34.5),
+            (" 34.5 deg ", Unit::Degrees, 34.5),
+            ("57%", Unit::Percent, 57.0),
+            ("57 %", Unit::Percent, 57.0),
+            ("8mm", Unit::Millimetres, 8.0),
+            ("\u{2212}3", Unit::None, -3.0),
+            ("1e3", Unit::None, 1000.0),
+        ] {
+            assert_eq!(number(text, unit), Ok(x), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_explained() {
+        let said = |text: &str, unit| number(text, unit).map_err(|e| e.to_string());
+        for (text, unit, word) in [
+            ("34,5", Unit::Degrees, "as 34.5"),
+            ("1,234,567", Unit::None, "as 1234567"),
+            ("1,234.5", Unit::None, "as 1234.5"),
+            ("640x480", Unit::None, "is two"),
+            ("57%", Unit::Degrees, "give degrees, as 57"),
+            ("8 cm", Unit::Millimetres, "give millimetres, as 8"),
+            ("34.5°", Unit::None, "the number alone, as 34.5"),
+            ("inf", Unit::None, "finite"),
+            ("1e400", Unit::None, "finite"),
+            ("nan", Unit::None, "finite"),
+            ("", Unit::None, "a number is needed"),
+            ("abc", Unit::None, "a number is needed"),
+            ("34.5.6", Unit::None, "a number is needed"),
+        ] {
+            assert!(said(text, unit).is_err_and(|e| e.contains(word)), "{text}: {:?}", said(text, unit));
+        }
+    }
+
+    #[test]
+    fn whole_numbers_and_ranges_say_what_they_are() {
+        let pixels = |text: &str| whole(text, 1..=16384, "a width is a whole number of pixels");
+        assert_eq!(pixels("640"), Ok(640));
+        assert_eq!(pixels("1e3"), Ok(1000));
+        for text in ["0", "16385", "-4", "x", "", "99999999999999999999999"] {
+            let said = pixels(text);
+            assert_eq!(said, Err("a width is a whole number of pixels from 1 to 16384".into()), "{text}");
+        }
+        assert_eq!(pixels("2.5"), Err("a whole number is needed".into()));
+        assert!(pixels("640x480").is_err_and(|e| e.contains("is two")));
+        let size =
+            |text: &str| within(text, Unit::Millimetres, 1e-3..=1e3, "a width is a number of millimetres");
+        assert_eq!(size("5mm"), Ok(5.0));
+        assert_eq!(size("0"), Err("a width is a number of millimetres from 0.001 to 1000".into()));
+    }
+
+    #[test]
+    fn names_are_known_in_any_case_and_suggested_only_when_near() {
+        assert!(is_called("round-brilliant", " Round-Brilliant "));
+        let names = ["tolkowsky", "asscher", "classic", "round-brilliant", "weight_ratio", "quartz"];
+        let near = |typed| nearest(typed, names.into_iter());
+        assert_eq!(near("tolkovski"), Some("tolkowsky"));
+        assert_eq!(near("ROUND-BRILIANT"), Some("round-brilliant"));
+        assert_eq!(near("weight"), Some("weight_ratio"));
+        for far in ["PC", "emptydir", "amethyst", "x", "", "iso"] {
+            assert_eq!(near(far), None, "{far}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_many_zeros_are_shown_with_an_exponent() {
+        assert_eq!([0.0, 0.05, 34.5, 1e-300, -2e300].map(shown), ["0", "0.05", "34.5", "1e-300", "-2e300"]);
+    }
+}

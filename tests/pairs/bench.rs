@@ -1,0 +1,168 @@
+//! The real program in a fresh folder.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// No case is so large that it takes longer.
+const LONGEST: Duration = Duration::from_secs(120);
+
+/// The files that cases name, made once by the program itself.
+pub struct Inputs {
+    files: Files,
+}
+
+/// Files by their names below a folder.
+pub type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+/// How a command went.
+pub struct Ran {
+    /// Its exit code; none if it was killed for want of an end.
+    pub code: Option<i32>,
+    /// What it wrote to standard output.
+    pub stdout: Vec<u8>,
+    /// What it said.
+    pub stderr: String,
+    /// Files that are new, or hold something else.
+    pub files: Files,
+    /// Input files that are gone or hold something else.
+    pub harmed: Vec<PathBuf>,
+}
+
+/// A scene that is quick to take.
+const SCENE: &str = "about = \"a cube under a dome\"\nunit = \"stone\"\npicture = [8, 6]\n\n\
+    [camera]\nat = [0, 0, 12]\nwidth = 2.2\n\n[[stone]]\ncut = \"cube\"\npose = \"table-up\"\n\n\
+    [[light]]\nkind = \"dome\"\nradiance = 0.9\n";
+
+impl Inputs {
+    /// Makes them.
+    pub fn made() -> Inputs {
+        let mut files = Files::new();
+        files.insert("scene.toml".into(), SCENE.into());
+        let folder = Bench::new(&Inputs { files: files.clone() });
+        let make = |words: &[&str]| {
+            let words: Vec<String> = words.iter().map(|w| w.to_string()).collect();
+            let ran = folder.run(&words, 2);
+            assert_eq!(ran.code, Some(0), "{words:?}: {}", ran.stderr);
+        };
+        fs::create_dir(folder.path().join("d")).expect("makes a folder");
+        make(&["generate", "cube", "-o", "a.asc", "-o", "d/one.asc"]);
+        make(&["generate", "classic", "-o", "b.gem", "-o", "d/two.obj"]);
+        make(&["generate", "octahedron", "--size", "5", "-o", "o.stl"]);
+        for (ending, number) in [("csv", "p"), ("jsonl", "q"), ("json", "r")] {
+            for shard in ["1", "2"] {
+                let (part, shard) = (format!("{number}{shard}.{ending}"), format!("{shard}/2"));
+                make(&[
+                    "score",
+                    "cube",
+                    "classic",
+                    "a.asc",
+                    "--metrics",
+                    "spread,iso",
+                    "--error",
+                    "0.05",
+                    "--shard",
+                    &shard,
+                    "-o",
+                    &part,
+                ]);
+            }
+        }
+        let made = Inputs { files: read(folder.path()) };
+        assert!(made.files.len() >= 18, "{:?}", made.files.keys());
+        made
+    }
+}
+
+/// The program: this one, or another build of it that the environment names.
+fn program() -> PathBuf {
+    std::env::var_os("PAIRS_PROGRAM").map_or_else(|| env!("CARGO_BIN_EXE_cutlab").into(), PathBuf::from)
+}
+
+/// A folder with the inputs in it.
+pub struct Bench {
+    folder: TempDir,
+    before: Files,
+}
+
+impl Bench {
+    /// A new one.
+    pub fn new(inputs: &Inputs) -> Bench {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for (name, bytes) in &inputs.files {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("below the folder")).expect("makes a folder");
+            fs::write(path, bytes).expect("writes an input");
+        }
+        Bench { folder, before: inputs.files.clone() }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Runs the program on so many threads; standard input is a design.
+    pub fn run(&self, words: &[String], threads: u32) -> Ran {
+        let said = tempfile::tempdir().expect("a temporary folder");
+        let (out, err) = (said.path().join("out"), said.path().join("err"));
+        let create = |path: &Path| fs::File::create(path).expect("a file for what is said");
+        let stdin = match fs::File::open(self.path().join("a.asc")) {
+            Ok(file) => Stdio::from(file),
+            Err(_) => Stdio::null(), // while the inputs are made
+        };
+        let mut child = Command::new(program())
+            .args(words)
+            .current_dir(self.path())
+            .env("RAYON_NUM_THREADS", threads.to_string())
+            .env_remove("CUTLAB_CORPUS")
+            .stdin(stdin)
+            .stdout(create(&out))
+            .stderr(create(&err))
+            .spawn()
+            .expect("the program starts");
+        let start = Instant::now();
+        let code = loop {
+            if let Some(status) = child.try_wait().expect("the program is there") {
+                break status.code();
+            }
+            if start.elapsed() > LONGEST {
+                child.kill().expect("the program is stopped");
+                child.wait().expect("the program is there");
+                break None;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        let now = read(self.path());
+        let files = now.iter().filter(|(name, bytes)| self.before.get(*name) != Some(bytes));
+        let harmed = self.before.iter().filter(|(name, bytes)| now.get(*name) != Some(bytes));
+        Ran {
+            code,
+            stdout: fs::read(out).expect("what was said"),
+            stderr: String::from_utf8_lossy(&fs::read(err).expect("what was said")).into_owned(),
+            harmed: harmed.map(|(name, _)| name.clone()).collect(),
+            files: files.map(|(name, bytes)| (name.clone(), bytes.clone())).collect(),
+        }
+    }
+}
+
+/// All files below a folder.
+fn read(folder: &Path) -> Files {
+    fn add(top: &Path, folder: &Path, files: &mut Files) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                add(top, &path, files);
+            } else {
+                let name = path.strip_prefix(top).expect("below the folder").to_owned();
+                files.insert(name, fs::read(&path).unwrap_or_default());
+            }
+        }
+    }
+    let mut files = Files::new();
+    add(folder, folder, &mut files);
+    files
+}

@@ -1,0 +1,140 @@
+//! Values to try where the definition of an option has none: small work, each of another kind.
+
+use clap::Arg;
+
+/// Options that are never left out, for the work would be large without.
+pub const ALWAYS: &[(&str, &str)] = &[
+    ("render", "width"),
+    ("render", "spp"),
+    ("render", "photons"),
+    ("render", "scene"),
+    ("score", "metrics"),
+    ("score", "error"),
+    ("sweep", "metrics"),
+    ("sweep", "error"),
+    ("compare", "metrics"),
+    ("compare", "error"),
+    ("validate", "only"),
+];
+
+/// Values of an option: of that command, or of every command (`*`), by the option's name or by the
+/// name of its value. Arguments without a name have several words a value; of an option each word is
+/// given with its flag, and an empty word is the flag alone.
+type Sample = (&'static str, &'static str, &'static [&'static [&'static str]]);
+
+const SAMPLES: &[Sample] = &[
+    // stones
+    ("generate", "stone", &[&["round-brilliant"], &["a.asc"], &["-"], &["classic"], &["oval:table=55"]]),
+    ("import", "files", &[&["b.gem"], &["d"], &["a.asc", "o.stl"], &["cube"]]),
+    ("show", "stones", &[&["a.asc"], &["round-brilliant", "b.gem"], &["o.stl"], &["-"], &["d"]]),
+    ("render", "stones", &[&["a.asc"], &["octahedron"], &["classic"], &["-"]]),
+    (
+        "score",
+        "stones",
+        &[
+            &["cube"],
+            &["d"],
+            &["a.asc", "round-brilliant:crown-angle=35"],
+            &["d/*.asc", "octahedron"],
+            &["-"],
+        ],
+    ),
+    ("sweep", "stone", &[&["round-brilliant:facets=73"], &["a.asc"], &["oval"]]),
+    ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"]]),
+    ("report", "stone", &[&["cube"], &["b.gem"]]),
+    (
+        "merge",
+        "parts",
+        &[&["p1.csv", "p2.csv"], &["p*.csv"], &["q1.jsonl", "q2.jsonl"], &["r2.json", "r1.json"]],
+    ),
+    // where to write
+    ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"]]),
+    ("import", "output", &[&["x.asc"], &["out"], &["-"]]),
+    ("render", "output", &[&["x.png"], &["x.exr"], &["x.gif"], &["x%03d.png"], &["x.apng"], &["-"]]),
+    ("*", "output", &[&["x.csv"], &["x.jsonl"], &["x.json"], &["-"]]),
+    ("compare", "output", &[&["out"]]),
+    ("report", "output", &[&["out"]]),
+    ("validate", "output", &[&["out"]]),
+    ("show", "beams", &[&["beams.svg"], &["-"]]),
+    ("show", "diagram", &[&["diagram.svg"], &["diagram.png"], &["-"]]),
+    ("render", "photon_map", &[&["x.map"]]),
+    ("sweep", "plot", &[&["plot.svg"], &["iso.png", "spread.svg"]]),
+    // formats
+    ("*", "to", &[&["stl"], &["asc"], &["gem"], &["svg"], &["gltf"]]),
+    // scores
+    (
+        "*",
+        "metrics",
+        &[
+            &["spread,weight_ratio"],
+            &["iso,wlr"],
+            &["aset_red,leakage_strongest,windowing"],
+            &["fire_streak,dispersion_mean"],
+            &["table_iso,cos"],
+            &["contrast,scintillation"],
+            &["brightness,lost"],
+        ],
+    ),
+    ("*", "error", &[&["0.05"], &["0.02"]]),
+    ("*", "observer", &[&["0"], &["20"]]),
+    ("*", "shard", &[&["1/2"], &["3/3"]]),
+    ("score", "tilt", &[&["10"], &["-20:20:20"]]),
+    ("score", "tilt_axis", &[&["90"], &["-45"]]),
+    ("sweep", "vary", &[&["crown-angle=34:35:1"], &["table=55:57:2", "size=2:4:2"], &["ri=1.6:1.8:0.2"]]),
+    ("sweep", "scatter", &[&["3"]]),
+    // stones' stuff
+    ("*", "material", &[&["diamond"], &["quartz"], &["ruby"]]),
+    ("*", "ri", &[&["1.54"]]),
+    ("*", "size", &[&["4"]]),
+    ("generate", "facets", &[&["73"]]),
+    ("*", "polarisation", &[&["on"], &["off"]]),
+    ("*", "seed", &[&["7"]]),
+    ("*", "threads", &[&["2"]]),
+    // pictures
+    ("render", "scene", &[&["scene.toml"], &["table"], &["spot"]]),
+    ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),
+    ("render", "width", &[&["8"], &["12"]]),
+    ("render", "height", &[&["9"]]),
+    ("render", "spp", &[&["1"], &["2"]]),
+    ("render", "photons", &[&["100"], &["200"]]),
+    ("render", "nearest", &[&["20"]]),
+    ("render", "rounds", &[&["2"]]),
+    ("render", "time", &[&["1ms"]]),
+    ("render", "noise", &[&["400%"]]),
+    ("render", "frames", &[&["2"]]),
+    ("render", "turn", &[&["camera"], &["stone"], &["light"]]),
+    ("render", "exposure", &[&["auto"], &["-1.5"]]),
+    ("render", "tone", &[&["filmic"], &["linear"]]),
+    ("render", "glare", &[&[""], &["8"]]),
+    // the rest
+    ("validate", "only", &[&["critical angle"], &["octahedron"]]),
+];
+
+/// The values of an option, if there are any.
+pub fn of(command: &str, arg: &Arg) -> Option<&'static [&'static [&'static str]]> {
+    let id = arg.get_id().as_str();
+    let value = arg.get_value_names().and_then(|names| names.first()).map(|n| n.as_str());
+    let find = |command: &str, key: &str| {
+        SAMPLES.iter().find(|(c, k, _)| *c == command && *k == key).map(|(.., values)| *values)
+    };
+    find(command, id).or_else(|| find("*", id)).or_else(|| find("*", value?))
+}
+
+/// The words of an option with a value.
+pub fn option(flag: &str, value: &str, with_equals: bool) -> Vec<String> {
+    match (value, with_equals) {
+        ("", _) => vec![flag.into()],
+        (_, true) => vec![format!("{flag}={value}")],
+        _ => vec![flag.into(), value.into()],
+    }
+}
+
+/// Words that make a command quick without which it would not be: pictures that converge stop.
+pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
+    let has = |flag: &str| words.iter().any(|w| w == flag);
+    if command == "render" && has("--progressive") && !["--rounds", "--time", "--noise"].into_iter().any(has)
+    {
+        return vec!["--rounds".into(), "1".into()];
+    }
+    Vec::new()
+}
