@@ -62,6 +62,9 @@ pub struct Camera {
     pub stops: f32,
     /// Light that it shows as white.
     pub white: &'static Illuminant,
+    /// Whether it sees by the three bands of [`crate::optics::rgb::basis`] in place of an eye: light of
+    /// one band is then a pure red, green or blue, as in the pictures that people know of gem viewers.
+    pub by_bands: bool,
 }
 
 impl Camera {
@@ -121,6 +124,7 @@ mod tests {
             aspect: 2.0,
             stops: 0.0,
             white: Illuminant::equal_energy(),
+            by_bands: false,
         };
         let (_, left) = camera.ray(0.0, 0.5);
         assert!((left.x.atan2(left.y).to_degrees() + 19.0).abs() < 1e-4);

@@ -5,11 +5,11 @@ use std::path::Path;
 /// Options, with a value, that do not change a picture.
 const SILENT: [&str; 3] = ["-o", "--output", "--photon-map"];
 /// The same without a value.
-const SILENT_FLAGS: [&str; 5] = ["-q", "--quiet", "--json", "--passes", "--force"];
+const SILENT_FLAGS: [&str; 6] = ["-q", "--quiet", "--json", "--passes", "--force", "--allow-outside"];
 
 /// The process's command line without output names; paths are bare file names.
 pub fn normalised() -> String {
-    normalise(std::env::args().skip(1))
+    normalise(std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()))
 }
 
 fn normalise(args: impl Iterator<Item = String>) -> String {
