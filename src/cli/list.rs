@@ -9,6 +9,7 @@ use crate::optics::dispersion::lines;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
 use crate::optics::{Illuminant, Material, colour};
+use crate::scene::file::GRAMMAR;
 use crate::scene::lights::LIGHTS;
 use crate::scene::{SCENES, preset};
 use crate::store::limits;
@@ -34,6 +35,8 @@ enum Kind {
     Formats,
     /// Scenes for pictures
     Scenes,
+    /// Every key of a scene file, by example
+    SceneGrammar,
     /// Kinds of light for scene files
     Lights,
     /// How much a file may hold, CUTLAB_LIMIT in the environment counted in
@@ -49,6 +52,11 @@ struct Entry {
 /// Lists a catalogue.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let entries = match args.kind {
+        Kind::SceneGrammar => {
+            let text = GRAMMAR;
+            return if console.json { console.print_json(&text) } else { console.print(text) }
+                .map(|()| Code::Done);
+        }
         Kind::Cuts => cuts(),
         Kind::Materials => entries(MATERIALS.iter().map(|m| (m.name.to_string(), material(m)))),
         Kind::Illuminants => {

@@ -143,7 +143,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         return Err(Failure::input(problem));
     }
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
-    let curve = args.tone.unwrap_or(if scene.camera.by_bands { Curve::Linear } else { Curve::Filmic });
+    let curve = args.tone.unwrap_or(if scene.camera.flat { Curve::Linear } else { Curve::Filmic });
     let tone = Tone { curve, ..Tone::default() };
     let settings = render::Settings { width, height, rays: args.rays(), round: 0, tone, seed: args.seed };
     let files = frames::take(args, &scene, settings, &target, console)?;

@@ -15,8 +15,8 @@ use mp4_atom::{
 };
 use openh264::OpenH264API;
 use openh264::encoder::{
-    Complexity, Encoder, EncoderConfig, FrameRate, IntraFramePeriod, Profile, QpRange, RateControlMode,
-    VuiConfig,
+    BitRate, Complexity, Encoder, EncoderConfig, FrameRate, IntraFramePeriod, Profile, QpRange,
+    RateControlMode, VuiConfig,
 };
 use openh264::formats::YUVSource;
 use std::io::{Read, Seek, Write};
@@ -27,7 +27,7 @@ pub const SIDES: std::ops::RangeInclusive<u32> = 16..=3840;
 pub const SHORTER_SIDE: u32 = 2160;
 
 /// Quantiser: steps of luma so fine that facets keep their edges.
-const QUANTISER: u8 = 20;
+const QUANTISER: u8 = 18;
 /// Frames from one that stands alone to the next.
 const KEY_FRAMES: u32 = 48;
 
@@ -48,7 +48,8 @@ pub fn mp4(
     out: &mut dyn Write,
 ) -> Result<(), EncodeError> {
     let config = EncoderConfig::new()
-        .rate_control_mode(RateControlMode::Off)
+        .rate_control_mode(RateControlMode::Quality)
+        .bitrate(BitRate::from_bps(bits_per_second(width, height, pace)))
         .qp(QpRange::new(QUANTISER, QUANTISER))
         .skip_frames(false)
         .scene_change_detect(false)
@@ -73,6 +74,15 @@ pub fn mp4(
     }
     kept.rewind()?;
     film.write(width, height, pace, made, &mut kept, out)
+}
+
+/// The rate that the encoder sets the stream's level by: two bits a pixel is what frames of facets take at
+/// this quantiser. The rate is not kept to.
+fn bits_per_second(width: u32, height: u32, pace: Pace) -> u32 {
+    const BITS_PER_PIXEL: f32 = 2.0;
+    /// Of level 5.2.
+    const MOST: f32 = 240e6;
+    (BITS_PER_PIXEL * (width * height) as f32 * pace.per_second()).clamp(1e5, MOST) as u32
 }
 
 /// What is known of the encoded frames.

@@ -206,7 +206,7 @@ impl View<'_> {
         for sight in &sights {
             let light = sight.colour(&self.sensor);
             (0..PASSES).for_each(|p| pixel.light[p] += light[p] / rays as f32);
-            pixel.shown += self.settings.tone.shown(light.iter().sum()) / rays as f32;
+            pixel.shown += self.settings.tone.shown(self.sensor.seen(light.iter().sum())) / rays as f32;
             pixel.alpha += if sight.left_out { 0.0 } else { 1.0 / rays as f32 };
         }
         pixel

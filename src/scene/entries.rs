@@ -94,8 +94,8 @@ enum Colours {
     /// As an eye does.
     #[default]
     Eye,
-    /// By the three bands that colours of a scene are mixtures of: red light is pure red.
-    Bands,
+    /// White, red, green, blue or black, whichever most of the light is.
+    Flat,
 }
 
 /// Most stops that an exposure changes a picture by.
@@ -139,8 +139,8 @@ impl CameraEntry {
             let most = format!("an exposure is a number of stops from -{MOST_STOPS} to {MOST_STOPS}");
             return Err(wrong("exposure", most));
         }
-        let by_bands = matches!(self.colours, Colours::Bands);
-        Ok(Camera { position, target, lens, aspect, stops: self.exposure, white, by_bands })
+        let flat = matches!(self.colours, Colours::Flat);
+        Ok(Camera { position, target, lens, aspect, stops: self.exposure, white, flat })
     }
 
     /// The lens with its aperture, if it has one.

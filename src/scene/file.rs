@@ -1,26 +1,7 @@
 //! Scene files: TOML, from the user or from the catalogue.
 //!
-//! `unit` is `"stone"` (one is the radius of the sphere around the first stone) or `"mm"`. Points
-//! are `[x, y, z]`, z up. Then
-//!
-//! Files that it names (`cut`, `mesh`, `panorama`) are looked for beside it, and lie in its folder or
-//! below unless [`Cast::allow_outside`].
-//!
-//! - `[camera]`: `at`, `to` (the first stone if absent), `field` (degrees across the width) or
-//!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
-//!   (the illuminant that comes out white); `aperture` (a diameter, or "f/8" for a picture 36 mm wide in
-//!   a world of millimetres) and `focus` (a distance along the view, or a point; `to` if absent)
-//! - `[[stone]]` (none if only the surroundings are of interest): `cut`, `material`, `size` (mm) or
-//!   `radius` (as large as the scene wants it),
-//!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
-//!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
-//! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
-//!   `scale`; `reflectance` (a number, `[r, g, b]`, or `{ low, high, edge }`); `mirror = true`
-//! - `[[light]]`: `kind` of `cutlab list lights` with what that needs; `radiance` or `power`,
-//!   `colour`, `spectrum`
-//!
-//! To compare with other programs: `depth` limits the segments of a path, which are followed to the
-//! end of their power without it; `polarisation = false` takes light as unpolarised at every facet.
+//! Their grammar is [`GRAMMAR`], which `cutlab list scene-grammar` prints. Files that a scene names are
+//! looked for beside it, and lie in its folder or below unless [`Cast::allow_outside`].
 
 use super::entries::{CameraEntry, StoneEntry, SurfaceEntry, Wrong, wrong};
 use super::light_entry::LightEntry;
@@ -37,6 +18,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Every key of a scene file, by example.
+pub static GRAMMAR: &str = include_str!("grammar.txt");
 
 /// A scene that cannot be set up. Each error is one line.
 #[derive(Debug, thiserror::Error)]
