@@ -38,6 +38,10 @@ pub struct Pixel {
     /// curve darkens a ray depends on its colour without the noise of its few wavelengths. Linear sRGB;
     /// that noise may reach beyond 0..=1.
     pub shown: Vec3,
+    /// Coverage: the share of the camera rays that met something other than the background. 1 unless the
+    /// scene leaves its background out ([`crate::scene::Scene::cut_out`]); `light` and `shown` are
+    /// premultiplied by it.
+    pub alpha: f32,
 }
 
 /// What lies in the middle of a pixel.

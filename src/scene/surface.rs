@@ -2,7 +2,7 @@
 
 use super::mesh::Mesh;
 use crate::optics::rgb;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use std::sync::Arc;
 
 /// Share of light that a surface gives back, by wavelength.
@@ -75,12 +75,16 @@ pub struct Surface {
     pub shape: Shape,
     /// What it does with light.
     pub finish: Finish,
+    /// Whether it is background, such as a floor or a wall: a picture that leaves its background out
+    /// ([`super::Scene::cut_out`]) does not show it.
+    pub backdrop: bool,
 }
 
 impl Surface {
     /// A diffuse parallelogram; `u × v` points to its front.
     pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
-        Surface { shape: Shape::Plate(Plate { corner, u, v }), finish: Finish::Diffuse(reflectance) }
+        let shape = Shape::Plate(Plate { corner, u, v });
+        Surface { shape, finish: Finish::Diffuse(reflectance), backdrop: true }
     }
 
     /// The first meeting of a ray with either side.
@@ -98,6 +102,24 @@ impl Surface {
         match &self.shape {
             Shape::Plate(_) => None,
             Shape::Mesh(mesh) => Some(mesh.near(origin)),
+        }
+    }
+
+    /// The surface turned about a point, then moved.
+    pub fn carried(&self, turn: Mat3, about: Vec3, by: Vec3) -> Surface {
+        let point = |p: Vec3| about + turn * (p - about) + by;
+        let shape = match &self.shape {
+            Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.moved(&point))),
+            Shape::Plate(p) => Shape::Plate(Plate { corner: point(p.corner), u: turn * p.u, v: turn * p.v }),
+        };
+        Surface { shape, ..self.clone() }
+    }
+
+    /// Height of its lowest corner.
+    pub fn lowest(&self) -> f32 {
+        match &self.shape {
+            Shape::Mesh(mesh) => mesh.lowest(),
+            Shape::Plate(_) => self.bounds().0.z,
         }
     }
 
