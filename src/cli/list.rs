@@ -4,7 +4,7 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::cut::library;
 use crate::formats::FORMATS;
-use crate::metrics::{METRICS, Metric, Reading};
+use crate::metrics::{METRICS, Metric, Reading, Statistic};
 use crate::optics::dispersion::lines;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
@@ -86,20 +86,28 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 
 /// A score for people: what it tells, its definition, and what belongs to it line by line.
 fn block(m: &Metric) -> String {
-    let unit = if m.unit.is_empty() { "a fraction" } else { m.unit };
-    let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
-    let error = match (m.reading, m.by_beams) {
-        (Reading::Solid(_), _) => "none: a closed form",
-        (_, true) => "of 64 batches of random rays; beams with --exact",
-        (_, false) => "of 64 batches of random rays",
+    let unit = match m.unit {
+        "" if m.range.1 <= 1.0 => "a fraction",
+        "" => "a ratio",
+        unit => unit,
     };
+    let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
+    let how = match m.reading {
+        Reading::Solid(_) => "none: a closed form",
+        Reading::View(Statistic::Share(_)) => "by Wilson's interval, of 64 batches of random rays",
+        Reading::Beam(Statistic::Median(..)) => {
+            "of 64 batches of random rays: the longer side of a 95 % interval for the median, over 1.96"
+        }
+        _ => "of 64 batches of random rays",
+    };
+    let error = format!("{how}{}", if m.by_beams { "; beams with --exact" } else { "" });
     let mut out = format!("{}: {}\n", m.name, m.about);
     let lines = [
         ("definition", m.definition.to_string()),
         ("observer", observer),
         ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
         ("experiment", m.reading.experiment().into()),
-        ("error", error.into()),
+        ("error", error),
         ("source", m.source.into()),
     ];
     for (label, text) in lines {
