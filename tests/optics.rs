@@ -60,7 +60,9 @@ fn extraordinary_indices_match_the_published_ones() {
         let separation = law.index(lines::G) - law.index(lines::B);
         assert!(b_g.is_nan() || (separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
     }
-    for (name, birefringence) in [("beryl", -0.006), ("tourmaline", -0.021)] {
+    for (name, birefringence) in
+        [("beryl", -0.006), ("emerald", -0.006), ("tourmaline", -0.020), ("zircon", 0.059)]
+    {
         let m = Material::named(name).expect("in the catalogue");
         let law = m.extraordinary.expect("uniaxial");
         assert!((law.index(lines::D) - m.index_d() - birefringence).abs() < 1e-12, "{name}");
@@ -70,8 +72,8 @@ fn extraordinary_indices_match_the_published_ones() {
 }
 
 /// [P] Schott's data sheet of N-BK7 (n_d 1.51680, n_F − n_C .008054), Malitson's tables of fused
-/// silica and fluorite, calcite of any handbook; chrysoberyl between the least and the greatest of
-/// a gem's three indices. Cauchy laws go through the n_D and B–G of gemmological tables.
+/// silica and fluorite, calcite of any handbook; chrysoberyl by its law, which gives the greatest index
+/// of synthetic crystals and the middle one of gems (1.746, 1.748, 1.756). Cauchy laws go through the n_D and B–G of gemmological tables.
 #[test]
 fn the_materials_beside_the_table_have_their_indices() {
     let named = |name: &str| Material::named(name).expect("in the catalogue");
@@ -80,11 +82,7 @@ fn the_materials_beside_the_table_have_their_indices() {
         ("fused-silica", 1.45846, 1e-5),
         ("fluorite", 1.43385, 2e-5),
         ("calcite", 1.65846, 1e-3),
-        ("chrysoberyl", 1.7475, 2.5e-3),
-        ("zircon", 1.925, 1e-3),
-        ("topaz", 1.62725, 1e-3),
-        ("beryl", 1.579, 1e-3),
-        ("tourmaline", 1.6395, 1e-3),
+        ("chrysoberyl", 1.748, 6e-4),
     ] {
         let found = named(name).index(lines::D_HELIUM);
         assert!((found - n).abs() < tolerance, "{name}: {found}");
@@ -93,11 +91,61 @@ fn the_materials_beside_the_table_have_their_indices() {
     assert!((glass.index(lines::F) - glass.index(lines::C) - 0.008054).abs() < 2e-6);
     let calcite = named("calcite").extraordinary.expect("uniaxial").index(lines::D);
     assert!((calcite - 1.4864).abs() < 1e-3, "{calcite}");
-    // [P] B–G of gemmological tables: zircon .039, topaz .014, beryl .014, tourmaline .017
-    for (name, b_g) in [("zircon", 0.039), ("topaz", 0.014), ("beryl", 0.014), ("tourmaline", 0.017)] {
-        let m = named(name);
+}
+
+/// [P] n_D of the ordinary or only ray (of three the middle one), B–G and density of gemmological tables
+/// (`materials.tsv` of the project's reference has their sources).
+#[test]
+fn gems_have_the_figures_of_the_tables() {
+    let figures = [
+        ("zircon", 1.925, 0.039, 4.70),
+        ("topaz", 1.612, 0.014, 3.56),
+        ("imperial-topaz", 1.631, 0.014, 3.53),
+        ("beryl", 1.583, 0.014, 2.72),
+        ("emerald", 1.583, 0.014, 2.72),
+        ("aquamarine", 1.583, 0.014, 2.71),
+        ("morganite", 1.592, 0.014, 2.80),
+        ("tourmaline", 1.644, 0.017, 3.06),
+        ("pyrope", 1.746, 0.022, 3.78),
+        ("almandine", 1.79, 0.024, 4.05),
+        ("rhodolite", 1.76, 0.024, 3.84),
+        ("spessartine", 1.81, 0.027, 4.15),
+        ("grossular", 1.74, 0.028, 3.61),
+        ("demantoid", 1.888, 0.057, 3.84),
+        ("alexandrite", 1.748, 0.015, 3.73),
+        ("tanzanite", 1.693, 0.021, 3.35),
+        ("peridot", 1.671, 0.020, 3.34),
+        ("kunzite", 1.666, 0.017, 3.18),
+        ("iolite", 1.547, 0.017, 2.61),
+        ("sphene", 1.907, 0.051, 3.53),
+        ("apatite", 1.638, 0.013, 3.18),
+        ("sphalerite", 2.3669, 0.1625, 4.05),
+        ("opal", 1.45, 0.0, 2.10),
+        ("synthetic-spinel", 1.728, 0.020, 3.64),
+        ("ggg", 1.97, 0.038, 7.05),
+        ("lithium-niobate", 2.2997, 0.125, 4.64),
+        ("paste", 1.6199, 0.030, 3.60),
+        ("amethyst", 1.5442, 0.0133, 2.65),
+        ("citrine", 1.5442, 0.0133, 2.65),
+    ];
+    for (name, n, b_g, density) in figures {
+        let m = Material::named(name).expect("in the catalogue");
+        assert!((m.index_d() - n).abs() < 6e-5, "{name}: {}", m.index_d());
         let separation = m.index(lines::G) - m.index(lines::B);
-        assert!((separation - b_g).abs() < 6e-4, "{name}: {separation}");
+        assert!((separation - b_g).abs() < 6e-5, "{name}: {separation}");
+        assert_eq!(m.specific_gravity, Some(density), "{name}");
+    }
+    for (name, density) in [("cubic-zirconia", 5.8), ("yag", 4.57)] {
+        assert_eq!(Material::named(name).and_then(|m| m.specific_gravity), Some(density), "{name}");
+    }
+}
+
+/// A gem whose colour is not known says that it is traced without one.
+#[test]
+fn coloured_gems_without_a_spectrum_say_so() {
+    for name in ["amethyst", "citrine", "demantoid", "tanzanite", "peridot", "rubellite", "aquamarine"] {
+        let m = Material::named(name).expect("in the catalogue");
+        assert!(m.is_clear() && m.about.contains("traced as colourless"), "{}", m.about);
     }
 }
 

@@ -19,9 +19,9 @@ Examples:
   cutlab validate --only leakage        those whose subject or name says leakage, on the screen alone
   CUTLAB_CORPUS=../corpus cutlab validate   with the figures that need real files
 
-A figure passes if ours lies within its tolerance and 3 standard errors of ours. Exit code 0 if no
-figure failed, 1 if some did: they stay in the table with what explains them. Figures that need files
-which are not there are skipped, and count as neither.")]
+A figure passes if ours lies within its tolerance and 3 standard errors of ours. All are expected to:
+exit code 0 if they do, 1 if some failed, which stay in the table with what may explain them. Figures
+that need files which are not there are skipped, and count as neither.")]
 pub struct Args {
     /// A folder for validation.csv and validation.html; it is made [reports; none with --only]
     #[arg(long, short, value_name = "DIR")]

@@ -5,10 +5,14 @@ use super::cells::{self, Cell, Groups, Seen, Sight};
 use super::entrance::Outline;
 use super::view::Sky;
 use super::{Aspect, ExperimentError, Medium};
+use crate::cut::Zone;
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
 use crate::math::stats::Sum;
+use crate::solid::Polyhedron;
+use crate::solid::measure::centroid;
 use crate::walk::Stone;
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// Tilts to each side, in steps of a degree, about the picture's right and top.
@@ -35,9 +39,39 @@ const RARER: f64 = 1.25;
 #[derive(Debug, Clone)]
 pub struct Scintillation<'a> {
     seen: Seen<'a>,
-    /// Before and after each step.
-    steps: Vec<[(Aspect, Outline); 2]>,
+    steps: Vec<Step>,
     side: f64,
+}
+
+/// A step of a degree.
+#[derive(Debug, Clone)]
+struct Step {
+    before: (Aspect, Outline),
+    after: (Aspect, Outline),
+    /// From where a place of the picture lies before to where it lies after: the pivot stays where it
+    /// is in the picture.
+    shift: DVec2,
+}
+
+/// The point about which a stone is rocked, in the design's frame: the middle (by area) of its table,
+/// on which an eye rests. Without a table it is the middle of the face-up outline, halfway up the
+/// points of the stone that lie on it.
+pub fn pivot(solid: &Polyhedron) -> DVec3 {
+    let is_table = |face: &usize| Zone::of(solid.area_vector(*face).normalize_or_zero()) == Zone::Table;
+    let table = (0..solid.faces.len()).filter(is_table);
+    let corners: Option<Vec<DVec3>> = table
+        .max_by(|a, b| solid.area(*a).total_cmp(&solid.area(*b)))
+        .map(|face| solid.polygon(face).collect());
+    if let Some(corners) = corners {
+        let flat: Vec<DVec2> = corners.iter().map(|c| c.truncate()).collect();
+        let height = corners.iter().map(|c| c.z).sum::<f64>() / corners.len() as f64;
+        return centroid(&flat).extend(height);
+    }
+    let outline = solid.outline();
+    let near = 1e-9 * solid.width();
+    let on_it = solid.vertices.iter().filter(|v| outline.iter().any(|o| o.distance(v.truncate()) <= near));
+    let (least, most) = on_it.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), v| (l.min(v.z), m.max(v.z)));
+    centroid(&outline).extend(0.5 * (least + most))
 }
 
 /// Sums of a batch.
@@ -63,13 +97,29 @@ impl Sum for Tally {
 }
 
 impl<'a> Scintillation<'a> {
-    /// Rocks a stone about an aspect.
+    /// Rocks a stone about an aspect and its [`pivot`].
     pub fn seen_from(
         stone: &'a Stone,
         medium: &Medium,
         aspect: Aspect,
         sky: Sky,
     ) -> Result<Self, ExperimentError> {
+        Self::about(stone, medium, aspect, sky, pivot(&stone.solid))
+    }
+
+    /// Rocks a stone about another point.
+    ///
+    /// - `pivot`: design's frame
+    ///
+    /// Checked in `tests/scintillation.rs` against figures for two other pivots.
+    pub fn about(
+        stone: &'a Stone,
+        medium: &Medium,
+        aspect: Aspect,
+        sky: Sky,
+        pivot: DVec3,
+    ) -> Result<Self, ExperimentError> {
+        let pivot = stone.from_design(pivot);
         let seen = |axle, degrees: i32| {
             let aspect = aspect.turned(degrees.into(), axle);
             Ok((aspect, Outline::new(stone, aspect)?))
@@ -77,7 +127,9 @@ impl<'a> Scintillation<'a> {
         let mut steps = Vec::with_capacity(STEPS);
         for axle in [aspect.right, aspect.top] {
             for degrees in -REACH..REACH {
-                steps.push([seen(axle, degrees)?, seen(axle, degrees + 1)?]);
+                let (before, after) = (seen(axle, degrees)?, seen(axle, degrees + 1)?);
+                let shift = after.0.flat(pivot) - before.0.flat(pivot);
+                steps.push(Step { before, after, shift });
             }
         }
         Ok(Self { seen: Seen::new(stone, medium, sky)?, steps, side: cells::side_for(stone) })
@@ -106,17 +158,18 @@ impl Groups for Changes<'_> {
     fn next(&mut self, group: &mut Vec<Sight>) -> bool {
         let Scintillation { steps, side, .. } = self.experiment;
         for [u, v, w] in &mut self.points {
-            let [before, after] = &steps[((w * STEPS as f64) as usize).min(STEPS - 1)];
+            let Step { before, after, shift } = &steps[((w * STEPS as f64) as usize).min(STEPS - 1)];
             let at = before.1.place([u, v]);
-            if !after.1.holds(at) {
+            if !after.1.holds(at + *shift) {
                 continue;
             }
             let cell = Cell::around(at, *side, &mut self.stream);
             let level = level(&mut self.stream);
             for point in 0..1 << level {
-                let inside = |at| before.1.holds(at) && after.1.holds(at);
+                let inside = |at| before.1.holds(at) && after.1.holds(at + *shift);
                 let at = if point == 0 { at } else { cell.another(&mut self.stream, inside) };
-                group.extend([before, after].map(|(aspect, outline)| Sight::new(aspect, outline, at)));
+                group.push(Sight::new(&before.0, &before.1, at));
+                group.push(Sight::new(&after.0, &after.1, at + *shift));
             }
             return true;
         }

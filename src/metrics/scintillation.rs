@@ -18,8 +18,9 @@ pub static SCINTILLATION: Metric = Metric {
         the horizon with a dark observer cone of 15° half-angle, or --observer; reflection at entry \
         included. The luminance is the mean over square cells of 1/100 of the girdle's width (what \
         of them lies in the outline; mean over all ways to lay the grid). The stone is rocked over \
-        ±15° in steps of 1° about the picture's right and about its top (azimuths 0 and 90°), the \
-        dome stays with the viewer. Mean |change of a cell's luminance| in a step, per mean \
+        ±15° in steps of 1° about the picture's right and about its top (azimuths 0 and 90°); the \
+        pivot is the middle of the table, which stays in its place in the picture, or without a \
+        table the middle of the outline at half the girdle's height. The dome stays with the viewer. Mean |change of a cell's luminance| in a step, per mean \
         luminance, by the cells' area in the outline.",
     source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem Society; the figure is cutlab's",
     reading: Reading::Scintillation(Statistic::Smooth(|t| t.change / t.luminance)),

@@ -1,4 +1,5 @@
-//! The catalogue of materials, one a file.
+//! The catalogue of materials: one a file where a law was measured, and a table of gems known by their
+//! figures at the D line.
 
 mod beryl;
 mod calcite;
@@ -11,6 +12,7 @@ mod diamond_rgb;
 mod emerald;
 mod fluorite;
 mod fused_silica;
+mod gems;
 mod moissanite;
 mod n_bk7;
 mod quartz;
@@ -52,8 +54,8 @@ pub struct Material {
     pub absorption: Option<Absorption>,
 }
 
-/// Every material, by name.
-pub static MATERIALS: &[&Material] = &[
+/// Those that are a file each, by name.
+const FILES: [&Material; 25] = [
     &diamond::DIAMOND,
     &cape_diamond::CAPE_DIAMOND,
     &diamond_rgb::DIAMOND_RGB,
@@ -63,6 +65,8 @@ pub static MATERIALS: &[&Material] = &[
     &beryl::BERYL,
     &emerald::EMERALD,
     &quartz::QUARTZ,
+    &quartz::AMETHYST,
+    &quartz::CITRINE,
     &topaz::TOPAZ,
     &tourmaline::TOURMALINE,
     &zircon::ZIRCON,
@@ -78,6 +82,21 @@ pub static MATERIALS: &[&Material] = &[
     &n_bk7::N_BK7,
     &fused_silica::FUSED_SILICA,
 ];
+
+const COUNT: usize = FILES.len() + gems::COUNT;
+
+/// Every material.
+pub static MATERIALS: &[&Material] = &ALL;
+
+static ALL: [&Material; COUNT] = {
+    let mut all = [FILES[0]; COUNT];
+    let mut i = 0;
+    while i < COUNT {
+        all[i] = if i < FILES.len() { FILES[i] } else { &gems::GEMS[i - FILES.len()] };
+        i += 1;
+    }
+    all
+};
 
 impl Material {
     /// The material called `name`, or none.

@@ -77,6 +77,19 @@ impl Polyhedron {
     }
 }
 
+/// Middle of a polygon by area.
+pub fn centroid(p: &[DVec2]) -> DVec2 {
+    let Some(&first) = p.first() else { return DVec2::ZERO };
+    let (mut sum, mut area) = (DVec2::ZERO, 0.0);
+    for pair in p.windows(2) {
+        let (a, b) = (pair[0] - first, pair[1] - first);
+        let twice = a.perp_dot(b);
+        sum += (a + b) * twice;
+        area += 3.0 * twice;
+    }
+    if area == 0.0 { first } else { first + sum / area }
+}
+
 /// Area of a polygon given counter-clockwise.
 pub fn polygon_area(p: &[DVec2]) -> f64 {
     (0..p.len()).map(|i| p[i].perp_dot(p[(i + 1) % p.len()])).sum::<f64>() * 0.5

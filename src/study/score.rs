@@ -179,7 +179,8 @@ impl Row {
 }
 
 /// Why scores of colours are left out.
-const NO_DISPERSION: &str = "one refractive index has no dispersion; a material has";
+const NO_DISPERSION: &str =
+    "no dispersion is known of what the stone is made of; --material names a material that has one";
 
 /// Why scores that look at single rays are left out.
 const DENTED: &str = "not known for stones that are not convex";

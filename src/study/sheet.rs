@@ -25,6 +25,9 @@ const NOTHING_SEEN: &str = "no light is seen that it could be measured on";
 const LEAST_STEP: f64 = 1.1;
 const LARGEST_STEP: f64 = 16.0;
 
+/// The same for a median, whose error falls at once when samples can tell two peaks apart.
+const LARGEST_STEP_OF_MEDIAN: f64 = 4.0;
+
 /// A row that is being filled in.
 pub(super) struct Sheet<'a> {
     pub row: &'a mut Row,
@@ -76,7 +79,9 @@ impl Sheet<'_> {
             Effort::Error(target) => {
                 let worst = |t: &Traced<E>| worst(&columns, |of| estimate(t, of));
                 let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
-                if let Some(error) = reach(&mut traced, target, first.max(1), cap, worst) {
+                let median = columns.iter().any(|(.., of)| matches!(of, Statistic::Median(..)));
+                let step = if median { LARGEST_STEP_OF_MEDIAN } else { LARGEST_STEP };
+                if let Some(error) = reach(&mut traced, target, [first.max(1), cap], step, worst) {
                     self.complain(name, target, error, traced.samples());
                 }
             }
@@ -111,7 +116,7 @@ impl Sheet<'_> {
             let error = worst(&columns, estimate);
             match self.plan.effort {
                 Effort::Error(target) if error > target && photons < cap => {
-                    photons = more(photons, error / target).min(cap);
+                    photons = more(photons, error / target, LARGEST_STEP).min(cap);
                     continue;
                 }
                 Effort::Error(target) if error > target => self.complain(name, target, error, photons),
@@ -164,16 +169,19 @@ fn worst<T>(columns: &[Column<T>], estimate: impl Fn(&Statistic<T>) -> Option<Es
 
 /// How many samples are likely to bring an error down that is `times` too large: the errors of evenly
 /// spread points fall with the root of the samples or faster, about as samples to the power of 2/3.
-fn more(samples: u64, times: f64) -> u64 {
-    (samples as f64 * times.powf(1.5).clamp(LEAST_STEP, LARGEST_STEP)) as u64
+fn more(samples: u64, times: f64, largest: f64) -> u64 {
+    (samples as f64 * times.powf(1.5).clamp(LEAST_STEP, largest)) as u64
 }
 
 /// Traces until the error is below the target; the error if the cap comes first.
+///
+/// - `first`, `cap`: samples at the first look at the error, and at the last; `step`: the largest
+///   growth between two looks
 fn reach<E: Experiment>(
     traced: &mut Traced<E>,
     target: f64,
-    first: u64,
-    cap: u64,
+    [first, cap]: [u64; 2],
+    step: f64,
     worst: impl Fn(&Traced<E>) -> f64,
 ) -> Option<f64> {
     traced.extend_to(first.min(cap));
@@ -185,6 +193,6 @@ fn reach<E: Experiment>(
         if traced.samples() >= cap {
             return Some(error);
         }
-        traced.extend_to(more(traced.samples(), error / target).min(cap));
+        traced.extend_to(more(traced.samples(), error / target, step).min(cap));
     }
 }

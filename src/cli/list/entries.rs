@@ -4,7 +4,7 @@ use super::Entry;
 use crate::cut::document::Document;
 use crate::cut::{families, library};
 use crate::formats::{FORMATS, Format};
-use crate::metrics::{METRICS, Metric, Reading};
+use crate::metrics::{METRICS, Metric, Reading, Statistic};
 use crate::optics::dispersion::lines;
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
@@ -52,15 +52,19 @@ pub fn metrics() -> Vec<Entry> {
 fn metric(m: &Metric) -> Entry {
     let unit = match m.unit {
         "" if m.scale == 1.0 && m.range.1 <= 1.0 => "a fraction",
-        "" => "a number",
+        "" => "a ratio",
         unit => unit,
     };
     let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
-    let error = match (m.reading, m.by_beams) {
-        (Reading::Solid(_), _) => "none: a closed form",
-        (_, true) => "of 64 batches of random rays; beams with --exact",
-        (_, false) => "of 64 batches of random rays",
+    let how = match m.reading {
+        Reading::Solid(_) => "none: a closed form",
+        Reading::View(Statistic::Share(_)) => "by Wilson's interval, of 64 batches of random rays",
+        Reading::Beam(Statistic::Median(..)) => {
+            "of 64 batches of random rays: the longer side of a 95 % interval for the median, over 1.96"
+        }
+        _ => "of 64 batches of random rays",
     };
+    let error = format!("{how}{}", if m.by_beams { "; beams with --exact" } else { "" });
     let shapes = if m.dented { "convex, and with dents" } else { "convex" };
     let text = block(
         &format!("{}: {}", m.name, m.about),
@@ -70,7 +74,7 @@ fn metric(m: &Metric) -> Entry {
             ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
             ("experiment", m.reading.experiment().into()),
             ("stones", shapes.into()),
-            ("error", error.into()),
+            ("error", error),
             ("source", m.source.into()),
         ],
     );

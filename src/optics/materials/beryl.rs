@@ -1,17 +1,20 @@
 //! Beryl: aquamarine, emerald and others, without their colour.
 
-use super::Material;
+use super::{Material, gems};
 use crate::optics::dispersion::Dispersion;
 use std::borrow::Cow;
 
+/// Line B less line G.
+const B_G: f64 = 0.014;
+
 /// Index of the ordinary ray.
-pub(super) const ORDINARY: Dispersion = Dispersion::Cauchy { a: 1.566794, b: 0.004273 };
+pub(super) const ORDINARY: Dispersion = gems::through(1.583, Some(B_G));
 
 /// Index of the extraordinary ray.
-pub(super) const EXTRAORDINARY: Dispersion = Dispersion::Cauchy { a: 1.566794 - 0.006, b: 0.004273 };
+pub(super) const EXTRAORDINARY: Dispersion = gems::through(1.577, Some(B_G));
 
 /// The lines G and B, through which the law is drawn, µm.
-pub(super) const VALID_UM: (f64, f64) = (0.4308, 0.6867);
+pub(super) const VALID_UM: (f64, f64) = gems::VALID_UM;
 
 /// Mass per volume, g/cm³.
 pub(super) const SPECIFIC_GRAVITY: f64 = 2.72;

@@ -15,6 +15,6 @@ pub static CUBIC_ZIRCONIA: Material = Material {
     },
     extraordinary: None,
     valid_um: (0.361, 5.135),
-    specific_gravity: Some(5.7),
+    specific_gravity: Some(5.8),
     absorption: None,
 };

@@ -1,17 +1,17 @@
 //! Topaz.
 
-use super::Material;
-use crate::optics::dispersion::Dispersion;
+use super::{Material, gems};
 use std::borrow::Cow;
 
-/// Topaz, biaxial: one index stands for its three, which differ by .01.
+/// Topaz rich in fluorine, as colourless and blue stones are; biaxial: its middle index. Stones rich in
+/// OH have higher ones: `imperial-topaz`.
 pub static TOPAZ: Material = Material {
     name: Cow::Borrowed("topaz"),
-    about: "topaz, one of its three indices",
-    source: "n_D and B–G of gemmological tables, as a Cauchy law through both",
-    dispersion: Dispersion::Cauchy { a: 1.614872, b: 0.004273 },
+    about: "topaz rich in fluorine (colourless, blue), middle index of 1.609, 1.612 and 1.619",
+    source: "n_D and B–G of gemmological tables (Wikipedia, Topaz; The Gemology Project), as a Cauchy law through both",
+    dispersion: gems::through(1.612, Some(0.014)),
     extraordinary: None,
-    valid_um: (0.4308, 0.6867),
-    specific_gravity: Some(3.53),
+    valid_um: gems::VALID_UM,
+    specific_gravity: Some(3.56),
     absorption: None,
 };

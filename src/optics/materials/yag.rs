@@ -12,6 +12,6 @@ pub static YAG: Material = Material {
     dispersion: Dispersion::SellmeierSquared { c0: 0.0, terms: &[(2.28200, 0.01185), (3.27644, 282.734)] },
     extraordinary: None,
     valid_um: (0.40, 5.0),
-    specific_gravity: Some(4.55),
+    specific_gravity: Some(4.57),
     absorption: None,
 };

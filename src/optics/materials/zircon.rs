@@ -1,17 +1,19 @@
 //! Zircon.
 
-use super::Material;
-use crate::optics::dispersion::Dispersion;
+use super::{Material, gems};
 use std::borrow::Cow;
 
-/// High zircon, ordinary ray; its extraordinary law is not in the project's sources.
+/// Line B less line G of the ordinary ray; that of the other is not known apart.
+const B_G: f64 = 0.039;
+
+/// High zircon, ordinary ray: of the gems in common use the one that doubles most, by .059.
 pub static ZIRCON: Material = Material {
     name: Cow::Borrowed("zircon"),
-    about: "zircon, ordinary ray",
-    source: "n_D and B–G of gemmological tables, as a Cauchy law through both",
-    dispersion: Dispersion::Cauchy { a: 1.890963, b: 0.011820 },
-    extraordinary: None,
-    valid_um: (0.4308, 0.6867),
-    specific_gravity: Some(4.65),
+    about: "zircon of high type, ordinary ray",
+    source: "n_D and B–G of gemmological tables (W. Schumann 2009; indygem.com), as a Cauchy law through both",
+    dispersion: gems::through(1.925, Some(B_G)),
+    extraordinary: Some(gems::through(1.984, Some(B_G))),
+    valid_um: gems::VALID_UM,
+    specific_gravity: Some(4.70),
     absorption: None,
 };

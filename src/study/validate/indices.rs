@@ -28,7 +28,7 @@ type Row = (&'static str, bool, (f64, f64), Option<(f64, f64)>, Source);
 
 const FIVE: f64 = 1e-5;
 
-const MATERIALS: [Row; 20] = [
+const MATERIALS: [Row; 24] = [
     ("diamond", false, (2.41726, FIVE), Some((0.04444, FIVE)), DATABASE),
     ("corundum", false, (1.76808, FIVE), Some((0.0181, 1e-4)), DATABASE),
     ("corundum", true, (1.76000, FIVE), Some((0.0177, 1e-4)), DATABASE),
@@ -43,12 +43,16 @@ const MATERIALS: [Row; 20] = [
     ("rutile", false, (2.61291, FIVE), Some((0.31, 1e-2)), DATABASE),
     ("rutile", true, (2.90865, FIVE), Some((0.40, 1e-2)), DATABASE),
     ("zircon", false, (1.925, 1e-3), Some((0.039, 6e-4)), HANDBOOK),
-    ("topaz", false, (1.62725, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
-    ("beryl", false, (1.579, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
-    ("tourmaline", false, (1.6395, 1e-3), Some((0.017, 6e-4)), HANDBOOK),
+    ("zircon", true, (1.984, 1e-3), None, HANDBOOK),
+    ("topaz", false, (1.612, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
+    ("imperial-topaz", false, (1.631, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
+    ("beryl", false, (1.583, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
+    ("beryl", true, (1.577, 1e-3), None, HANDBOOK),
+    ("tourmaline", false, (1.644, 1e-3), Some((0.017, 6e-4)), HANDBOOK),
+    ("tourmaline", true, (1.624, 1e-3), None, HANDBOOK),
     ("calcite", false, (1.6584, 1e-3), None, HANDBOOK),
     ("calcite", true, (1.4864, 1e-3), None, HANDBOOK),
-    ("chrysoberyl", false, (1.7475, 2.5e-3), None, HANDBOOK),
+    ("chrysoberyl", false, (1.748, 1e-3), None, HANDBOOK),
 ];
 
 /// The trials of this subject.
