@@ -35,6 +35,8 @@ struct Sheet {
     places: Tree,
     cells: Vec<Cell>,
     irradiance: Vec<Spectrum>,
+    /// Longest edge of a cell as a share of its radius.
+    edge: f32,
 }
 
 type Tree = ImmutableKdTree<f32, 3>;
@@ -42,16 +44,16 @@ type Tree = ImmutableKdTree<f32, 3>;
 /// Longest edge of a cell as a share of the radius over which its photons are spread: 20 to 80 cells are
 /// in that disc.
 const EDGE: f32 = 0.4;
-/// With fewer photons in a disc, as many cells do.
-const ENOUGH_FOR_EDGE: f32 = 32.0;
+/// Fewer photons in a disc than this make more noise than larger cells make blur.
+const ENOUGH_FOR_EDGE: f32 = 100.0;
 /// Longest edge for the fewest photons.
 const LONGEST: f32 = 1.2;
 /// Photons by the distance of the last of which a radius is found, out of a part of all.
-const PILOTS: usize = 24;
+const PILOTS: usize = 16;
 /// With fewer photons on it, each spreads over a whole side.
 const FEW: usize = 4;
-/// A smooth look-up interpolates between the cells within this share of the radius.
-const AROUND: f32 = 0.5;
+/// A smooth look-up interpolates between the cells within so many of the longest edges.
+const AROUND: f32 = 1.25;
 /// Places among which one of the right normal is looked for, if the nearest has another.
 const FOLDS: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(15);
 
@@ -83,7 +85,7 @@ impl PhotonMap {
         let Some(sheet) = self.sheet(at) else { return ([0.0; BANDS], f32::INFINITY) };
         let nearest = sheet.nearest(at.point, at.normal);
         let radius = sheet.cells[nearest].radius;
-        let around = AROUND * radius;
+        let around = AROUND * sheet.edge * radius;
         let mut sum = sheet.irradiance[nearest].map(|e| e * f32::MIN_POSITIVE);
         let mut total = f32::MIN_POSITIVE;
         let place = at.point.to_array();
@@ -118,7 +120,7 @@ impl Sheet {
         }
         let points: Vec<[f32; 3]> = cells.iter().map(|cell| cell.point.to_array()).collect();
         let places = Tree::new_from_slice(&points).ok()?;
-        let mut sheet = Sheet { places, cells, irradiance: Vec::new() };
+        let mut sheet = Sheet { places, cells, irradiance: Vec::new(), edge };
         let mut homes: Vec<(u32, &Photon)> =
             photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
         homes.par_sort_by_key(|(home, _)| *home); // stable
