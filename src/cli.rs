@@ -21,6 +21,7 @@ mod stones;
 mod sweep;
 mod tables;
 mod validate;
+mod weight;
 mod words;
 
 use crate::store::limits;

@@ -6,6 +6,7 @@ pub mod document;
 pub mod families;
 mod hull;
 pub mod library;
+pub mod measured;
 pub mod meet;
 pub mod proportions;
 pub mod stretch;

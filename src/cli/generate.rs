@@ -5,6 +5,7 @@ use super::drawing::Drawing;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
+use super::weight::{self, Weight};
 use crate::cut::{Design, families};
 use crate::formats;
 use crate::optics::Material;
@@ -17,6 +18,7 @@ Examples:
   cutlab generate --facets 153                    round-brilliant-153.obj in this folder
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
+  cutlab generate round-brilliant:depth=61.5,crown-height=15,pavilion-depth=43 --carat 1 -o stone.glb
   cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png")]
 pub struct Args {
     /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
@@ -28,6 +30,10 @@ pub struct Args {
     /// Girdle diameter (width) in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
+    /// Weight in carats, in place of --size: the width follows from the density of the material, or of
+    /// diamond
+    #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
+    carat: Option<f64>,
     /// Where to write; the ending chooses the format, .svg and .png the cutting diagram; may be given
     /// several times
     #[arg(long, short, value_name = "FILE")]
@@ -72,7 +78,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let imported = stones::open(&parameters.applied_to(&args.stone))?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let design = stones::sized(imported.design, args.size.filter(|_| !has_size))?;
+    let mut size = args.size.filter(|_| !has_size);
+    if let Some(carats) = args.carat {
+        let weight = Weight::of(&args.substance, &imported.design);
+        let mm = weight.width_mm(&imported.design, carats)?;
+        console
+            .note(&format!("note: {carats} ct in {} is {mm:.3} mm wide", weight.name().unwrap_or_default()));
+        size = Some(mm);
+    }
+    let design = stones::sized(imported.design, size)?;
     let (made_up_of, facets) = families::made_up_of(&design)?;
 
     let asked = args.substance.asked();

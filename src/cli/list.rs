@@ -18,6 +18,9 @@ use serde::Serialize;
 pub struct Args {
     /// Which catalogue
     kind: Kind,
+    /// Print one cut's design file, in the form it is written in: `cutlab list cuts classic`
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -48,6 +51,9 @@ struct Entry {
 
 /// Lists a catalogue.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    if let Some(name) = &args.name {
+        return one(args.kind, name, console);
+    }
     let entries = match args.kind {
         Kind::Cuts => cuts(),
         Kind::Materials => entries(MATERIALS.iter().map(|m| (m.name.to_string(), material(m)))),
@@ -80,6 +86,24 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         let width = entries.iter().map(|e| e.name.len()).max().unwrap_or(0);
         let lines: Vec<String> = entries.iter().map(|e| format!("{:width$}  {}", e.name, e.about)).collect();
         console.print(&lines.join("\n"))?;
+    }
+    Ok(Code::Done)
+}
+
+/// Prints the design file of one cut.
+fn one(kind: Kind, name: &str, console: &Console) -> Result<Code, Failure> {
+    if !matches!(kind, Kind::Cuts) {
+        return Err(Failure::input(format!(
+            "'{name}': only cuts can be printed one by one, as `cutlab list cuts classic`"
+        )));
+    }
+    let text = library::source(name).ok_or_else(|| {
+        let near = library::nearest(name);
+        Failure::input(format!("no cut is called '{name}', the nearest is '{near}' (all: cutlab list cuts)"))
+    })?;
+    match (console.json, library::document(name)) {
+        (true, Some(Ok(document))) => console.print_json(&document)?,
+        _ => console.print(text)?,
     }
     Ok(Code::Done)
 }

@@ -11,9 +11,14 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     EMBEDDED_CUTS.iter().map(|(name, _)| *name)
 }
 
+/// The design file of the cut called `name`, as it stands in `cuts/`.
+pub fn source(name: &str) -> Option<&'static str> {
+    EMBEDDED_CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
+}
+
 /// The document of the cut called `name`, or none if there is no such cut.
 pub fn document(name: &str) -> Option<Result<Document, DocumentError>> {
-    EMBEDDED_CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| Document::parse(text))
+    source(name).map(Document::parse)
 }
 
 /// The cut called `name` with parameters overridden, or none if there is no such cut.

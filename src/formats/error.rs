@@ -118,6 +118,14 @@ pub enum FormatError {
         /// What is wrong with it.
         cause: DocumentError,
     },
+    /// One parameter of a STONE with two values.
+    #[error("{spec}: {key} is given twice: keep one")]
+    Twice {
+        /// The stone as it was asked for.
+        spec: String,
+        /// The parameter.
+        key: String,
+    },
     /// `name:key=value` with something else in place of a `key=value`.
     #[error("stone '{spec}': expected key=value with a number, found '{found}'")]
     Parameter {

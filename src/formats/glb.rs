@@ -89,7 +89,9 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     }
     let width = reading.design.solid().map_or(0.0, |solid| solid.width());
     if width > WIDEST_MM {
-        reading.warnings.push(format!("the stone is {width:.0} mm wide if the file is in metres, glTF's unit"));
+        reading
+            .warnings
+            .push(format!("the stone is {width:.0} mm wide if the file is in metres, glTF's unit"));
     }
     Ok(reading)
 }

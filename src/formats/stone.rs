@@ -50,8 +50,11 @@ fn parameters(spec: &str, rest: Option<&str>) -> Result<BTreeMap<String, f64>, F
         let wrong = || FormatError::Parameter { spec: spec.into(), found: part.into() };
         let (key, value) = part.split_once('=').ok_or_else(wrong)?;
         let value: f64 = value.trim().parse().map_err(|_| wrong())?;
-        if key.trim().is_empty() || values.insert(key.trim().to_owned(), value).is_some() {
+        if key.trim().is_empty() {
             return Err(wrong());
+        }
+        if values.insert(key.trim().to_owned(), value).is_some() {
+            return Err(FormatError::Twice { spec: spec.into(), key: key.trim().into() });
         }
     }
     Ok(values)
