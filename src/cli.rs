@@ -17,6 +17,7 @@ mod report;
 mod score;
 mod scoring;
 mod show;
+mod standing;
 mod stones;
 mod sweep;
 mod tables;
@@ -28,6 +29,7 @@ use crate::store::limits;
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
+use standing::Standing;
 use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
@@ -36,6 +38,8 @@ use std::process::ExitCode;
 struct Cli {
     #[command(flatten)]
     console: Console,
+    #[command(flatten)]
+    standing: Standing,
     #[command(subcommand)]
     command: Command,
 }
@@ -107,6 +111,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return outcome::usage(&error, &Cli::command()),
     };
+    standing::set(cli.standing, cli.console);
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),

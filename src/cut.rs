@@ -9,6 +9,7 @@ pub mod library;
 pub mod measured;
 pub mod meet;
 pub mod proportions;
+pub mod standing;
 pub mod stretch;
 pub mod symmetry;
 

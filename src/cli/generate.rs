@@ -1,14 +1,15 @@
 //! `cutlab generate`: a stone from its parameters.
 
 use super::console::Console;
-use super::drawing::Drawing;
+use super::drawing::{self, Drawing};
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use super::weight::{self, Weight};
 use crate::cut::{Design, families};
-use crate::formats;
+use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::report::diagram::Paper;
 use crate::store::replace;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +20,7 @@ Examples:
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
   cutlab generate round-brilliant:depth=61.5,crown-height=15,pavilion-depth=43 --carat 1 -o stone.glb
-  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png")]
+  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .pdf, .png")]
 pub struct Args {
     /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
@@ -34,13 +35,16 @@ pub struct Args {
     /// diamond
     #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
     carat: Option<f64>,
-    /// Where to write; the ending chooses the format, .svg and .png the cutting diagram; may be given
-    /// several times
+    /// Where to write; the ending chooses the format, .svg, .pdf and .png the cutting diagram; may be
+    /// given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg or png
+    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg, pdf or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
+    /// Paper of the cutting diagram
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
+    paper: Paper,
     /// What the stone is made of: the index of refraction that design files state and the material in
     /// glTF
     #[command(flatten)]
@@ -99,16 +103,19 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for file in &files {
         if file == Path::new("-") {
             let bytes = match Drawing::named(&args.to) {
-                Some(drawing) => drawing.bytes(&design, index)?,
-                None => encoded(&design, asked.as_ref(), &args.to, console)?,
+                Some(drawing) => drawing.bytes(&design, index, args.paper)?,
+                None => {
+                    let format = formats::written_as(&args.to).map_err(with_drawings)?;
+                    encoded(&design, asked.as_ref(), format.name, console)?
+                }
             };
             console.print_bytes(&bytes)?;
             continue;
         }
         match Drawing::of(file) {
-            Some(drawing) => replace::write(file, &drawing.bytes(&design, index)?)?,
+            Some(drawing) => replace::write(file, &drawing.bytes(&design, index, args.paper)?)?,
             None => {
-                let format = formats::written_to(file)?;
+                let format = formats::written_to(file).map_err(with_drawings)?;
                 replace::write(file, &encoded(&design, asked.as_ref(), format.name, console)?)?;
             }
         }
@@ -135,4 +142,15 @@ fn encoded(
     let encoded = formats::encode_as(design, material, format)?;
     encoded.remarks.iter().for_each(|said| console.note(&format!("note: {format}: {said}")));
     Ok(encoded.bytes)
+}
+
+/// The same error with the endings of diagrams among those that are written.
+fn with_drawings(error: FormatError) -> FormatError {
+    match error {
+        FormatError::NoWriter { asked, mut known } => {
+            known.extend(drawing::ENDINGS);
+            FormatError::NoWriter { asked, known }
+        }
+        error => error,
+    }
 }

@@ -5,7 +5,7 @@ mod mesh;
 mod tiers;
 
 use super::console::Console;
-use super::drawing::Drawing;
+use super::drawing::{self, Drawing};
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
 use super::weight::{self, Weight};
@@ -15,6 +15,7 @@ use crate::cut::proportions::{self, Ratios};
 use crate::cut::symmetry::Symmetry;
 use crate::formats;
 use crate::optics::fresnel::critical_angle_deg;
+use crate::report::diagram::Paper;
 use crate::report::pattern;
 use crate::store::replace;
 use crate::walk::Stone;
@@ -43,9 +44,12 @@ pub struct Args {
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
     beams: Option<PathBuf>,
-    /// Also draw the cutting diagram, one page A4: SVG, or PNG by its ending (one stone only)
+    /// Also draw the cutting diagram, one page: SVG, PDF or PNG by its ending (one stone only)
     #[arg(long, value_name = "DIAGRAM.svg")]
     diagram: Option<PathBuf>,
+    /// Paper of the cutting diagram
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
+    paper: Paper,
 }
 
 /// A virtual facet that holds less than this share of the light on the stone is not divided
@@ -193,13 +197,14 @@ fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failu
     let spec = only(args, "--diagram")?;
     let drawing = match path == Path::new("-") {
         true => Drawing::Svg,
-        false => Drawing::of(path)
-            .ok_or_else(|| Failure::input(format!("{}: --diagram draws .svg or .png", path.display())))?,
+        false => Drawing::of(path).ok_or_else(|| {
+            Failure::input(format!("{}: --diagram draws .svg, .pdf or .png", path.display()))
+        })?,
     };
     let design = stones::open(spec)?.design;
     let substance = &args.substance;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
+    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?)?;
     console.note(&format!("wrote {}", path.display()));
     Ok(())
 }
