@@ -18,11 +18,13 @@ mod report;
 mod score;
 mod scoring;
 mod show;
+mod standing;
 mod stones;
 mod sweep;
 mod tables;
 mod validate;
 mod values;
+mod weight;
 mod words;
 
 use crate::store::limits;
@@ -30,6 +32,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
 use std::ffi::OsString;
+use standing::Standing;
 use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
@@ -38,6 +41,8 @@ use std::process::ExitCode;
 struct Cli {
     #[command(flatten)]
     console: Console,
+    #[command(flatten)]
+    standing: Standing,
     #[command(subcommand)]
     command: Command,
 }
@@ -138,6 +143,7 @@ pub fn run() -> ExitCode {
         Err(error) => return outcome::usage(&error, &command()),
     };
     cli.console.start_threads();
+    standing::set(cli.standing, cli.console);
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),

@@ -6,8 +6,10 @@ pub mod document;
 pub mod families;
 mod hull;
 pub mod library;
+pub mod measured;
 pub mod meet;
 pub mod proportions;
+pub mod standing;
 pub mod stretch;
 pub mod symmetry;
 

@@ -303,20 +303,9 @@ fn ending_of(path: &Path) -> String {
     path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
 }
 
-/// A name for each facet, in the order of [`Design::facets`]: its own, or its tier's with a number.
+/// A name for each facet, in the order of [`Design::facets`]: see [`crate::cut::Tier::labels`].
 fn facet_labels(design: &Design) -> Vec<String> {
-    design
-        .tiers
-        .iter()
-        .enumerate()
-        .flat_map(|(t, tier)| {
-            tier.facets.iter().enumerate().map(move |(i, f)| match (&*f.name, &*tier.name) {
-                ("", "") => format!("tier {} {}", t + 1, i + 1),
-                ("", of) => format!("{of} {}", i + 1),
-                (own, _) => own.to_owned(),
-            })
-        })
-        .collect()
+    design.tiers.iter().enumerate().flat_map(|(t, tier)| tier.labels(t + 1)).collect()
 }
 
 impl std::fmt::Debug for Format {

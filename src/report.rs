@@ -5,6 +5,7 @@ pub mod chart;
 pub mod diagram;
 pub mod page;
 pub mod pattern;
+pub mod pdf;
 pub mod plot;
 pub mod raster;
 pub mod references;

@@ -274,8 +274,8 @@ fn both_forms_of_a_gemcad_design_agree() {
             formats::read(&path).unwrap_or_else(|e| panic!("{e}")).design
         };
         let (text, binary) = (read("asc"), read("gem"));
-        let size = text.solid().expect("closed").bounding_sphere().1;
-        let planes = off(&text, &binary, size);
+        let solids = [&text, &binary].map(|d| d.solid().expect("closed"));
+        let planes = off(&text, &binary, [&solids[0], &solids[1]]);
         println!("{name}: planes off by {planes:.1e}");
         // the text has six decimals of angles in degrees and eight of distances
         assert!(planes < 2e-8, "{name}: {planes:e}");

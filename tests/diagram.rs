@@ -2,8 +2,9 @@
 
 use cutlab::cut::{Design, Gear, Tier, Zone, library};
 use cutlab::formats;
+use cutlab::report::diagram::Paper;
 use cutlab::report::raster::text_width;
-use cutlab::report::{diagram, raster};
+use cutlab::report::{diagram, pdf, raster};
 use glam::DVec2;
 use rayon::prelude::*;
 use roxmltree::{Document, Node};
@@ -71,9 +72,14 @@ fn corners(text: &Node) -> [DVec2; 4] {
         .map(|(x, y)| origin + DVec2::from_angle(turn).rotate(at + DVec2::new(x, y)))
 }
 
-/// What holds for every diagram.
+/// What holds for every diagram, on either paper.
 fn check(name: &str, design: &Design) {
-    let text = diagram::draw(design, design.refractive_index).unwrap_or_else(|e| panic!("{name}: {e}"));
+    [Paper::A4, Paper::Letter].iter().for_each(|paper| check_on(*paper, name, design));
+}
+
+fn check_on(paper: Paper, name: &str, design: &Design) {
+    let text =
+        diagram::draw_on(design, design.refractive_index, paper).unwrap_or_else(|e| panic!("{name}: {e}"));
     let svg = Document::parse(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
     let solid = design.solid().expect("it was drawn");
 
@@ -96,7 +102,9 @@ fn check(name: &str, design: &Design) {
     assert_eq!(facets("pavilion").len(), of(&[Zone::Pavilion, Zone::Culet]), "{name}");
 
     // the page holds all of it, with an edge that printers reach
-    let (low, high) = (DVec2::splat(8.0), DVec2::new(202.0, 289.0));
+    let sheet = if paper == Paper::A4 { DVec2::new(210.0, 297.0) } else { DVec2::new(215.9, 279.4) };
+    assert_eq!(svg.root_element().attribute("width"), Some(&*format!("{}mm", sheet.x)));
+    let (low, high) = (DVec2::splat(8.0), sheet - 8.0);
     let on_page = |p: DVec2| p.cmpge(low).all() && p.cmple(high).all();
     for node in svg.descendants().filter(|n| n.has_tag_name("text") && n.attribute("transform").is_none()) {
         let said = node.text().unwrap_or_default();
@@ -239,6 +247,53 @@ fn the_page_becomes_a_picture() {
     assert!(ink > 1000 && ink < 25_000, "{ink} dark pixels");
 }
 
+/// Text of the file that is not compressed: its objects.
+fn objects(pdf: &[u8]) -> String {
+    String::from_utf8_lossy(pdf).into_owned()
+}
+
+#[test]
+fn the_page_becomes_a_pdf_of_its_paper_with_its_fonts() {
+    for (paper, points) in [(Paper::A4, [595.3, 841.9]), (Paper::Letter, [612.0, 792.0])] {
+        let svg = diagram::draw_on(&cut("emerald"), None, paper).expect("draws");
+        let page = pdf::pdf(&svg).unwrap_or_else(|e| panic!("{e}"));
+        assert!(page.starts_with(b"%PDF-") && page.len() < 300_000, "{} bytes", page.len());
+        assert_eq!(page, pdf::pdf(&svg).expect("again"), "the same bytes");
+        let said = objects(&page);
+        let (_, media) = said.split_once("/MediaBox [").expect("a page");
+        let media: Vec<f64> = media
+            .split(']')
+            .next()
+            .into_iter()
+            .flat_map(str::split_whitespace)
+            .map(|w| w.parse().expect("a number"))
+            .collect();
+        assert!((media[2] - points[0]).abs() < 0.1 && (media[3] - points[1]).abs() < 0.1, "{media:?}");
+        assert!(said.contains("DejaVuSansCondensed") && said.contains("/FontFile"), "fonts are embedded");
+    }
+    assert!(pdf::pdf("no drawing").is_err());
+}
+
+#[test]
+fn a_size_is_told_flat_to_flat_and_corner_to_corner() {
+    let design = cut("classic").sized(10.0).expect("closed");
+    let has = |said: &[String], what: &str| said.iter().any(|s| s.contains(what));
+    let said = said(&design);
+    assert!(has(&said, "width 10.00 mm flat to flat, W = 10.20 mm corner to corner"), "{said:?}");
+}
+
+#[test]
+fn names_with_markup_stay_words() {
+    let mut design = cut("classic");
+    design.name = "<script>alert(\"1\")</script> & 'Q' ]]> \u{202e}\u{1}".into();
+    design.tiers[0].name = "A&B<\"'".into();
+    design.tiers[0].instructions = "meet <P1> & \"P2\"".into();
+    let text = diagram::draw(&design, None).expect("draws");
+    let svg = Document::parse(&text).expect("well-formed");
+    assert!(!svg.descendants().any(|n| n.has_tag_name("script")));
+    assert!(pdf::pdf(&text).is_ok());
+}
+
 #[test]
 fn generate_and_show_draw_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -256,12 +311,16 @@ fn generate_and_show_draw_it() {
     assert!(read("a.png").starts_with(b"\x89PNG"));
     assert_eq!(run("generate classic -o - --to svg").1, svg);
     assert_eq!(run("show classic --diagram -").1, svg);
+    assert_eq!(run("generate classic -o l.pdf --paper letter").0, Some(0));
+    assert!(objects(&read("l.pdf")).contains("/MediaBox [0 0 612 792]"));
     let (code, sheet, _) = run("show a.toml --diagram b.svg --ri 1.77");
     assert!(code == Some(0) && sheet.contains("73 = "), "{sheet}");
     assert!(String::from_utf8(read("b.svg")).expect("UTF-8").contains("angles for n = 1.770"));
     for (words, why) in [
         ("show a.toml classic --diagram c.svg", "one stone"),
-        ("show classic --diagram c.pdf", ".svg or .png"),
+        ("show classic --diagram c.eps", ".svg, .pdf or .png"),
+        ("generate classic -o c.eps", "gltf, svg, pdf, png"),
+        ("generate classic -o c.pdf --paper a5", "a4 or letter"),
     ] {
         let (code, _, said) = run(words);
         assert!(code == Some(2) && said.contains(why) && said.trim_end().lines().count() == 1, "{said}");

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::scoring::Scoring;
-use super::{stones, words};
+use super::{standing, stones, words};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::report::page::number;
@@ -109,7 +109,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 fn request(stone: &str, args: &Args) -> Result<Request, Failure> {
-    let design = stones::open(stone)?.design;
+    let imported = stones::open(stone)?;
+    standing::note(stone, &imported);
+    let design = imported.design;
     let material = args.scoring.substance.of(&design);
     let size = args.scoring.size.or((design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(design, size)?;

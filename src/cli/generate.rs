@@ -1,14 +1,16 @@
 //! `cutlab generate`: a stone from its parameters.
 
 use super::console::Console;
-use super::drawing::Drawing;
+use super::drawing::{self, Drawing};
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
+use super::weight::{self, Weight};
 use crate::cut::{Design, families};
 use super::values;
-use crate::formats;
+use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::report::diagram::Paper;
 use crate::store::replace;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +20,8 @@ Examples:
   cutlab generate --facets 153                    round-brilliant-153.obj in this folder
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
-  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png")]
+  cutlab generate round-brilliant:depth=61.5,crown-height=15,pavilion-depth=43 --carat 1 -o stone.glb
+  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .pdf, .png")]
 pub struct Args {
     /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
@@ -29,13 +32,20 @@ pub struct Args {
     /// Girdle diameter (width) in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
-    /// Where to write; the ending chooses the format, .svg and .png the cutting diagram; may be given
-    /// several times
+    /// Weight in carats, in place of --size: the width follows from the density of the material, or of
+    /// diamond
+    #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
+    carat: Option<f64>,
+    /// Where to write; the ending chooses the format, .svg, .pdf and .png the cutting diagram; may be
+    /// given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg or png
+    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg, pdf or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
+    /// Paper of the cutting diagram
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
+    paper: Paper,
     /// What the stone is made of: the index of refraction that design files state and the material in
     /// glTF
     #[command(flatten)]
@@ -73,7 +83,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let imported = stones::open(&parameters.applied_to(&args.stone))?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let design = stones::sized(imported.design, args.size.filter(|_| !has_size))?;
+    let mut size = args.size.filter(|_| !has_size);
+    if let Some(carats) = args.carat {
+        let weight = Weight::of(&args.substance, &imported.design);
+        let mm = weight.width_mm(&imported.design, carats)?;
+        console
+            .note(&format!("note: {carats} ct in {} is {mm:.3} mm wide", weight.name().unwrap_or_default()));
+        size = Some(mm);
+    }
+    let design = stones::sized(imported.design, size)?;
     let (made_up_of, facets) = families::made_up_of(&design)?;
 
     let asked = args.substance.asked();
@@ -86,16 +104,19 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for file in &files {
         if file == Path::new("-") {
             let bytes = match Drawing::named(&args.to) {
-                Some(drawing) => drawing.bytes(&design, index)?,
-                None => encoded(&design, asked.as_ref(), &args.to, console)?,
+                Some(drawing) => drawing.bytes(&design, index, args.paper)?,
+                None => {
+                    let format = formats::written_as(&args.to).map_err(with_drawings)?;
+                    encoded(&design, asked.as_ref(), format.name, console)?
+                }
             };
             console.print_bytes(&bytes)?;
             continue;
         }
         match Drawing::of(file) {
-            Some(drawing) => replace::write(file, &drawing.bytes(&design, index)?)?,
+            Some(drawing) => replace::write(file, &drawing.bytes(&design, index, args.paper)?)?,
             None => {
-                let format = formats::written_to(file)?;
+                let format = formats::written_to(file).map_err(with_drawings)?;
                 replace::write(file, &encoded(&design, asked.as_ref(), format.name, console)?)?;
             }
         }
@@ -122,4 +143,15 @@ fn encoded(
     let encoded = formats::encode_as(design, material, format)?;
     encoded.remarks.iter().for_each(|said| console.note(&format!("note: {format}: {said}")));
     Ok(encoded.bytes)
+}
+
+/// The same error with the endings of diagrams among those that are written.
+fn with_drawings(error: FormatError) -> FormatError {
+    match error {
+        FormatError::NoWriter { asked, mut known } => {
+            known.extend(drawing::ENDINGS);
+            FormatError::NoWriter { asked, known }
+        }
+        error => error,
+    }
 }

@@ -4,6 +4,7 @@ mod plan;
 
 use super::console::Console;
 use super::outcome::{self, Code, Failure};
+use super::standing;
 use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Encoded, Format, FormatError, stone};
@@ -149,6 +150,7 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
             None => return Err(error.into()),
         },
         Ok(imported) => {
+            let imported = standing::stood(imported)?;
             let facets = imported.design.solid()?.faces.len();
             let design = stones::sized(imported.design, args.size)?;
             let Encoded { bytes, remarks } = formats::encode_as(&design, None, format.name)?;

@@ -18,7 +18,7 @@ pub struct Parameters(pub BTreeMap<String, f64>);
 fn keys() -> Vec<(&'static str, Vec<(&'static str, &'static Parameter)>)> {
     let mut keys: Vec<(&str, Vec<_>)> = Vec::new();
     for family in FAMILIES {
-        for parameter in family.parameters.iter().filter(|p| p.key != SIZE) {
+        for parameter in family.keys().filter(|p| p.key != SIZE) {
             match keys.iter_mut().find(|(key, _)| *key == parameter.key) {
                 Some((_, uses)) => uses.push((family.name, parameter)),
                 None => keys.push((parameter.key, vec![(family.name, parameter)])),
@@ -34,7 +34,9 @@ fn help(uses: &[(&str, &Parameter)]) -> String {
         .map(|(family, p)| {
             let (from, to) = p.range;
             let family = library::plain(family).unwrap_or(family);
-            format!("{family}: {}{unit} ({from} to {to}{unit})", p.default, unit = p.unit)
+            let default =
+                if p.default.is_nan() { String::new() } else { format!("{}{} ", p.default, p.unit) };
+            format!("{family}: {default}({from} to {to}{})", p.unit)
         })
         .collect();
     let about = uses.first().map_or("", |(_, p)| p.about);
@@ -115,7 +117,7 @@ mod tests {
     #[test]
     fn every_parameter_of_every_family_is_a_flag() {
         let command = <Parameters as clap::Args>::augment_args(Command::new("test"));
-        for parameter in FAMILIES.iter().flat_map(|f| f.parameters).filter(|p| p.key != SIZE) {
+        for parameter in FAMILIES.iter().flat_map(|f| f.keys()).filter(|p| p.key != SIZE) {
             assert!(
                 command.get_arguments().any(|a| a.get_long() == Some(parameter.key)),
                 "{}",

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::words::quoted;
-use super::{folders, stones, values};
+use super::{folders, standing, stones, values};
 use crate::formats::stone::STANDARD_INPUT;
 use crate::math::typed::{self, NumberError, Unit};
 use crate::metrics::{METRICS, Metric};
@@ -108,13 +108,14 @@ impl Scoring {
         if self.exact {
             words += " --exact";
         }
-        words
+        words + &standing::words()
     }
 
     /// What the STONE `spec` is made of, and its shape as large as it is to be.
     fn shape(&self, spec: &str) -> Result<(Material, Shape), Failure> {
         let failure = match stones::open(spec) {
             Ok(imported) => {
+                standing::note(spec, &imported);
                 let material = self.substance.of(&imported.design);
                 let size = self.size.or(stones::usual_size(&imported.design, &material));
                 let design = stones::sized(imported.design, size)?;

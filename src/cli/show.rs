@@ -1,21 +1,25 @@
 //! `cutlab show`: what a cutter or a grader reads off a stone.
 
+mod measured;
 mod mesh;
 mod tiers;
 
 use super::console::Console;
-use super::drawing::Drawing;
+use super::drawing::{self, Drawing};
 use super::outcome::{Code, Failure, Shape};
 use super::stones;
+use super::weight::{self, Weight};
+use crate::cut::Unit;
 use crate::cut::brilliant::{self, Lengths};
-use crate::cut::proportions::{self, Proportions, Ratios};
+use crate::cut::proportions::{self, Ratios};
 use crate::cut::symmetry::Symmetry;
-use crate::cut::{Design, Unit};
+use crate::formats;
 use crate::optics::fresnel::critical_angle_deg;
-use crate::optics::materials;
+use crate::report::diagram::Paper;
 use crate::report::pattern;
 use crate::store::replace;
 use crate::walk::Stone;
+use measured::Measured;
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -31,15 +35,21 @@ pub struct Args {
     /// Girdle width in millimetres, for volume in mm³ and weight
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
+    /// Weight in carats, in place of --size: the width follows from the material's density
+    #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
+    carat: Option<f64>,
     #[command(flatten)]
     substance: stones::Substance,
     /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
     beams: Option<PathBuf>,
-    /// Also draw the cutting diagram, one page A4: SVG, or PNG by its ending (one stone only)
+    /// Also draw the cutting diagram, one page: SVG, PDF or PNG by its ending (one stone only)
     #[arg(long, value_name = "DIAGRAM.svg")]
     diagram: Option<PathBuf>,
+    /// Paper of the cutting diagram
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
+    paper: Paper,
 }
 
 /// A virtual facet that holds less than this share of the light on the stone is not divided
@@ -58,6 +68,9 @@ struct Sheet {
     /// In the file's own unit cubed.
     volume: f64,
     unit: &'static str,
+    /// Length of the unit in the text's, which is millimetres where the file has one.
+    #[serde(skip)]
+    unit_mm: f64,
     facets_by_kind: BTreeMap<&'static str, usize>,
     #[serde(flatten)]
     measured: Measured,
@@ -66,7 +79,10 @@ struct Sheet {
     symmetry: Symmetry,
     #[serde(skip_serializing_if = "Option::is_none")]
     brilliant: Option<Lengths>,
-    /// The proportion envelope of a round brilliant; no grade.
+    /// Whether the envelopes apply: they are for diamonds.
+    #[serde(skip)]
+    graded: bool,
+    /// The proportion envelope of a round brilliant of diamond; no grade.
     #[serde(skip_serializing_if = "Option::is_none")]
     proportion_envelope: Option<&'static str>,
     tiers: Vec<TierRow>,
@@ -75,25 +91,6 @@ struct Sheet {
     critical_angle_deg: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
-}
-
-#[derive(Debug, Serialize)]
-struct Measured {
-    width: f64,
-    length: f64,
-    surface: f64,
-    table_percent: Option<f64>,
-    crown_angle_deg: Option<f64>,
-    crown_height_percent: f64,
-    pavilion_angle_deg: Option<f64>,
-    pavilion_depth_percent: f64,
-    girdle_percent: f64,
-    depth_percent: f64,
-    culet_percent: f64,
-    width_mm: Option<f64>,
-    volume_mm3: Option<f64>,
-    carats: Option<f64>,
-    weighed_as: Option<String>,
 }
 
 /// What is shown of a file.
@@ -200,13 +197,14 @@ fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failu
     let spec = only(args, "--diagram")?;
     let drawing = match path == Path::new("-") {
         true => Drawing::Svg,
-        false => Drawing::of(path)
-            .ok_or_else(|| Failure::input(format!("{}: --diagram draws .svg or .png", path.display())))?,
+        false => Drawing::of(path).ok_or_else(|| {
+            Failure::input(format!("{}: --diagram draws .svg, .pdf or .png", path.display()))
+        })?,
     };
     let design = stones::open(spec)?.design;
     let substance = &args.substance;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
+    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?)?;
     console.note(&format!("wrote {}", path.display()));
     Ok(())
 }
@@ -231,7 +229,14 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
     let design = imported.design;
     let material = args.substance.of(&design);
     let index = material.index_d();
-    let p = proportions::of(&design).map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let p = proportions::measure(&solid);
+    let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
+    let weight = Weight::of(&args.substance, &design);
+    let size = match args.carat {
+        Some(carats) => Some(weight.width_mm(&design, carats)?),
+        None => args.size,
+    };
     Ok(Sheet {
         file: spec.into(),
         format: imported.format.to_string(),
@@ -239,16 +244,19 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
         facets: p.facets,
         closed: true,
         convex: true, // what the readers let through is the solid of its planes
-        volume: p.volume,
-        unit: match design.unit {
-            Unit::Millimetre => "mm",
-            Unit::Free => "file",
+        volume: p.volume / unit_mm.powi(3),
+        unit: match (design.unit, imported.format) {
+            (Unit::Free, _) => "file",
+            (Unit::Millimetre, format) if formats::unit_mm(format).is_some() => "m",
+            (Unit::Millimetre, _) => "mm",
         },
+        unit_mm,
         facets_by_kind: p.by_zone.iter().copied().collect(),
-        measured: Measured::of(&p, &design, args),
-        tiers: design.tiers.iter().map(TierRow::of).collect(),
+        measured: Measured::of(&p, &design, size, &weight).in_unit_of(unit_mm),
+        tiers: TierRow::all(&design, &solid),
         brilliant: p.brilliant,
-        proportion_envelope: brilliant::envelope(&p),
+        proportion_envelope: brilliant::envelope(&p).filter(|_| weight.is_diamond()),
+        graded: weight.is_diamond(),
         ratios: p.ratios,
         symmetry: p.symmetry,
         material: material.name.into_owned(),
@@ -256,37 +264,6 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
         critical_angle_deg: critical_angle_deg(index),
         warnings: imported.warnings,
     })
-}
-
-impl Measured {
-    fn of(p: &Proportions, design: &Design, args: &Args) -> Measured {
-        // weight is asked for by --size or known by the unit; without a material it is diamond's
-        let to_mm = match (args.size, design.unit) {
-            (Some(mm), _) => Some(mm / p.width),
-            (None, Unit::Millimetre) => Some(1.0),
-            (None, Unit::Free) => None,
-        };
-        let volume_mm3 = to_mm.map(|k| p.volume * k.powi(3));
-        let weighed = args.substance.material.unwrap_or(materials::MATERIALS[0]);
-        let carats = volume_mm3.and_then(|v| weighed.carats(v));
-        Measured {
-            width: p.width,
-            length: p.length,
-            surface: p.surface,
-            table_percent: p.table_percent,
-            crown_angle_deg: p.crown_angle_deg,
-            crown_height_percent: p.crown_height_percent,
-            pavilion_angle_deg: p.pavilion_angle_deg,
-            pavilion_depth_percent: p.pavilion_depth_percent,
-            girdle_percent: p.girdle_percent,
-            depth_percent: p.depth_percent,
-            culet_percent: p.culet_percent,
-            width_mm: to_mm.map(|k| p.width * k),
-            volume_mm3,
-            carats,
-            weighed_as: carats.map(|_| weighed.name.to_string()),
-        }
-    }
 }
 
 impl Sheet {
@@ -305,7 +282,8 @@ impl Sheet {
         line("facets", format!("{} = {}", self.facets, kinds.join(" + ")));
         let m = &self.measured;
         let angle = |a: Option<f64>| a.map_or("no facets".into(), |a| format!("{a:.2}°"));
-        let unit = if self.unit == "mm" { " mm" } else { "" };
+        let (k, is_free) = (self.unit_mm, self.unit == "file");
+        let unit = if is_free { "" } else { " mm" };
         line("table", m.table_percent.map_or("none".into(), |t| format!("{t:.2} %")));
         line("crown", format!("{}, height {:.2} %", angle(m.crown_angle_deg), m.crown_height_percent));
         line("pavilion", format!("{}, depth {:.2} %", angle(m.pavilion_angle_deg), m.pavilion_depth_percent));
@@ -316,6 +294,8 @@ impl Sheet {
         line("depth", format!("{:.2} %", m.depth_percent));
         if let Some(b) = &self.brilliant {
             line("star", format!("{:.1} %, lower half {:.1} %", b.star_percent, b.lower_half_percent));
+        }
+        if self.brilliant.is_some() && self.graded {
             let envelope = self.proportion_envelope.map_or("outside the proportion envelopes".into(), |e| {
                 format!("within the proportion envelope of {e}")
             });
@@ -324,20 +304,21 @@ impl Sheet {
                 format!("{envelope} (GIA's table of single proportions, which is necessary only)"),
             );
         }
-        line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
+        line("width × length", format!("{:.4} × {:.4}{unit}", k * m.width, k * m.length));
         line(
             "volume",
-            match self.unit {
-                "mm" => format!("{:.4} mm³", self.volume),
-                _ => format!("{:.6} in the file's own unit", self.volume),
+            match is_free {
+                true => format!("{:.6} in the file's own unit", self.volume),
+                false => format!("{:.4} mm³", k.powi(3) * self.volume),
             },
         );
         if let (Some(mm), Some(mm3)) = (m.width_mm, m.volume_mm3) {
             let weight = match (m.carats, &m.weighed_as) {
                 (Some(ct), Some(name)) => format!("{ct:.3} ct in {name}"),
-                _ => "the material's density is not known".into(),
+                _ => "not known".into(),
             };
-            line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm:.3} mm)"));
+            let why = m.weight_note.as_ref().map_or(String::new(), |why| format!("; {why}"));
+            line("weight", format!("{weight} ({mm3:.3} mm³ at a width of {mm:.3} mm){why}"));
         }
         let r = &self.ratios;
         let t_w = r.t_w.map_or(String::new(), |t| format!("T/W {t:.3}  "));

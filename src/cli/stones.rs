@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::standing;
 use crate::cut::families::Family;
 use crate::cut::{Design, USUAL_WIDTH_MM, Unit, families, library};
 use crate::formats::{Imported, stone};
@@ -13,9 +14,9 @@ use rayon::prelude::*;
 /// The stone that every command takes when none is named.
 pub const DEFAULT_STONE: &str = "round-brilliant";
 
-/// Opens one STONE.
+/// Opens one STONE; that of a file stands as `--up` or `--align` has it.
 pub fn open(spec: &str) -> Result<Imported, Failure> {
-    Ok(stone::open(spec)?)
+    standing::stood(stone::open(spec)?)
 }
 
 /// Does `work` for every stone, in parallel; results in the order of `specs`. A stone that fails

@@ -119,7 +119,7 @@ fn at(args: &Args, point: &[f64]) -> (String, Scoring) {
 
 /// Whether the stone's family has the parameter `key`.
 fn has(stone: &str, key: &str) -> bool {
-    stones::family(stone).is_some_and(|f| f.parameters.iter().any(|p| p.key == key))
+    stones::family(stone).is_some_and(|f| f.keys().any(|p| p.key == key))
 }
 
 /// Refuses what cannot be swept or drawn, before anything is scored.

@@ -175,6 +175,24 @@ impl Tier {
     }
 }
 
+impl Tier {
+    /// A name for each facet: its own, or the tier's with its number. Of a tier whose first facet alone
+    /// is named, as GemCad's files have it, that name is the tier's.
+    ///
+    /// - `number`: of the tier, from 1, for one without a name
+    pub fn labels(&self, number: usize) -> Vec<String> {
+        let named = self.facets.iter().filter(|f| !f.name.is_empty()).count();
+        let only_first = named == 1 && self.facets.len() > 1 && self.facets[0].name == self.name;
+        let label = |(i, f): (usize, &Facet)| match (&*f.name, &*self.name) {
+            ("", "") => format!("tier {number} {}", i + 1),
+            ("", of) => format!("{of} {}", i + 1),
+            (own, _) if i == 0 && only_first => format!("{own} 1"),
+            (own, _) => own.to_owned(),
+        };
+        self.facets.iter().enumerate().map(label).collect()
+    }
+}
+
 impl Design {
     /// An empty design of that name, without unit.
     pub fn named(name: impl Into<String>) -> Design {

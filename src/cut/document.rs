@@ -194,16 +194,16 @@ impl Document {
     /// Builds the design, with `overrides` for the parameters of a family, or for the length to
     /// width of a cut of tiers.
     pub fn design(&self, overrides: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
-        let mut values = self.parameters.clone();
-        values.extend(overrides.iter().map(|(k, v)| (k.clone(), *v)));
         if let Some(family) = &self.family {
-            let mut design = families::build(family, &values)?;
+            let mut design = families::build_from(family, &self.parameters, overrides)?;
             if !self.name.is_empty() {
                 design.name = self.name.clone();
             }
             design.source = self.source.clone();
             return Ok(design);
         }
+        let mut values = self.parameters.clone();
+        values.extend(overrides.iter().map(|(k, v)| (k.clone(), *v)));
         let length_to_width = values.remove(LENGTH_TO_WIDTH);
         if let Some(key) = values.keys().next() {
             return Err(CutError::NoParameters { name: self.name.clone(), key: key.clone() }.into());

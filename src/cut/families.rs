@@ -3,16 +3,19 @@
 mod bipyramid;
 mod cushion;
 pub(super) mod fancy_brilliant;
+pub mod heights;
 mod marquise;
 mod oval;
 mod pear;
 mod prism;
 pub mod round_brilliant;
 mod step_cut;
+mod summary;
 
 use super::design::Design;
 use crate::math::typed::{self, Unit, shown};
 use std::collections::BTreeMap;
+pub use summary::made_up_of;
 
 /// One parameter of a family.
 #[derive(Debug, Clone, Copy)]
@@ -37,10 +40,19 @@ pub struct Family {
     pub about: &'static str,
     /// Its parameters.
     pub parameters: &'static [Parameter],
+    /// What a grading report states in place of some of them (see [`heights`]); without defaults.
+    pub heights: &'static [Parameter],
     /// The parameter by which the number of facets is set, and its step.
     pub total: Option<(&'static str, usize)>,
     /// Builds the design from a full set of values, each already within its range.
     pub build: fn(&Values) -> Result<Design, CutError>,
+}
+
+impl Family {
+    /// Everything that can be set, parameters first.
+    pub fn keys(&self) -> impl Iterator<Item = &'static Parameter> {
+        self.parameters.iter().chain(self.heights)
+    }
 }
 
 /// Every family.
@@ -157,8 +169,21 @@ pub fn unit(key: &str) -> Unit {
 /// The key `facets` asks for an exact total, which families with a free count (the girdle flats of
 /// a brilliant) are fitted to.
 pub fn build(name: &str, given: &BTreeMap<String, f64>) -> Result<Design, CutError> {
+    build_from(name, &BTreeMap::new(), given)
+}
+
+/// As [`build`], with the values of a design file in place of the family's defaults.
+///
+/// - `own`: the file's values
+/// - `given`: what was asked for; a height among them replaces what the file has in its place
+pub fn build_from(
+    name: &str,
+    own: &BTreeMap<String, f64>,
+    given: &BTreeMap<String, f64>,
+) -> Result<Design, CutError> {
     let family = family(name)?;
-    let mut given = given.clone();
+    let own = heights::resolved(family, &BTreeMap::new(), own)?;
+    let mut given = heights::resolved(family, &own, given)?;
     let Some(asked) = given.remove("facets") else {
         return build_exactly(family, &given);
     };
@@ -198,49 +223,28 @@ fn fit_total(
     build_exactly(family, &given)
 }
 
-/// How many facets of each name the finished stone has, in words, and the total.
-pub fn made_up_of(design: &Design) -> Result<(String, usize), CutError> {
-    let solid = design.solid()?;
-    let mut fates = solid.fates.iter();
-    let mut parts: Vec<(&str, usize)> = Vec::new();
-    for tier in &design.tiers {
-        let standing = tier
-            .facets
-            .iter()
-            .filter(|_| matches!(fates.next(), Some(crate::solid::polyhedron::Fate::Facet(_))))
-            .count();
-        match parts.iter_mut().find(|(name, _)| *name == tier.name) {
-            Some((_, count)) => *count += standing,
-            None if standing > 0 => parts.push((&tier.name, standing)),
-            None => {}
-        }
-    }
-    let words: Vec<String> = parts.iter().map(|(name, count)| format!("{count} {name}")).collect();
-    Ok((words.join(" + "), solid.faces.len()))
-}
-
 fn build_exactly(family: &'static Family, given: &BTreeMap<String, f64>) -> Result<Design, CutError> {
-    if let Some(key) = given.keys().find(|k| !family.parameters.iter().any(|p| p.key == *k)) {
+    if let Some(key) = given.keys().find(|k| !family.keys().any(|p| p.key == *k)) {
         return Err(CutError::UnknownParameter {
             family: family.name,
             key: key.clone(),
-            known: family.parameters.iter().map(|p| p.key).collect(),
+            known: family.keys().map(|p| p.key).collect(),
         });
     }
-    let values = family
-        .parameters
-        .iter()
-        .map(|p| {
-            let value = given.get(p.key).copied().unwrap_or(p.default);
-            if (p.range.0..=p.range.1).contains(&value) {
-                Ok(value)
-            } else {
-                let (from, to) = p.range;
-                Err(CutError::OutOfRange { key: p.key, value, unit: p.unit, from, to })
-            }
-        })
-        .collect::<Result<_, _>>()?;
+    let values = family.parameters.iter().map(|p| p.checked(given.get(p.key).copied().unwrap_or(p.default)));
+    let values = values.collect::<Result<_, _>>()?;
     (family.build)(&Values { family, values })
+}
+
+impl Parameter {
+    /// The value, if it lies within the range.
+    fn checked(&self, value: f64) -> Result<f64, CutError> {
+        let (from, to) = self.range;
+        match (from..=to).contains(&value) {
+            true => Ok(value),
+            false => Err(CutError::OutOfRange { key: self.key, value, unit: self.unit, from, to }),
+        }
+    }
 }
 
 impl std::fmt::Debug for Family {

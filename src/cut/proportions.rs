@@ -4,9 +4,9 @@ use super::brilliant::{self, Lengths};
 use super::design::{Design, Zone};
 use super::hull::Hull;
 use super::symmetry::{self, Symmetry};
-use crate::solid::measure::calipers;
+use crate::solid::measure::{calipers, width_directions};
 use crate::solid::{Polyhedron, SolidError};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -24,9 +24,14 @@ pub struct Proportions {
     pub length: f64,
     /// Table along the width: corner to corner in a round stone, flat to flat in a square one.
     pub table_percent: Option<f64>,
-    /// Steepest of the two main angles: the crown facets that reach the girdle's thick places.
+    /// Angle of the crown's main facet across the width.
+    ///
+    /// Main facets are those that span the greatest height of their side: the mains of a brilliant, the
+    /// first step of a step cut. Of these the one counts that faces along the width most nearly, and of
+    /// several that do so alike the steepest: in an oval the mains have three angles, across the width,
+    /// along the length and between.
     pub crown_angle_deg: Option<f64>,
-    /// Angle of the pavilion facets that reach lowest.
+    /// Angle of the pavilion's main facet across the width, as [`Proportions::crown_angle_deg`].
     pub pavilion_angle_deg: Option<f64>,
     /// From girdle top (thick places) to table.
     pub crown_height_percent: f64,
@@ -106,8 +111,8 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
         width,
         length,
         table_percent: flat_size(Zone::Table).map(percent),
-        crown_angle_deg: main_angle(solid, &zones, Zone::Crown),
-        pavilion_angle_deg: main_angle(solid, &zones, Zone::Pavilion),
+        crown_angle_deg: main_angle(solid, &zones, Zone::Crown, &outline),
+        pavilion_angle_deg: main_angle(solid, &zones, Zone::Pavilion, &outline),
         crown_height_percent: percent(hi.z - girdle_high),
         pavilion_depth_percent: percent(girdle_low - lo.z),
         girdle_percent: percent(girdle_high - girdle_low),
@@ -204,16 +209,27 @@ fn scallop(solid: &Polyhedron, zones: &[Zone], zone: Zone) -> Option<f64> {
     if zone == Zone::Crown { heights.reduce(f64::min) } else { heights.reduce(f64::max) }
 }
 
-/// Angle of the mains: of the facets of a zone that span the greatest height, which in a brilliant
-/// are the mains (they alone run from the girdle to the table or culet).
-fn main_angle(solid: &Polyhedron, zones: &[Zone], zone: Zone) -> Option<f64> {
+/// Parts by which heights, widths and cosines of azimuths may differ and still count as equal: above
+/// the rounding of a mesh in `f32` and of a design file in four decimals, below what a cutter tells apart.
+const ALIKE: f64 = 1e-3;
+
+/// The angle that [`Proportions::crown_angle_deg`] defines; a function of the planes alone.
+fn main_angle(solid: &Polyhedron, zones: &[Zone], zone: Zone, outline: &[DVec2]) -> Option<f64> {
     let height = |f: usize| {
         let (lo, hi) = extent(solid.polygon(f).map(|v| v.z));
         hi - lo
     };
-    let angle = |f: usize| {
-        let n = solid.area_vector(f);
-        n.truncate().length().atan2(n.z.abs()).to_degrees()
+    let greatest = zone_faces(zones, zone).map(height).reduce(f64::max)?;
+    let mains: Vec<DVec3> = zone_faces(zones, zone)
+        .filter(|&f| height(f) >= (1.0 - ALIKE) * greatest)
+        .map(|f| solid.area_vector(f))
+        .collect();
+    let across = width_directions(outline, ALIKE);
+    let facing = |n: &DVec3| {
+        let plan = n.truncate().normalize_or_zero();
+        across.iter().map(|d| plan.dot(*d).abs()).fold(0.0, f64::max)
     };
-    zone_faces(zones, zone).max_by(|&a, &b| height(a).total_cmp(&height(b))).map(angle)
+    let nearest = mains.iter().map(facing).fold(0.0, f64::max);
+    let angle = |n: &DVec3| n.truncate().length().atan2(n.z.abs()).to_degrees();
+    mains.iter().filter(|n| facing(n) >= nearest - ALIKE).map(angle).reduce(f64::max)
 }

@@ -1,5 +1,5 @@
 //! The cutting diagram that faceters print: two plans with the index wheel, two side views, the
-//! table of tiers, ratios; one page, A4, black on white.
+//! table of tiers, ratios; one page, A4 or Letter, black on white.
 
 mod facts;
 mod labels;
@@ -10,12 +10,13 @@ mod table;
 mod views;
 mod wheel;
 
+pub use pen::Paper;
 pub use projection::View;
 
 use crate::cut::{Design, proportions};
 use crate::solid::SolidError;
 use glam::DVec2;
-use pen::{Anchor, PAGE, Pen};
+use pen::{Anchor, Pen};
 use table::Set;
 use views::Stone;
 
@@ -43,15 +44,21 @@ const CHOICES: [(f64, f64, f64); 5] =
 /// left to right: index 0 stays at the foot and the wheel runs clockwise. The same design gives the
 /// same bytes. Errors are those of [`Design::solid`]. Checked in `tests/diagram.rs`.
 pub fn draw(design: &Design, index: Option<f64>) -> Result<String, SolidError> {
+    draw_on(design, index, Paper::A4)
+}
+
+/// As [`draw`], on that paper.
+pub fn draw_on(design: &Design, index: Option<f64>, paper: Paper) -> Result<String, SolidError> {
+    let page = paper.size_mm();
     let solid = design.solid()?;
     let measures = proportions::measure(&solid);
     let rows = rows::rows(design, &solid);
     let stone = Stone::new(&solid, &rows, design.gear);
-    let wide = PAGE.x - 2.0 * MARGIN;
+    let wide = page.x - 2.0 * MARGIN;
     let above = facts::above(design, &measures, index, wide);
     let below = facts::below(design, &rows, wide);
     let top = MARGIN + above.height() + SPACE;
-    let foot = PAGE.y - MARGIN - below.height();
+    let foot = page.y - MARGIN - below.height();
 
     let plans = |side: f64| side + CAPTION_LINE + SPACE;
     let set = |side: f64, most: f64, least: f64| {
@@ -68,11 +75,11 @@ pub fn draw(design: &Design, index: Option<f64>) -> Result<String, SolidError> {
     let layout = CHOICES.iter().find_map(|&(side, most, least)| set(side, most, least));
     let layout = layout.or_else(|| set(last.0, last.1, 0.0));
 
-    let mut pen = Pen::new(&design.name);
+    let mut pen = Pen::new(&design.name, paper);
     above.draw(&mut pen, DVec2::new(MARGIN, MARGIN));
     pen.rule(DVec2::new(MARGIN, top - 0.5 * SPACE), wide);
     if let Some(layout) = layout {
-        layout.draw(&mut pen, &stone, top);
+        layout.draw(&mut pen, &stone, top, page);
     }
     pen.rule(DVec2::new(MARGIN, foot - 0.3 * SPACE), wide);
     below.draw(&mut pen, DVec2::new(MARGIN, foot));
@@ -99,8 +106,8 @@ fn side_view(stone: &Stone, side: f64, most: f64) -> (f64, f64) {
 }
 
 impl Layout {
-    fn draw(&self, pen: &mut Pen, stone: &Stone, top: f64) {
-        let middles = [0.27 * PAGE.x, 0.73 * PAGE.x];
+    fn draw(&self, pen: &mut Pen, stone: &Stone, top: f64, page: DVec2) {
+        let middles = [0.27 * page.x, 0.73 * page.x];
         let zero = wheel::index_name(stone.gear.offset, stone.gear);
         let quarter = wheel::index_name(stone.gear.offset + 0.25 * stone.gear.teeth, stone.gear);
         let runs = if stone.gear.teeth > 0.0 {
@@ -124,7 +131,7 @@ impl Layout {
             } else {
                 format!("; too small: {}", nowhere.join(", "))
             };
-            let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * PAGE.x - MARGIN);
+            let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * page.x - MARGIN);
             pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);
         }
         let sides = caption + 1.0 + SPACE;

@@ -40,6 +40,11 @@ pub enum RasterError {
     Encode(String),
 }
 
+/// An SVG drawing as it is understood, its text in the fonts of the binary.
+pub(super) fn tree(svg: &str) -> Result<usvg::Tree, usvg::Error> {
+    usvg::Tree::from_str(svg, &OPTIONS)
+}
+
 /// What resvg may use: our two fonts, under every generic name, and no file.
 static OPTIONS: LazyLock<usvg::Options<'static>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
@@ -63,7 +68,7 @@ static OPTIONS: LazyLock<usvg::Options<'static>> = LazyLock::new(|| {
 /// Text is drawn in the fonts of the binary whatever family it asks for; files that the SVG refers
 /// to are not opened. The same SVG gives the same bytes. Checked below.
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
-    let tree = usvg::Tree::from_str(svg, &OPTIONS)?;
+    let tree = tree(svg)?;
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round() as u32;
     let too_large = RasterError::Size { width, height };

@@ -116,6 +116,18 @@ pub fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     hull
 }
 
+/// Directions across which the hull has its least width, or more than that by at most the part `slack`:
+/// one for an oval, two for a square, many for a polygon that stands for a circle.
+pub fn width_directions(hull: &[DVec2], slack: f64) -> Vec<DVec2> {
+    let most = calipers(hull).0 * (1.0 + slack);
+    let across = |i: usize| (hull[(i + 1) % hull.len()] - hull[i]).perp().try_normalize();
+    let extent = |d: &DVec2| {
+        let reach = |sign: f64| hull.iter().map(|p| sign * p.dot(*d)).fold(f64::NEG_INFINITY, f64::max);
+        reach(1.0) + reach(-1.0)
+    };
+    (0..hull.len()).filter_map(across).filter(|d| extent(d) <= most).collect()
+}
+
 /// Least width over all directions, and the extent across it. The least width has one side of the
 /// hull flush with a caliper.
 pub fn calipers(hull: &[DVec2]) -> (f64, f64) {

@@ -1,7 +1,9 @@
 //! The tiers of a design, as `cutlab show` lists them.
 
-use crate::cut::Tier;
 use crate::cut::design::read_alike;
+use crate::cut::measured::{self, MeasuredTier};
+use crate::cut::{Design, Tier};
+use crate::solid::Polyhedron;
 use serde::Serialize;
 
 /// One tier of the design.
@@ -17,14 +19,33 @@ pub struct TierRow {
 }
 
 impl TierRow {
-    /// The row of a tier.
-    pub fn of(tier: &Tier) -> TierRow {
+    /// The rows of a design: its own tiers, or, of a mesh, which has none, those read off its planes.
+    pub fn all(design: &Design, solid: &Polyhedron) -> Vec<TierRow> {
+        if design.tiers.iter().all(|t| t.angle_deg.is_none()) {
+            let labels: Vec<String> =
+                design.tiers.iter().enumerate().flat_map(|(i, t)| t.labels(i + 1)).collect();
+            return measured::tiers(design, solid).iter().map(|t| TierRow::measured(t, &labels)).collect();
+        }
+        design.tiers.iter().enumerate().map(|(i, tier)| TierRow::of(tier, i + 1)).collect()
+    }
+
+    fn of(tier: &Tier, number: usize) -> TierRow {
         TierRow {
             name: tier.name.clone(),
             angle_deg: tier.angle_deg,
-            facets: tier.facets.iter().map(|f| f.name.clone()).collect(),
+            facets: tier.labels(number),
             indices: tier.facets.iter().filter_map(|f| f.index).collect(),
             instructions: tier.instructions.clone(),
+        }
+    }
+
+    fn measured(tier: &MeasuredTier, labels: &[String]) -> TierRow {
+        TierRow {
+            name: tier.zone.name().into(),
+            angle_deg: Some(tier.angle_deg),
+            facets: tier.facets.iter().map(|&f| labels[f].clone()).collect(),
+            indices: tier.indices.clone(),
+            instructions: String::new(),
         }
     }
 
@@ -56,7 +77,8 @@ impl TierRow {
             indices.push(format!("{} facets", self.facets.len()));
         }
         // a file without tier names may name its facets
-        let name = if self.name.is_empty() { self.facets.first() } else { Some(&self.name) };
+        let labelled = |label: &&String| self.name.is_empty() && !label.starts_with("tier ");
+        let name = self.facets.first().filter(labelled).or(Some(&self.name));
         let name = name.filter(|n| !n.is_empty()).map_or(String::new(), |n| format!("  {n}"));
         format!("{angle:>8}{name}  {}", indices.join(" "))
     }

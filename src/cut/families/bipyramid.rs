@@ -24,6 +24,7 @@ pub static FAMILY: Family = Family {
             about: "diameter of the circle through the girdle's corners",
         },
     ],
+    heights: &[],
     total: None,
     build,
 };

@@ -30,6 +30,7 @@ pub static FAMILY: Family = Family {
             about: "exponent of the superellipse: 2 is an ellipse",
         },
     ],
+    heights: super::heights::OF_BRILLIANTS,
     total: Some(("girdle-facets", 16)),
     build,
 };

@@ -10,6 +10,7 @@ pub static FAMILY: Family = Family {
     name: "marquise-brilliant",
     about: "marquise brilliant: 57 facets and a girdle of flats along two arcs",
     parameters: &fancy_brilliant::parameters(2.0, 4.0, 40.5, 6.0),
+    heights: super::heights::OF_BRILLIANTS,
     total: Some(("girdle-facets", 16)),
     build,
 };

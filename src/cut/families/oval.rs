@@ -10,6 +10,7 @@ pub static FAMILY: Family = Family {
     name: "oval-brilliant",
     about: "oval brilliant: 57 facets and a girdle of flats along an ellipse",
     parameters: &fancy_brilliant::parameters(1.4, 3.0, 40.5, 4.0),
+    heights: super::heights::OF_BRILLIANTS,
     total: Some(("girdle-facets", 16)),
     build,
 };

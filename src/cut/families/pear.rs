@@ -11,6 +11,7 @@ pub static FAMILY: Family = Family {
     name: "pear-brilliant",
     about: "pear brilliant: 57 facets and a girdle of flats along a half circle and two arcs",
     parameters: &fancy_brilliant::parameters(1.6, 2.5, 40.5, 6.0),
+    heights: super::heights::OF_BRILLIANTS,
     total: Some(("girdle-facets", 16)),
     build,
 };

@@ -18,6 +18,7 @@ pub static FAMILY: Family = Family {
             about: "diameter of the circle inside the polygon",
         },
     ],
+    heights: &[],
     total: None,
     build,
 };

@@ -66,6 +66,7 @@ pub static FAMILY: Family = Family {
         },
         Parameter { key: "size", default: 6.5, range: (1e-3, 1e3), unit: " mm", about: "girdle diameter" },
     ],
+    heights: super::heights::OF_BRILLIANTS,
     total: Some(("girdle-facets", 16)),
     build,
 };

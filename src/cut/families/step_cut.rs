@@ -78,6 +78,7 @@ pub static FAMILY: Family = Family {
         Parameter { key: "girdle", default: 3.0, range: (0.1, 50.0), unit: "%", about: "girdle thickness" },
         Parameter { key: "size", default: 6.5, range: (1e-3, 1e3), unit: " mm", about: "girdle width" },
     ],
+    heights: &[],
     total: None,
     build,
 };

@@ -112,7 +112,12 @@ fn ratios(design: &Design, p: &Proportions) -> Vec<String> {
     facts.push(format!("H/W = {:.3}", r.h_w));
     facts.push(format!("Vol/W³ = {:.3}", r.vol_w3));
     if design.unit == Unit::Millimetre {
-        facts.push(format!("W = {:.2} mm", r.w));
+        // a faceter who asked for a size finds that one, not only the one across the corners
+        let corners = r.w > 1.0005 * p.width;
+        facts.push(match corners {
+            true => format!("width {:.2} mm flat to flat, W = {:.2} mm corner to corner", p.width, r.w),
+            false => format!("W = {:.2} mm", r.w),
+        });
     }
     facts
 }

@@ -5,8 +5,25 @@ use crate::report::raster::{FONTS, text_width};
 use glam::DVec2;
 use std::fmt::Write;
 
-/// A4, upright, in mm.
-pub const PAGE: DVec2 = DVec2::new(210.0, 297.0);
+/// The sheet that a diagram is laid out for, upright.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Paper {
+    /// 210 mm × 297 mm.
+    #[default]
+    A4,
+    /// 8.5 in × 11 in.
+    Letter,
+}
+
+impl Paper {
+    /// Width and height in mm.
+    pub fn size_mm(self) -> DVec2 {
+        match self {
+            Paper::A4 => DVec2::new(210.0, 297.0),
+            Paper::Letter => DVec2::new(215.9, 279.4),
+        }
+    }
+}
 
 /// Widths of lines in mm: outlines, facets, rules and ticks.
 pub const OUTLINE: f64 = 0.4;
@@ -37,8 +54,8 @@ pub struct Pen {
 
 impl Pen {
     /// An empty page.
-    pub fn new(title: &str) -> Pen {
-        let (w, h) = (PAGE.x, PAGE.y);
+    pub fn new(title: &str, paper: Paper) -> Pen {
+        let DVec2 { x: w, y: h } = paper.size_mm();
         Pen {
             svg: format!(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \

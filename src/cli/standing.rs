@@ -1,0 +1,96 @@
+//! Which way up the stones of files stand, for every command that opens one.
+
+use super::console::Console;
+use super::outcome::Failure;
+use crate::cut::standing;
+use crate::formats::Imported;
+use glam::DVec3;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, OnceLock};
+
+/// What is asked for on the command line.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct Standing {
+    /// The axis of a stone's file that points up, through the table [z]
+    #[arg(long, global = true, value_name = "x|y|z|-x|-y|-z", value_parser = axis, allow_hyphen_values = true,
+        conflicts_with = "align", display_order = 999)]
+    up: Option<Up>,
+    /// Stand the stone of a file upright: by its axis of symmetry, or else by its largest facet
+    #[arg(long, global = true, display_order = 999)]
+    align: bool,
+}
+
+/// An axis as typed.
+#[derive(Debug, Clone, Copy)]
+struct Up {
+    word: &'static str,
+    direction: DVec3,
+}
+
+fn axis(text: &str) -> Result<Up, String> {
+    let axes = [
+        ("x", DVec3::X),
+        ("y", DVec3::Y),
+        ("z", DVec3::Z),
+        ("-x", DVec3::NEG_X),
+        ("-y", DVec3::NEG_Y),
+        ("-z", DVec3::NEG_Z),
+    ];
+    let text = text.to_lowercase();
+    let found = axes.iter().find(|(word, _)| *word == text.trim_start_matches('+'));
+    let &(word, direction) = found.ok_or("expected one of x, y, z, -x, -y, -z")?;
+    Ok(Up { word, direction })
+}
+
+/// Set once, before the first stone is opened, with where remarks go.
+static ASKED: OnceLock<(Standing, Console)> = OnceLock::new();
+
+/// What all commands go by from here on.
+pub fn set(standing: Standing, console: Console) {
+    // only the first is kept, and there is one command line
+    let _ = ASKED.set((standing, console));
+}
+
+fn asked() -> Standing {
+    ASKED.get().map_or_else(Standing::default, |(standing, _)| *standing)
+}
+
+/// The options as they could be typed again, with a blank before each; nothing if there are none.
+pub fn words() -> String {
+    let Standing { up, align } = asked();
+    let up = up.map_or(String::new(), |up| format!(" --up {}", up.word));
+    if align { up + " --align" } else { up }
+}
+
+/// The stone as it is to stand; a stone of a file that nobody turned and that does not stand table up
+/// gets a remark.
+pub fn stood(mut imported: Imported) -> Result<Imported, Failure> {
+    if imported.format == "library" {
+        return Ok(imported);
+    }
+    let Standing { up, align } = asked();
+    let solid = imported.design.solid()?;
+    let up = match (up, align) {
+        (Some(up), _) => up.direction,
+        (None, true) => standing::up_of(&solid),
+        (None, false) => {
+            imported.warnings.extend(standing::doubt(&solid));
+            return Ok(imported);
+        }
+    };
+    if up.distance(DVec3::Z) > 1e-9 {
+        imported.design = imported.design.turned(standing::turned_up(up));
+    }
+    Ok(imported)
+}
+
+/// Says once of each STONE that it does not stand table up, for commands that print no other remarks.
+pub fn note(spec: &str, imported: &Imported) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let said = imported.warnings.iter().find(|w| w.starts_with(standing::DOUBT));
+    if let (Some(said), Some((_, console)), Ok(mut told)) = (said, ASKED.get(), TOLD.lock())
+        && told.insert(spec.to_owned())
+    {
+        console.note(&format!("note: {spec}: {said}"));
+    }
+}
