@@ -105,7 +105,7 @@ fn generate_names_the_nearest_total_and_the_bound_that_was_crossed() {
         (&["--facets", "153", "--culet", "1"][..], "154"),
         (&["--facets", "58"], "73"),
         (&["--table", "500"], "20 to 95"),
-        (&["--table", "NaN"], "out of range"),
+        (&["--table", "NaN"], "a finite number"),
         (&["--star", "5"], "star must be above 18.4%"),
         (&["--girdle", "0.5"], "girdle must be above"),
         (&["--girdle-facets", "90"], "multiple of 16"),

@@ -101,7 +101,8 @@ fn numbers_with_units_are_understood_and_others_explained() {
         (&["score", "--tilt", "1,5:3:1"], "as 1.5"),
         (&["show", "round-brilliant:crown-angle=34,5"], "a point, as crown-angle=34.5"),
         (&["show", "round-brilliant:crown-angle=34,crown-angle=35"], "given twice"),
-        (&["show", "round-brilliant:crown-angle=35x"], "a number is needed"),
+        (&["show", "round-brilliant:crown-angle=35x"], "give degrees, as 35"),
+        (&["show", "round-brilliant:crown-angle=wide"], "a number is needed"),
     ] {
         let said = bench.bad(arguments);
         assert!(said.contains(word), "{arguments:?}: {said}");

@@ -71,6 +71,21 @@ impl Inputs {
                 ]);
             }
         }
+        make(&[
+            "sweep",
+            "round-brilliant:facets=73",
+            "--vary",
+            "crown-angle=34:35:1",
+            "--metrics",
+            "iso,spread",
+            "--error",
+            "0.05",
+            "-o",
+            "w.csv",
+        ]);
+        let sky =
+            image::ImageBuffer::<image::Rgb<f32>, Vec<f32>>::from_fn(8, 4, |x, _| image::Rgb([x as f32; 3]));
+        sky.save(folder.path().join("sky.hdr")).expect("writes a panorama");
         let made = Inputs { files: read(folder.path()) };
         assert!(made.files.len() >= 18, "{:?}", made.files.keys());
         made

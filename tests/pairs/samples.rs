@@ -50,17 +50,27 @@ const SAMPLES: &[Sample] = &[
     // where to write
     ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"]]),
     ("import", "output", &[&["x.asc"], &["out"], &["-"]]),
-    ("render", "output", &[&["x.png"], &["x.exr"], &["x.gif"], &["x%03d.png"], &["x.apng"], &["-"]]),
+    (
+        "render",
+        "output",
+        &[&["x.png"], &["x.exr"], &["x.gif"], &["x%03d.png"], &["x.apng"], &["x.mp4"], &["-"]],
+    ),
     ("*", "output", &[&["x.csv"], &["x.jsonl"], &["x.json"], &["-"]]),
-    ("compare", "output", &[&["out"]]),
+    ("compare", "output", &[&["out"], &["x.md"], &["x.csv"]]),
     ("report", "output", &[&["out"]]),
     ("validate", "output", &[&["out"]]),
     ("show", "beams", &[&["beams.svg"], &["-"]]),
     ("show", "diagram", &[&["diagram.svg"], &["diagram.png"], &["-"]]),
     ("render", "photon_map", &[&["x.map"]]),
     ("sweep", "plot", &[&["plot.svg"], &["iso.png", "spread.svg"]]),
+    ("score", "plot", &[&["tilt.svg"]]),
+    ("merge", "plot", &[&["plot.svg"]]),
+    ("plot", "table", &[&["w.csv"]]),
+    ("plot", "output", &[&["w.svg"], &["iso.png", "spread.svg"]]),
     // formats
     ("*", "to", &[&["stl"], &["asc"], &["gem"], &["svg"], &["gltf"]]),
+    ("*", "paper", &[&["a4"], &["letter"]]),
+    ("*", "up", &[&["x"], &["-z"]]),
     // scores
     (
         "*",
@@ -77,6 +87,8 @@ const SAMPLES: &[Sample] = &[
     ),
     ("*", "error", &[&["0.05"], &["0.02"]]),
     ("*", "observer", &[&["0"], &["20"]]),
+    ("score", "sort", &[&["iso"], &["spread"]]),
+    ("score", "top", &[&["1"]]),
     ("*", "shard", &[&["1/2"], &["3/3"]]),
     ("score", "tilt", &[&["10"], &["-20:20:20"]]),
     ("score", "tilt_axis", &[&["90"], &["-45"]]),
@@ -86,6 +98,7 @@ const SAMPLES: &[Sample] = &[
     ("*", "material", &[&["diamond"], &["quartz"], &["ruby"]]),
     ("*", "ri", &[&["1.54"]]),
     ("*", "size", &[&["4"]]),
+    ("*", "carat", &[&["1"]]),
     ("generate", "facets", &[&["73"]]),
     ("*", "polarisation", &[&["on"], &["off"]]),
     ("*", "seed", &[&["7"]]),
@@ -102,11 +115,15 @@ const SAMPLES: &[Sample] = &[
     ("render", "time", &[&["1ms"]]),
     ("render", "noise", &[&["400%"]]),
     ("render", "frames", &[&["2"]]),
+    ("render", "fps", &[&["5"]]),
+    ("render", "hdr", &[&["sky.hdr"]]),
+    ("render", "background", &[&["white"], &["transparent"]]),
     ("render", "turn", &[&["camera"], &["stone"], &["light"]]),
     ("render", "exposure", &[&["auto"], &["-1.5"]]),
     ("render", "tone", &[&["filmic"], &["linear"]]),
     ("render", "glare", &[&[""], &["8"]]),
     // the rest
+    ("list", "names", &[&["wlr"], &["oval"]]),
     ("validate", "only", &[&["critical angle"], &["octahedron"]]),
 ];
 
