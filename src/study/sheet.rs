@@ -25,6 +25,8 @@ pub(super) struct Sheet<'a> {
     pub exact: bool,
     /// Whether the stone is not convex.
     pub dented: bool,
+    /// Whether photons fill in what beams were to give and did not.
+    pub unfinished: bool,
 }
 
 /// A column: its number, its metric's scale, and what it reads from a tally.
@@ -35,8 +37,12 @@ impl Sheet<'_> {
     ///
     /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
     fn columns<F>(&self, of: impl Fn(Reading) -> Option<F>, by_beams: bool) -> Vec<Column<F>> {
-        let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams && (m.dented || !self.dented);
-        let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
+        let exact = |m: &Metric| self.exact && m.by_beams;
+        let asked = |i: usize, m: &Metric| match self.unfinished {
+            true => exact(m) && self.row.scores[i].is_none(),
+            false => exact(m) == by_beams && (m.dented || !self.dented),
+        };
+        let metrics = self.plan.metrics.iter().enumerate().filter(|(i, m)| asked(*i, m));
         metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
     }
 
