@@ -73,6 +73,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let spec = &specs[(i / tilts) as usize];
             let tilt = args.tilt.map(|t| Tilt { degrees: t.value(i % tilts), azimuth: args.tilt_axis });
             let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan));
+            scoring::tell(spec, &row, console);
             let mut leading = table::stone_cells(&row);
             leading.extend(tilt.map(|t| Cell::number(t.degrees)));
             Ok(Line {

@@ -12,8 +12,9 @@ use crate::optics::dispersion::lines;
 use crate::study::batch::Outcome;
 use crate::study::identity::{Held, Identity};
 use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Mutex;
 
 #[derive(Debug, Clone, clap::Args)]
 pub struct Scoring {
@@ -154,6 +155,16 @@ impl Scoring {
             Some(_) => Outcome::Bad,
         };
         (row, outcome)
+    }
+}
+
+/// Says what is to be said of a row's scores, once for all rows of which it is.
+pub fn tell(stone: &str, row: &Row, console: &Console) {
+    static TOLD: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    let Some(note) = row.note else { return };
+    let first = TOLD.lock().is_ok_and(|mut told| told.insert(note));
+    if first {
+        console.note(&format!("note: {stone}: {note} (not said of others)"));
     }
 }
 

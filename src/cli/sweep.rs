@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::parameters::Parameters;
-use super::scoring::{Inputs, Scoring};
+use super::scoring::{self, Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
@@ -84,6 +84,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let point = sweep.point(i);
             let (spec, scoring) = at(args, &point);
             let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
+            scoring::tell(&spec, &row, console);
             let mut leading: Vec<Cell> = point.iter().map(|x| Cell::number(*x)).collect();
             leading.push(row.facets.into());
             Ok(Line {

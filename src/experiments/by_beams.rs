@@ -1,11 +1,12 @@
 //! Tallies by beams: what the experiments of one direction add up, without noise or all but.
 
-use super::exact::strongest;
+use super::exact::{StrongestShares, strongest};
 use super::iso::{self, weights};
 use super::separation;
 use super::view::{Band, Sky, Surroundings, band};
 use super::weigh::{Effort, Weighed, weigh};
 use super::{Aspect, ExperimentError, Medium, beam, check_index, entrance, view};
+use crate::math::statistic::Statistic;
 use crate::walk::beams::{Beams, Entrance, Exit, Lit, Scalar, Until, Watch};
 use glam::DVec3;
 
@@ -16,15 +17,32 @@ const STRONGEST_POWER: f64 = 1e-8;
 /// The faceters' view follows every beam of nine meetings that holds more than this.
 const ISO_POWER: f64 = 1e-10;
 
+/// Strongest paths that were not followed.
+const UNKNOWN: StrongestShares = StrongestShares {
+    bands: [f64::NAN; 4],
+    undecided: 1.0,
+    dark: f64::NAN,
+    windowed: f64::NAN,
+    cut_short: true,
+};
+
+/// Whether a score of the view reads the strongest paths.
+pub fn reads_strongest(score: &Statistic<view::Tally>) -> bool {
+    let (strongest, windowed) = (UNKNOWN.bands, UNKNOWN.windowed);
+    score.of(&view::Tally { rays: 1.0, strongest, windowed, ..view::Tally::default() }).is_nan()
+}
+
 /// The view's tally in batches, which share what beams give and have photons of their own.
 ///
-/// The luminance of single points is not known: `dark` stays 0. Checked in `tests/exact.rs` against
+/// The luminance of single points is not known: `dark` stays 0. Strongest paths are followed if they
+/// are asked for; if not, or if there are too many beams, they are not numbers. Checked in `tests/exact.rs` against
 /// [`super::View`].
 pub fn view(
     beams: &Beams,
     medium: &Medium,
     aspect: Aspect,
     surroundings: Surroundings,
+    with_strongest: bool,
     effort: &Effort,
 ) -> Result<Vec<view::Tally>, ExperimentError> {
     const COS2: usize = Band::Below as usize + 1;
@@ -44,7 +62,11 @@ pub fn view(
         weights[DOME] = f64::from(u8::from(dome.is_bright(up)));
         weights
     })?;
-    let shares = strongest(beams, direction, index, medium.polarised, STRONGEST_POWER)?;
+    let mut shares = UNKNOWN;
+    if with_strongest {
+        let found = strongest(beams, direction, index, medium.polarised, STRONGEST_POWER)?;
+        shares = if found.cut_short { UNKNOWN } else { found };
+    }
     let tally = |(sums, lost): ([f64; 8], f64)| view::Tally {
         rays: 1.0,
         reflected: weighed.reflected,

@@ -3,7 +3,7 @@
 
 use super::horizon::is_above;
 use super::view::{Band, band};
-use super::weigh::{Effort, Leaving, Weighed, weigh};
+use super::weigh::{Effort, Leaving, MOST_BEAMS, Weighed, weigh};
 use super::{ExperimentError, check_index, entrance};
 use crate::math::stats::Estimate;
 use crate::optics::stokes::Stokes;
@@ -147,6 +147,9 @@ pub struct StrongestShares {
     pub dark: f64,
     /// Share of the outline whose strongest path leaves through the first pavilion facet it meets.
     pub windowed: f64,
+    /// Whether there were more than [`MOST_BEAMS`], and the rest was not followed: the shares are then
+    /// good for nothing but a guess.
+    pub cut_short: bool,
 }
 
 struct Areas {
@@ -184,12 +187,12 @@ pub fn strongest(
     check_index(index)?;
     let mut areas = Areas { axis: -direction, shares: StrongestShares::default() };
     let lit = Lit { direction, indices: [index] };
-    let until = Until::power(stop_power);
-    if polarised {
+    let until = Until { beams: MOST_BEAMS, ..Until::power(stop_power) };
+    let totals = if polarised {
         let light = Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
-        beams.follow(&lit, Strongest::fresh(light), until, &mut areas);
+        beams.follow(&lit, Strongest::fresh(light), until, &mut areas)
     } else {
-        beams.follow(&lit, Strongest::fresh(Scalar(1.0)), until, &mut areas);
-    }
-    Ok(areas.shares)
+        beams.follow(&lit, Strongest::fresh(Scalar(1.0)), until, &mut areas)
+    };
+    Ok(StrongestShares { cut_short: totals.beams >= MOST_BEAMS, ..areas.shares })
 }

@@ -15,8 +15,9 @@ pub static ASET_BLUE_STRONGEST: Metric = Metric {
     dented: false,
     definition: "Parallel face-up view traced backward over the whole outline, no observer's head; \
         unpolarised light, Fresnel with its polarisation followed inside (scalar with --polarisation \
-        off), D line. Share of the outline whose strongest path comes from 75 to 90° above the \
-        girdle plane, as a photograph shows it; reflection at entry not counted.",
+        off), D line (for a stone that absorbs, luminance under D65). Share of the outline whose \
+        strongest path comes from 75 to 90° above the girdle plane, as a photograph shows it; \
+        reflection at entry not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
     reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Blue as usize], t.rays])),
 };

@@ -13,10 +13,11 @@ pub static ASET_LEAK_STRONGEST: Metric = Metric {
     observer: None,
     by_beams: true,
     dented: false,
-    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
-        with its polarisation followed inside (scalar with --polarisation off), D line. No \
-        observer's head. Share of the outline whose strongest path comes from below the horizon, as \
-        a photograph shows it; reflection at entry not counted.",
+    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
+        Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
+        stone that absorbs, luminance under D65). No observer's head. Share of the outline whose \
+        strongest path comes from below the horizon, as a photograph shows it; reflection at entry \
+        not counted.",
     source: "colours of the ASET, American Gem Society (P. Yantzer et al., 2005)",
     reading: Reading::View(Statistic::Share(|t| [t.strongest[Band::Below as usize], t.rays])),
 };

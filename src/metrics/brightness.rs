@@ -13,10 +13,11 @@ pub static BRIGHTNESS: Metric = Metric {
     observer: Some(OBSERVER_DEG),
     by_beams: true,
     dented: true,
-    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
-        with its polarisation followed inside (scalar with --polarisation off), D line. White dome \
-        above the horizon with a dark observer cone of 23° half-angle, or --observer. Mean luminance \
-        over the outline per luminance of the dome, by whatever facet, reflection at entry included.",
+    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
+        Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
+        stone that absorbs, luminance under D65). White dome above the horizon with a dark observer \
+        cone of 23° half-angle, or --observer. Mean luminance over the outline per luminance of the \
+        dome, by whatever facet, reflection at entry included.",
     source: "dome with a dark cone of 23°: T. Moses et al., Gems & Gemology 40 (2004) 202; the mean is cutlab's",
     reading: Reading::View(Statistic::Mean(|t| [t.luminance, t.rays], 1.0)),
 };

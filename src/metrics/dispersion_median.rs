@@ -17,7 +17,8 @@ pub static DISPERSION_MEDIAN: Metric = Metric {
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Angle between lines B and G where both leave by the same facets as D: half the power \
         at D leaves with less. Median of grouped data: the power of each class of 0.05° counts as \
-        spread evenly over it, because facets give a few sharp angles.",
+        spread evenly over it, because facets give a few sharp angles. What a stone absorbs counts at \
+        each line.",
     source: "defined by cutlab",
     reading: Reading::Beam(Statistic::Median(|t| &t.power_by_angle, CLASS_DEG)),
 };

@@ -13,11 +13,11 @@ pub static EXTINCTION: Metric = Metric {
     observer: Some(OBSERVER_DEG),
     by_beams: false,
     dented: false,
-    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, Fresnel \
-        with its polarisation followed inside (scalar with --polarisation off), D line. White dome \
-        above the horizon with a dark observer cone of 23° half-angle, or --observer. Share of the \
-        outline, windowing aside, whose luminance is under a tenth of the dome's, by whatever facet, \
-        reflection at entry included.",
+    definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
+        Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
+        stone that absorbs, luminance under D65). White dome above the horizon with a dark observer \
+        cone of 23° half-angle, or --observer. Share of the outline, windowing aside, whose luminance \
+        is under a tenth of the dome's, by whatever facet, reflection at entry included.",
     source: "the faceters' extinction, as defined by cutlab",
     reading: Reading::View(Statistic::Share(|t| [t.dark, t.rays])),
 };

@@ -13,13 +13,13 @@ pub static ISO: Metric = Metric {
     observer: Some(OBSERVER_DEG),
     by_beams: true,
     dented: false,
-    definition: "Parallel view from the eye over the whole outline; light that is unpolarised at every \
-        facet (scalar Fresnel, whatever --polarisation), D line. Rays of at most ten segments, the \
-        incoming one and nine inside. Power from directions whose sine h of elevation lies above 0 \
-        and outside the shadow of the viewer's head (10° half-angle, or --observer; 0 for none), \
-        weighted by 1; exits and reflections at entry count at facets that face the viewer (cosine \
-        above 1e-4). Mean over the whole outline, in percent. The light stays with the viewer when \
-        the stone is tilted.",
+    definition: "Parallel view from the eye over the whole outline; light that is unpolarised at \
+        every facet (scalar Fresnel, whatever --polarisation), D line (for a stone that absorbs, \
+        luminance under D65). Rays of at most ten segments, the incoming one and nine inside. Power \
+        from directions whose sine h of elevation lies above 0 and outside the shadow of the viewer's \
+        head (10° half-angle, or --observer; 0 for none), weighted by 1; exits and reflections at \
+        entry count at facets that face the viewer (cosine above 1e-4). Mean over the whole outline, \
+        in percent. The light stays with the viewer when the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
     reading: Reading::Iso(Statistic::Mean(|t| [t.all[Weight::Iso as usize], t.rays], 100.0)),
 };

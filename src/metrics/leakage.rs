@@ -12,11 +12,11 @@ pub static LEAKAGE: Metric = Metric {
     observer: None,
     by_beams: true,
     dented: true,
-    definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised \
-        light, Fresnel with its polarisation followed inside (scalar with --polarisation off), D \
-        line. Power that leaves otherwise than upward through the crown, per power arriving. \
-        Directions are cosine-distributed about the crown facets' normals, points uniform by crown \
-        area; those from below the horizon are not counted.",
+    definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, \
+        Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
+        stone that absorbs, luminance under D65). Power that leaves otherwise than upward through the \
+        crown, per power arriving. Directions are cosine-distributed about the crown facets' normals, \
+        points uniform by crown area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
     reading: Reading::Hemisphere(Statistic::Mean(|t| [t.leaked, t.arrived], 1.0)),
 };

@@ -14,12 +14,12 @@ pub static TABLE_SC2: Metric = Metric {
     by_beams: true,
     dented: false,
     definition: "Parallel view from the eye over the table alone; light that is unpolarised at every \
-        facet (scalar Fresnel, whatever --polarisation), D line. Rays of at most ten segments, the \
-        incoming one and nine inside. Power from directions whose sine h of elevation lies above 0 \
-        and outside the shadow of the viewer's head (10° half-angle, or --observer; 0 for none), \
-        weighted by 2h√(1 − h²); exits and reflections at entry count at facets that face the viewer \
-        (cosine above 1e-4). Mean over the table alone, in percent. The light stays with the viewer \
-        when the stone is tilted.",
+        facet (scalar Fresnel, whatever --polarisation), D line (for a stone that absorbs, luminance \
+        under D65). Rays of at most ten segments, the incoming one and nine inside. Power from \
+        directions whose sine h of elevation lies above 0 and outside the shadow of the viewer's head \
+        (10° half-angle, or --observer; 0 for none), weighted by 2h√(1 − h²); exits and reflections \
+        at entry count at facets that face the viewer (cosine above 1e-4). Mean over the table alone, \
+        in percent. The light stays with the viewer when the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
     reading: Reading::Iso(Statistic::Mean(|t| [t.table[Weight::Sc2 as usize], t.table_rays], 100.0)),
 };

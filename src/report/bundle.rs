@@ -110,7 +110,8 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
 
     step("scopes");
     let index = request.material.index_d() as f32;
-    let pictures = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
+    let mut pictures = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
+    pictures.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
 
     let tilts = tilts::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
 

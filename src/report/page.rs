@@ -106,8 +106,10 @@ pub(super) fn head(title: &str, style: &str, sub: &str) -> String {
 /// A picture through a scope, with its legend and shares.
 pub(super) fn scope_figure(picture: &Picture) -> String {
     let scope = picture.scope;
+    let colour =
+        if picture.without_colour { "; without the colour of the stone, which the scores have" } else { "" };
     let mut out = format!(
-        "<figure><img src=\"{}\" alt=\"{name}, seen from above\"><figcaption><b>{name}</b>: {}\
+        "<figure><img src=\"{}\" alt=\"{name}, seen from above\"><figcaption><b>{name}</b>: {}{colour}\
          <ul class=\"legend\">",
         data_uri(&picture.png),
         escaped(scope.about),

@@ -128,6 +128,8 @@ pub struct Picture {
     pub png: Vec<u8>,
     /// Share of the outline by key of the legend, adding up to 1.
     pub shares: Vec<f64>,
+    /// Whether the stone absorbs, which the picture does not show, though the scores do.
+    pub without_colour: bool,
 }
 
 /// Takes one picture through each scope: `side` × `side` pixels, 16 points each.
@@ -166,6 +168,7 @@ pub fn pictures(
             scope,
             png: encode_rgb(&bytes, side, side)?,
             shares: counts.into_iter().map(|c| c as f64 / all).collect(),
+            without_colour: false,
         })
     };
     scopes.iter().enumerate().map(picture).collect()

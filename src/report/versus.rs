@@ -65,7 +65,8 @@ pub fn html(
         let stone = Stone::new(solid.clone());
         step("scopes");
         let index = request.material.index_d() as f32;
-        let seen = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
+        let mut seen = scopes::pictures(&stone, index, &scopes::SCOPES, SCOPE_SIDE)?;
+        seen.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
         step("picture");
         let picture = table_picture(request, &|_| ())?;
         let mut cells =

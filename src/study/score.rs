@@ -146,6 +146,8 @@ pub struct Row {
     pub scores: Vec<Option<Estimate>>,
     /// Points traced, by experiment.
     pub samples: Vec<(&'static str, u64)>,
+    /// What is to be said of the scores: photons that took the place of beams.
+    pub note: Option<&'static str>,
     /// What went wrong: no shape, no light, or an error not reached (the scores then stand).
     pub error: Option<String>,
     /// Metrics of the plan that do not apply to the stone, with the reason: nothing went wrong.
@@ -200,6 +202,7 @@ pub fn score(subject: &Subject, plan: &Plan) -> Row {
         facets: None,
         scores: vec![None; plan.metrics.len()],
         samples: Vec::new(),
+        note: None,
         error: None,
         left_out: Vec::new(),
     };
@@ -245,7 +248,7 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     }
     let exact = plan.exact && subject.material.is_clear();
     let table = stone.planes.iter().any(|p| Zone::of(p.normal) == Zone::Table);
-    let mut sheet = Sheet { row, plan, exact, dented: false, table };
+    let mut sheet = Sheet { row, plan, exact, dented: false, table, unfinished: false };
     let (stop, wavelengths) = (plan.stop_power(), medium.wavelengths_a_point());
     sheet.fill("hemisphere", of_hemisphere, false, 1, || {
         Ok(Hemisphere::seen_from(stone, &medium, aspect)?.followed_to(stop))
@@ -280,15 +283,34 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
         let make = || Quadrature::seen_from(stone, &medium, aspect);
         sheet.fill("quadrature", of_hemisphere, true, DIRECTION_COST, make)?;
         let beams = Beams::new(stone);
-        sheet
-            .finish("view by beams", of_view, |w| by_beams::view(&beams, &medium, aspect, surroundings, w))?;
+        let strongest = |m: &&Metric| of_view(m.reading).is_some_and(|s| by_beams::reads_strongest(&s));
+        let strongest = plan.metrics.iter().any(|m| strongest(m));
+        sheet.finish("view by beams", of_view, |w| {
+            by_beams::view(&beams, &medium, aspect, surroundings, strongest, w)
+        })?;
         sheet.finish("iso by beams", iso, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
         if dispersive {
             sheet.finish("beam by beams", beam, |w| by_beams::colours(&beams, &medium, aspect, w))?;
         }
+        sheet.unfinished = true;
+        let finished = sheet.row.samples.len();
+        sheet.fill("view", of_view, false, 1, || {
+            Ok(View::seen_from(stone, &medium, aspect, surroundings)?.followed_to(stop))
+        })?;
+        if row.samples.len() > finished {
+            row.note = Some(TOO_MANY_BEAMS);
+        }
+    } else if plan.exact && plan.metrics.iter().any(|m| m.by_beams) {
+        row.note = Some(NO_BEAMS_IN_COLOUR);
     }
     Ok(())
 }
+
+/// Notes of rows that have photons where beams were asked for.
+const TOO_MANY_BEAMS: &str =
+    "too many beams to follow each point's strongest path: by photons, with their error";
+const NO_BEAMS_IN_COLOUR: &str = "beams do not follow absorption: --exact has no effect on a coloured stone";
+const NO_BEAMS_IN_DENTS: &str = "beams need a convex stone: --exact has no effect on this one";
 
 /// The scores of a stone that is not convex.
 fn fill_dented(
@@ -299,7 +321,10 @@ fn fill_dented(
 ) -> Result<(), ExperimentError> {
     let (medium, aspect) = (subject.medium(plan), subject.aspect());
     plan.metrics.iter().filter(|m| !m.dented).for_each(|m| row.leave_out(m, DENTED));
-    let mut sheet = Sheet { row, plan, exact: false, dented: true, table: true };
+    if plan.exact && plan.metrics.iter().any(|m| m.by_beams && m.dented) {
+        row.note = Some(NO_BEAMS_IN_DENTS);
+    }
+    let mut sheet = Sheet { row, plan, exact: false, dented: true, table: true, unfinished: false };
     sheet.fill("hemisphere", of_hemisphere, false, DENTED_COST, || {
         Ok(dented::Dome::new(stone, &medium, aspect)?.followed_to(plan.stop_power()))
     })?;

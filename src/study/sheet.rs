@@ -38,6 +38,8 @@ pub(super) struct Sheet<'a> {
     pub dented: bool,
     /// Whether the stone has a table.
     pub table: bool,
+    /// Whether photons fill in what beams were to give and did not.
+    pub unfinished: bool,
 }
 
 /// A column: its number, its metric's scale, and what it reads from a tally.
@@ -48,8 +50,12 @@ impl Sheet<'_> {
     ///
     /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
     fn columns<T>(&self, of: impl Fn(Reading) -> Option<Statistic<T>>, by_beams: bool) -> Vec<Column<T>> {
-        let asked = |m: &Metric| (self.exact && m.by_beams) == by_beams && (m.dented || !self.dented);
-        let metrics = self.plan.metrics.iter().enumerate().filter(|(_, m)| asked(m));
+        let exact = |m: &Metric| self.exact && m.by_beams;
+        let asked = |i: usize, m: &Metric| match self.unfinished {
+            true => exact(m) && self.row.scores[i].is_none(),
+            false => exact(m) == by_beams && (m.dented || !self.dented),
+        };
+        let metrics = self.plan.metrics.iter().enumerate().filter(|(i, m)| asked(*i, m));
         metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.reading)?))).collect()
     }
 

@@ -104,19 +104,21 @@ pub struct Until {
     pub left: f64,
     /// A beam is not followed after so many facets inside, [`FACETS_LIMIT`] at most.
     pub facets: u32,
+    /// No beam is followed further once there have been so many.
+    pub beams: u64,
 }
 
 impl Until {
     /// Follows beams down to a power.
     pub fn power(power: f64) -> Until {
-        Until { power, left: 0.0, facets: FACETS_LIMIT }
+        Until { power, left: 0.0, facets: FACETS_LIMIT, beams: u64::MAX }
     }
 
     /// Follows beams until this share of the light is left.
     pub fn left(left: f64) -> Until {
         /// Far below what adds up to any share that matters, and far above the memory of a machine.
         const LEAST: f64 = 1e-9;
-        Until { power: LEAST, left, facets: FACETS_LIMIT }
+        Until { power: LEAST, left, facets: FACETS_LIMIT, beams: u64::MAX }
     }
 }
 

@@ -141,7 +141,7 @@ fn limit_by_photons() -> Trial {
 
 /// Beams as far as they are followed here, and photons for the .2 % that are left.
 const FAR: Work = Work {
-    until: Until { power: 1e-7, left: 0.0, facets: crate::walk::beams::FACETS_LIMIT },
+    until: Until { power: 1e-7, left: 0.0, facets: crate::walk::beams::FACETS_LIMIT, beams: u64::MAX },
     photons: 65_536,
     seed: 1,
 };

@@ -110,7 +110,7 @@ impl<'a, L: Light, W: Watch<L, K>, const K: usize> Run<'a, L, W, K> {
 
     /// Takes up the strongest beams that wait; false if none is to be followed further.
     fn fill(&mut self, slots: &mut [Slot<L, K>]) -> bool {
-        if self.inside <= self.until.left {
+        if self.inside <= self.until.left || self.totals.beams >= self.until.beams {
             return false;
         }
         let mut some = false;
