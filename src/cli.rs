@@ -7,6 +7,7 @@ mod console;
 mod drawing;
 mod folders;
 mod generate;
+mod heartbeat;
 mod import;
 mod list;
 mod merge;

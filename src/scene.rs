@@ -6,11 +6,13 @@ pub mod aim;
 pub mod camera;
 pub mod entries;
 pub mod file;
+pub mod light_entry;
 pub mod lights;
 pub mod mesh;
 pub mod panorama;
 pub mod placed;
 pub mod pose;
+pub mod reach;
 pub mod surface;
 
 use crate::math::typed;
@@ -40,6 +42,9 @@ pub struct Scene {
     pub camera: Camera,
     /// Most segments of a path from the eye to a light; none follows each to the end of its power.
     pub depth: Option<u32>,
+    /// Whether the camera leaves the background out: what it sees directly of lights, of surfaces that
+    /// are backdrops, and of nothing at all is transparent. Stones mirror and refract all of it as ever.
+    pub cut_out: bool,
 }
 
 /// Every scene: its name and its file.

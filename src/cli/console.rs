@@ -2,7 +2,7 @@
 //! error.
 
 use super::outcome::{Failure, complain};
-use super::values;
+use super::{heartbeat, values};
 use crate::store::terminal::{printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
@@ -81,10 +81,14 @@ impl Console {
         complain(text);
     }
 
-    /// A bar over `steps` on standard error; hidden in a pipe or when quiet.
+    /// A bar over `steps` on standard error; hidden when quiet. In a pipe a line every half minute takes
+    /// its place.
     pub fn progress(&self, steps: usize, what: &'static str) -> ProgressBar {
         let target = if self.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(steps as u64), target).with_message(what);
+        if !self.quiet && bar.is_hidden() {
+            heartbeat::watch(&bar);
+        }
         match ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} {eta}") {
             Ok(style) => bar.with_style(style),
             Err(_) => bar,

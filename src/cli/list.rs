@@ -5,6 +5,7 @@ mod entries;
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use crate::math::typed;
+use crate::scene::file::GRAMMAR;
 use serde_json::Value;
 
 #[derive(Debug, clap::Args)]
@@ -37,6 +38,8 @@ enum Kind {
     Formats,
     /// Scenes for pictures
     Scenes,
+    /// Every key of a scene file, by example
+    SceneGrammar,
     /// Kinds of light for scene files
     Lights,
     /// How much a file may hold, CUTLAB_LIMIT in the environment counted in
@@ -71,6 +74,10 @@ impl Entry {
 /// Lists a catalogue, or entries of it.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let all = match args.kind {
+        Kind::SceneGrammar => {
+            return if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) }
+                .map(|()| Code::Done);
+        }
         Kind::Cuts => entries::cuts(),
         Kind::Materials => entries::materials(),
         Kind::Illuminants => entries::illuminants(),

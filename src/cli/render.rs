@@ -1,17 +1,25 @@
 //! `cutlab render`: a photon-mapped picture of a stone, or an animation.
 
+mod background;
+mod choices;
 mod command;
+mod conflicts;
 mod frames;
+mod outlook;
+mod picture;
 mod rounds;
+mod target;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::{stones, values};
-use crate::math::typed::{self, Unit};
-use crate::photons::{self, Shots, file};
+use crate::math::typed;
+use crate::photons;
 use crate::render::animation::Turn;
-use crate::render::{self, Curve, Maps, Tone, tone};
-use crate::scene::{self, Cast, Pose, SCENES, Scene, SceneFile};
+use crate::render::{self, Curve, Tone};
+use crate::scene::{self, Cast, Pose, SCENES, SceneFile};
+use background::Background;
+use choices::Exposure;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -22,7 +30,11 @@ Examples:
   cutlab render tolkowsky --scene my-scene.toml -o picture.exr
   cutlab render stone.asc --material quartz --photon-map stone.map --frames 36 -o turn.gif
   cutlab render --scene spot --turn stone --rock --frames 24 -o fire-%03d.png
-  cutlab render --scene table --progressive --time 10min -o clean.exr")]
+  cutlab render --scene studio --turn all --frames 120 --fps 30 -o turn.mp4
+  cutlab render --scene studio --background transparent -o stone.png
+  cutlab render --scene daylight --hdr garden.hdr --exposure auto
+  cutlab render --scene table --progressive --time 10min -o clean.exr
+  cutlab list scenes studio > my-scene.toml       a scene to change")]
 pub struct Args {
     /// The stones, for the scene's places in order; without them the scene's own
     #[arg(value_name = "STONE")]
@@ -30,6 +42,12 @@ pub struct Args {
     /// What is around it: a name of `cutlab list scenes`, or a TOML file
     #[arg(long, default_value = "table", value_name = "NAME|FILE")]
     scene: String,
+    /// Let a scene file name stones, meshes and panoramas outside its own folder
+    #[arg(long)]
+    allow_outside: bool,
+    /// The panorama (.hdr, .exr) of a scene that is lit by one, such as daylight
+    #[arg(long, value_name = "FILE")]
+    hdr: Option<PathBuf>,
     #[command(flatten)]
     substance: stones::Substance,
     /// Girdle width in millimetres
@@ -37,16 +55,17 @@ pub struct Args {
     size: Option<f64>,
     /// How it stands: lying (as a loose stone comes to rest), table-up or table-down; the scene has a
     /// default
-    #[arg(long, value_parser = pose)]
+    #[arg(long, value_parser = choices::pose)]
     pose: Option<Pose>,
-    /// Where to write: .png, .exr (linear, with all passes); .gif, .apng or .png with %03d for frames
+    /// Where to write: .png, .jpg, .webp, .exr (linear, with all passes); an animation to .mp4, .gif,
+    /// .apng, or to numbered pictures such as turn-%03d.png
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels across; the scene has a default
-    #[arg(long, value_parser = values::whole(1..=16384, "a width is a whole number of pixels"))]
+    #[arg(long, value_parser = values::whole(1..=scene::file::MOST_PIXELS, "a width is a whole number of pixels"))]
     width: Option<u32>,
     /// Pixels down; the scene has a default
-    #[arg(long, value_parser = values::whole(1..=16384, "a height is a whole number of pixels"))]
+    #[arg(long, value_parser = values::whole(1..=scene::file::MOST_PIXELS, "a height is a whole number of pixels"))]
     height: Option<u32>,
     /// Camera rays a pixel: 25, or 1 in each round of --progressive
     #[arg(long, value_parser = values::whole(1..=1_000_000, "camera rays are a whole number"))]
@@ -57,12 +76,13 @@ pub struct Args {
     #[command(flatten)]
     stops: rounds::Stops,
     /// Photons in each map
-    #[arg(long, default_value_t = 100_000, value_parser = counted)]
+    #[arg(long, default_value_t = 100_000, value_parser = choices::counted)]
     photons: usize,
     /// Photons that an estimate gathers
-    #[arg(long, default_value_t = 500, value_parser = counted)]
+    #[arg(long, default_value_t = 500, value_parser = choices::counted)]
     nearest: usize,
-    /// Keep the photons in this file and use them again for other views
+    /// Keep the photons in this file and use them again for other views; of an animation only where the
+    /// camera alone moves
     #[arg(long, value_name = "FILE")]
     photon_map: Option<PathBuf>,
     /// Also write the direct, caustic, indirect and stone passes, of which the picture is the sum
@@ -71,35 +91,37 @@ pub struct Args {
     /// An animation of this many pictures
     #[arg(long, value_name = "N", value_parser = values::whole(1..=100_000, "an animation has a whole number of pictures"))]
     frames: Option<u32>,
-    /// What turns in an animation: camera, stone or light
-    #[arg(long, default_value = "camera", value_parser = turn)]
+    /// Frames a second [so many that a turn takes 3 to 6 seconds]
+    #[arg(long, value_name = "N", requires = "frames", value_parser = values::whole(1..=120, "frames a second are a whole number"))]
+    fps: Option<u32>,
+    /// What turns in an animation: camera, stone, light, or all (stones and meshes as one piece)
+    #[arg(long, default_value = "camera", requires = "frames", value_parser = choices::turn)]
     turn: Turn,
     /// Rock it by 15° to and fro instead of all the way around
-    #[arg(long)]
+    #[arg(long, requires = "frames")]
     rock: bool,
-    /// Exposure in stops beside the scene's own, or auto
-    #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = exposure, value_name = "STOPS|auto")]
-    exposure: Exposure,
-    /// Tone curve: filmic or linear
-    #[arg(long, default_value = "filmic", value_parser = curve)]
-    tone: Curve,
-    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; an
-    /// EXR and the passes stay without
-    #[arg(long, value_name = "F", num_args = 0..=1, require_equals = true, default_missing_value = "16", value_parser = f_number)]
+    /// What is behind the stones in place of the scene's floor, walls, sky and lamps: transparent (in a
+    /// .png, .webp, .exr or .apng), white, black, or a colour as '#1e90ff'. Stones mirror and refract the
+    /// scene as ever
+    #[arg(long, value_name = "COLOUR|transparent", value_parser = background::parse)]
+    background: Option<Background>,
+    /// Exposure in stops beside the scene's own, or auto [0]
+    #[arg(long, allow_negative_numbers = true, value_parser = choices::exposure, value_name = "STOPS|auto")]
+    exposure: Option<Exposure>,
+    /// Tone curve: filmic or linear [filmic; linear for viewers]
+    #[arg(long, value_parser = choices::curve)]
+    tone: Option<Curve>,
+    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; the
+    /// passes stay without [16 if given without a number]
+    #[arg(long, value_name = "F", num_args = 0..=1, require_equals = true, default_missing_value = "16", value_parser = choices::f_number)]
     glare: Option<f32>,
-    /// Bits a channel of a PNG: 8 or 16
-    #[arg(long, default_value = "8", value_parser = ["8", "16"])]
-    bits: String,
+    /// Bits a channel of a PNG: 8 or 16 [8]
+    #[arg(long, value_parser = ["8", "16"])]
+    bits: Option<String>,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each.
     /// On, unless the scene says
     #[arg(long, value_name = "on|off", value_parser = stones::on_off)]
     polarisation: Option<bool>,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Exposure {
-    Auto,
-    Stops(f32),
 }
 
 impl Args {
@@ -112,59 +134,53 @@ impl Args {
     }
 }
 
-fn exposure(text: &str) -> Result<Exposure, String> {
-    if text.trim().eq_ignore_ascii_case("auto") {
-        return Ok(Exposure::Auto);
-    }
-    let stops = typed::within(text, Unit::None, -30.0..=30.0, "an exposure is auto, or a number of stops")?;
-    Ok(Exposure::Stops(stops as f32))
-}
-
-fn one_of<T: Copy, const N: usize>(all: &[(&str, T); N], name: &str) -> Result<T, String> {
-    let found = all.iter().find(|(n, _)| typed::is_called(n, name)).map(|(_, value)| *value);
-    found.ok_or_else(|| format!("there is {}", all.each_ref().map(|(n, _)| *n).join(", ")))
-}
-
-fn pose(name: &str) -> Result<Pose, String> {
-    one_of(&Pose::ALL, name)
-}
-
-fn turn(name: &str) -> Result<Turn, String> {
-    one_of(&Turn::ALL, name)
-}
-
-fn curve(name: &str) -> Result<Curve, String> {
-    one_of(&Curve::ALL, name)
-}
-
-fn f_number(text: &str) -> Result<f32, String> {
-    let number = text.trim().strip_prefix("f/").unwrap_or(text);
-    Ok(typed::within(number, Unit::None, 1.0..=64.0, "an f-number is a number")? as f32)
-}
-
-fn counted(text: &str) -> Result<usize, String> {
-    Ok(typed::whole(text, 1..=50_000_000, "photons are a whole number")? as usize)
-}
-
 /// Takes the picture or pictures.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
-    let first = args.stones.first().map(String::as_str).or(file.first_cut());
-    let called = first.map_or(String::new(), |stone| format!("{}-", stones::file_stem(stone)));
-    let ending = if args.frames.is_some() { "gif" } else { "png" };
-    let output = args.output.clone().unwrap_or_else(|| format!("{called}{}.{ending}", file.name).into());
-    let target = frames::Target::of(&output, args)?;
-    let (width, height) = size(args, &file);
+    let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
+    let target = target::Target::of(&output, args)?;
+    let (width, height) = target.size(args, &file)?;
+    if let Some(problem) = conflicts::first(args, &target, &file) {
+        return Err(Failure::input(problem));
+    }
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
-    let tone = Tone { curve: args.tone, ..Tone::default() };
+    let curve = args.tone.unwrap_or(if scene.camera.flat { Curve::Linear } else { Curve::Filmic });
+    let tone = Tone { curve, ..Tone::default() };
     let settings = render::Settings { width, height, rays: args.rays(), round: 0, tone, seed: args.seed };
     let files = frames::take(args, &scene, settings, &target, console)?;
+    if output == Path::new("-") {
+        return Ok(Code::Done); // the picture is the whole of what standard output gets
+    }
     if console.json {
         console.print_json(&files)?;
-    } else if output != Path::new("-") {
+    } else {
         files.iter().for_each(|f| console.note(&format!("wrote {}", f.display())));
     }
     Ok(Code::Done)
+}
+
+/// A name that tells the stones with their parameters, what they are made of, their size and the scene:
+/// pictures of different things have different names.
+fn default_name(args: &Args, file: &SceneFile) -> String {
+    let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
+    let stones = args.stones.iter().map(String::as_str).chain(first);
+    let mut parts: Vec<String> = stones.map(stone_name).collect();
+    parts.extend(args.substance.material.map(|m| m.name.to_string()));
+    parts.extend(args.substance.ri.map(|n| format!("n{n}")));
+    parts.extend(args.size.map(|mm| format!("{mm}mm")));
+    parts.push(file.name.clone());
+    parts.push(if args.frames.is_some() { "gif" } else { "png" }.into());
+    let ending = parts.pop().unwrap_or_default();
+    format!("{}.{ending}", parts.join("-"))
+}
+
+/// `round-brilliant:table=60` as `round-brilliant-table60`.
+fn stone_name(spec: &str) -> String {
+    let parameters = if stones::is_cut(spec) { spec.split_once(':').map(|(_, rest)| rest) } else { None };
+    let given = parameters.unwrap_or_default().split(',').map(str::trim).filter(|p| !p.is_empty());
+    let fit = |c: char| if c.is_alphanumeric() || c == '.' || c == '-' { Some(c) } else { None };
+    let told = given.map(|p| p.chars().filter_map(fit).collect::<String>());
+    std::iter::once(stones::file_stem(spec)).chain(told).collect::<Vec<_>>().join("-")
 }
 
 /// A scene of the catalogue, or a file.
@@ -196,52 +212,23 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
         size_mm: args.size,
         pose: args.pose,
         polarisation: args.polarisation,
+        panorama: args.hdr.clone(),
+        allow_outside: args.allow_outside,
+        cut_out: args.background.is_some(),
     })
 }
 
-/// Width and height; one of them alone keeps the scene's shape.
-fn size(args: &Args, file: &SceneFile) -> (u32, u32) {
-    let (w, h) = file.picture();
-    let scaled = |side: u32, a: u32, b: u32| ((side * a).div_ceil(b)).clamp(1, 16384);
-    match (args.width, args.height) {
-        (Some(width), Some(height)) => (width, height),
-        (Some(width), None) => (width, scaled(width, h, w)),
-        (None, Some(height)) => (scaled(height, w, h), height),
-        (None, None) => (w, h),
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_parameters() {
+        assert_eq!(stone_name("round-brilliant"), "round-brilliant");
+        assert_eq!(
+            stone_name("round-brilliant:table=60, crown-angle=34.5"),
+            "round-brilliant-table60-crown-angle34.5"
+        );
+        assert_eq!(stone_name("designs/my:stone=1.asc"), "my");
     }
-}
-
-/// The photon maps: from the file, or shot.
-fn maps(args: &Args, scene: &Scene, console: &Console) -> Result<Maps, Failure> {
-    let settings = args.photons();
-    let sign = console.spinner("photons");
-    let shots = match &args.photon_map {
-        None => Shots::shoot(scene, &settings),
-        Some(path) => {
-            let (shots, read) = file::load_or_shoot(path, scene, &settings)?;
-            let did = if read { "used" } else { "made" };
-            console.note(&format!("{did} the photon map {}", path.display()));
-            shots
-        }
-    };
-    let maps = Maps::new(scene, shots, settings.nearest);
-    sign.finish_and_clear();
-    Ok(maps)
-}
-
-/// The exposure asked for, in stops; none if it is to be found from a picture.
-fn stops(args: &Args, scene: &Scene) -> Option<f32> {
-    match args.exposure {
-        Exposure::Stops(stops) => Some(scene.camera.stops + stops),
-        Exposure::Auto => None,
-    }
-}
-
-/// The exposure found from a small picture.
-fn auto_stops(scene: &Scene, maps: &Maps, settings: &render::Settings) -> f32 {
-    /// Pixels across of the small picture.
-    const ACROSS: u32 = 96;
-    let height = (ACROSS * settings.height).div_ceil(settings.width);
-    let small = render::Settings { width: ACROSS, height, rays: 4, ..*settings };
-    tone::auto_stops(&render::render(scene, &scene.camera, maps, &small, &|| ()))
 }

@@ -39,6 +39,12 @@ pub static TEXT: Format = Format {
 };
 
 fn read(source: &Source) -> Result<Reading, FormatError> {
+    let (vertices, polygons, stated_within) = polygons(source)?;
+    design_of_mesh(source, &vertices, &polygons, stated_within)
+}
+
+/// Corners and faces of a PLY file, and how closely its stated normals must fit.
+pub(super) fn polygons(source: &Source) -> Result<(Vec<DVec3>, Vec<Polygon>, f64), FormatError> {
     let header = Header::of(source)?;
     let mut values = Values::new(source, &header);
     let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
@@ -77,7 +83,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
             _ => each(element, &mut values, |_, _| Ok(()))?,
         }
     }
-    design_of_mesh(source, &vertices, &polygons, if exact { STATED_IN_F64 } else { STATED_IN_F32 })
+    Ok((vertices, polygons, if exact { STATED_IN_F64 } else { STATED_IN_F32 }))
 }
 
 /// Reads every row of an element: single values, and the values of lists, by property.

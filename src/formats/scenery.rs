@@ -1,8 +1,8 @@
-//! Meshes that are no stones: what stands around them in a scene. OBJ and glTF, any shape.
+//! Meshes that are no stones: what stands around them in a scene. OBJ, glTF, STL or PLY, of any shape.
 
 use super::error::FormatError;
 use super::source::Source;
-use super::{bytes_of, glb, obj};
+use super::{bytes_of, glb, obj, ply, stl};
 use glam::DVec3;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub struct Triangles {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Reads an OBJ, glTF or GLB file, a regular one; polygons become fans of triangles.
+/// Reads an OBJ, glTF, GLB, STL or PLY file, a regular one; polygons become fans of triangles.
 ///
 /// Errors name the file and the place in it.
 pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
@@ -29,6 +29,11 @@ pub fn triangles_of(source: &Source) -> Result<Triangles, FormatError> {
     let (vertices, polygons) = if [&glb::GLB, &glb::GLTF].iter().any(|f| (f.sniff)(source) > 0) {
         let (vertices, polygons, _) = glb::polygons(source)?;
         (vertices, polygons)
+    } else if (ply::BINARY.sniff)(source) > 0 {
+        let (vertices, polygons, _) = ply::polygons(source)?;
+        (vertices, polygons)
+    } else if let Some(mesh) = stl::polygons(source) {
+        mesh?
     } else {
         obj::polygons(source)?
     };

@@ -55,7 +55,15 @@ fn sniff_text(source: &Source) -> u8 {
     }
 }
 
+/// Corners and triangles as a mesh reader has them.
+type Polygons = (Vec<DVec3>, Vec<Polygon>);
+
 fn read_binary(source: &Source) -> Result<Reading, FormatError> {
+    let (corners, polygons) = polygons_of_binary(source)?;
+    design_of_mesh(source, &corners, &polygons, STATED_IN_F32)
+}
+
+fn polygons_of_binary(source: &Source) -> Result<Polygons, FormatError> {
     let count = count_of_binary(source.bytes).unwrap_or_default();
     source.within(&limits::POLYGONS, count)?;
     let (mut corners, mut normals) = (Vec::with_capacity(3 * count), Vec::with_capacity(count));
@@ -66,24 +74,37 @@ fn read_binary(source: &Source) -> Result<Reading, FormatError> {
         normals.push(point(0));
         corners.extend([1, 2, 3].map(point));
     }
-    stone_of(source, &corners, &normals)
+    Ok(triangles(corners, &normals))
 }
 
 fn read_text(source: &Source) -> Result<Reading, FormatError> {
+    let (corners, polygons) = polygons_of_text(source)?;
+    design_of_mesh(source, &corners, &polygons, STATED_IN_F32)
+}
+
+fn polygons_of_text(source: &Source) -> Result<Polygons, FormatError> {
     let (mut corners, mut normals) = (Vec::new(), Vec::new());
     text_triangles(source, &mut corners, &mut normals)?;
     source.within(&limits::POLYGONS, normals.len())?;
-    stone_of(source, &corners, &normals)
+    Ok(triangles(corners, &normals))
 }
 
-fn stone_of(source: &Source, corners: &[DVec3], normals: &[DVec3]) -> Result<Reading, FormatError> {
+/// Corners and triangles of an STL file, binary or text; none if it is not one.
+pub(super) fn polygons(source: &Source) -> Option<Result<Polygons, FormatError>> {
+    if (BINARY.sniff)(source) > 0 {
+        Some(polygons_of_binary(source))
+    } else {
+        ((TEXT.sniff)(source) > 0).then(|| polygons_of_text(source))
+    }
+}
+
+fn triangles(corners: Vec<DVec3>, normals: &[DVec3]) -> Polygons {
     let polygon = |(i, n): (usize, &DVec3)| Polygon {
         corners: vec![3 * i, 3 * i + 1, 3 * i + 2],
         normal: Some(*n),
         ..Polygon::default()
     };
-    let polygons: Vec<Polygon> = normals.iter().enumerate().map(polygon).collect();
-    design_of_mesh(source, corners, &polygons, STATED_IN_F32)
+    (corners, normals.iter().enumerate().map(polygon).collect())
 }
 
 /// Reads `normal` and `vertex` rows; the words between them say nothing more.

@@ -244,9 +244,22 @@ pub fn srgb_encode(linear: f32) -> f32 {
     if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// Linear light of an sRGB value in 0..=1, as a fraction of full scale.
+pub fn srgb_decode(shown: f32) -> f32 {
+    if shown <= 0.04045 { shown / 12.92 } else { ((shown + 0.055) / 1.055).powf(2.4) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_transfer_curve_comes_back() {
+        for i in 0..=255u8 {
+            let shown = f32::from(i) / 255.0;
+            assert!((srgb_encode(srgb_decode(shown)) - shown).abs() < 1e-5, "{i}");
+        }
+    }
 
     #[test]
     fn the_matching_functions_have_the_published_sums() {

@@ -31,9 +31,8 @@ const GREEN: Vec3 = Vec3::Y;
 const BLUE: Vec3 = Vec3::Z;
 const DARK: Vec3 = Vec3::ZERO;
 const WHITE: Vec3 = Vec3::ONE;
-// a lit sheet of paper below the stone, darker than the reflector above: what comes back after a second
-// round of the stone (a seventh of the light) would else wash the red out and grey the arrows
-const PAPER: Vec3 = Vec3::splat(0.3);
+// a lit sheet of white paper below the stone
+const PAPER: Vec3 = WHITE;
 
 const fn zone(from_deg: f32, colour: Vec3) -> Zone {
     Zone { from_deg, colour }
@@ -62,12 +61,12 @@ pub static VIEWERS: &[Viewer] = &[
     },
     Viewer {
         name: "ideal-scope",
-        about: "red light with a dark eye of 24°, pale paper below",
+        about: "red light with a dark eye of 24°, white paper below",
         zones: &[zone(-90.0, PAPER), zone(0.0, RED), zone(90.0 - SCOPE_DEG as f32, DARK)],
     },
     Viewer {
         name: "hearts-and-arrows",
-        about: "red light from 45° up to a dark eye of 20°, pale paper below: lower light shows as grey",
+        about: "red light from 45° up to a dark eye of 20°, white paper below: lower light shows as white",
         zones: &[zone(-90.0, PAPER), zone(45.0, RED), zone(80.0, DARK)],
     },
     Viewer {

@@ -1,11 +1,12 @@
 //! Animations: what moves from frame to frame, and frames put together as GIF or APNG.
 
-use super::write::EncodeError;
-use crate::scene::Scene;
-use glam::Mat3;
+use super::write::{EncodeError, Made};
+use crate::scene::{PlacedStone, Scene, Surface};
+use glam::{Mat3, Vec3};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
 use std::f32::consts::TAU;
+use std::io::Write;
 
 /// What moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,12 +18,14 @@ pub enum Turn {
     Stone,
     /// The lights go around the first stone.
     Light,
+    /// The whole piece turns about the first stone: stones and surfaces that are no backdrops.
+    All,
 }
 
 impl Turn {
     /// Every choice with its name.
-    pub const ALL: [(&'static str, Turn); 3] =
-        [("camera", Turn::Camera), ("stone", Turn::Stone), ("light", Turn::Light)];
+    pub const ALL: [(&'static str, Turn); 4] =
+        [("camera", Turn::Camera), ("stone", Turn::Stone), ("light", Turn::Light), ("all", Turn::All)];
 }
 
 /// How far a rocking goes to each side, degrees.
@@ -44,52 +47,113 @@ pub fn at(scene: &Scene, turn: Turn, rock: bool, frame: u32, frames: u32) -> Sce
             let centre = scene.stones.first().map_or(scene.camera.target, |s| s.position);
             moved.lights = scene.lights.iter().map(|l| l.turned(motion, centre)).collect();
         }
+        Turn::All => piece_turned(&mut moved, motion),
     }
     moved
 }
 
-/// Milliseconds that a frame stays: a turn of 36 takes three seconds, of more no longer than six.
-pub fn frame_ms(frames: u32) -> u16 {
-    (6000 / frames.max(1)).clamp(20, 83) as u16
+/// Turns stones and what is no backdrop, as one, about the first stone; then lifts or lowers them so that
+/// the lowest of them is as high as before.
+fn piece_turned(scene: &mut Scene, motion: Mat3) {
+    let lowest = |scene: &Scene| {
+        let stones = scene.stones.iter().map(PlacedStone::lowest);
+        let pieces = scene.surfaces.iter().filter(|s| !s.backdrop).map(Surface::lowest);
+        stones.chain(pieces).fold(f32::INFINITY, f32::min)
+    };
+    let centre = scene.stones.first().map_or(scene.camera.target, |s| s.position);
+    let before = lowest(scene);
+    scene.stones.iter_mut().for_each(|s| *s = s.carried(motion, centre, Vec3::ZERO));
+    let pieces = |scene: &mut Scene, turn: Mat3, lift: Vec3| {
+        let moved = scene.surfaces.iter_mut().filter(|s| !s.backdrop);
+        moved.for_each(|s| *s = s.carried(turn, centre, lift));
+    };
+    pieces(scene, motion, Vec3::ZERO);
+    let lift = Vec3::Z * (before - lowest(scene));
+    if lift.is_finite() && lift != Vec3::ZERO {
+        scene.stones.iter_mut().for_each(|s| s.position += lift);
+        pieces(scene, Mat3::IDENTITY, lift);
+    }
 }
 
-/// A GIF that repeats for ever.
-///
-/// - `frames`: 8-bit RGB bytes, row after row
-pub fn gif(frames: &[Vec<u8>], width: u32, height: u32) -> Result<Vec<u8>, EncodeError> {
-    let mut out = Vec::new();
-    let mut encoder = GifEncoder::new_with_speed(&mut out, 5);
+/// How long a frame stays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pace {
+    /// Ticks that a frame stays.
+    pub ticks: u32,
+    /// Ticks in a second.
+    pub ticks_per_second: u32,
+}
+
+impl Pace {
+    /// So many frames in a second.
+    pub fn of_rate(per_second: u32) -> Pace {
+        Pace { ticks: 1, ticks_per_second: per_second.max(1) }
+    }
+
+    /// The pace at which a turn of so many frames is well looked at: it takes three seconds, of more than
+    /// 36 frames up to six.
+    pub fn of_turn(frames: u32) -> Pace {
+        let frames = frames.max(1);
+        let ms = if frames <= 36 { 3000 / frames } else { (6000 / frames).clamp(20, 83) };
+        Pace { ticks: ms, ticks_per_second: 1000 }
+    }
+
+    /// Frames in a second.
+    pub fn per_second(&self) -> f32 {
+        self.ticks_per_second as f32 / self.ticks.max(1) as f32
+    }
+}
+
+/// Frames of an animation one after the other, read or made as they are asked for: 8-bit bytes, row
+/// after row.
+pub type Frames<'a> = dyn Iterator<Item = Result<Vec<u8>, EncodeError>> + 'a;
+
+/// Writes a GIF that repeats for ever.
+pub fn gif(
+    frames: &mut Frames,
+    (width, height): (u32, u32),
+    pace: Pace,
+    out: &mut dyn Write,
+) -> Result<(), EncodeError> {
+    let mut encoder = GifEncoder::new_with_speed(out, 5);
     encoder.set_repeat(Repeat::Infinite)?;
-    let ms = frame_ms(frames.len() as u32);
     for rgb in frames {
-        let rgba: Vec<u8> = rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect();
+        let rgba: Vec<u8> = rgb?.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect();
         let Some(picture) = RgbaImage::from_raw(width, height, rgba) else { continue };
-        let delay = Delay::from_numer_denom_ms(ms.into(), 1);
+        let delay = Delay::from_numer_denom_ms(1000 * pace.ticks, pace.ticks_per_second);
         encoder.encode_frame(Frame::from_parts(picture, 0, 0, delay))?;
     }
-    drop(encoder);
-    Ok(out)
+    Ok(())
 }
 
-/// An animated PNG that repeats for ever.
-pub fn apng(frames: &[Vec<u8>], width: u32, height: u32, command: &str) -> Result<Vec<u8>, EncodeError> {
-    let mut out = Vec::new();
-    let mut encoder = png::Encoder::new(&mut out, width, height);
-    encoder.set_color(png::ColorType::Rgb);
+/// Writes an animated PNG that repeats for ever.
+///
+/// - `count`: of the frames; `alpha`: whether they are RGBA rather than RGB
+pub fn apng(
+    frames: &mut Frames,
+    count: u32,
+    (width, height): (u32, u32),
+    alpha: bool,
+    pace: Pace,
+    made: Made,
+    out: &mut dyn Write,
+) -> Result<(), EncodeError> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(if alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
-    encoder.set_animated(frames.len() as u32, 0)?;
-    encoder.set_frame_delay(frame_ms(frames.len() as u32), 1000)?;
-    encoder.add_itxt_chunk("Command".into(), command.into())?;
+    encoder.set_animated(count, 0)?;
+    encoder.set_frame_delay(pace.ticks as u16, pace.ticks_per_second as u16)?;
+    made.note(&mut encoder)?;
     let mut writer = encoder.write_header()?;
-    for rgb in frames {
-        writer.write_image_data(rgb)?;
+    for bytes in frames {
+        writer.write_image_data(&bytes?)?;
     }
     writer.finish()?;
-    Ok(out)
+    Ok(())
 }
 
-/// The RGB bytes of a PNG of ours, if it is one that `command` made, of so many pixels.
+/// The bytes of a PNG of ours, if it is one that `command` made, of so many pixels.
 pub fn finished_frame(png: &[u8], command: &str, pixels: u32) -> Option<Vec<u8>> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().ok()?;
     let said = reader.info().utf8_text.iter().find(|t| t.keyword == "Command")?.get_text().ok()?;

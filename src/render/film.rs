@@ -37,6 +37,10 @@ pub struct Pixel {
     /// mean, so that the edge of a facet that mirrors a lamp is as smooth as any other. Linear sRGB
     /// in 0..=1.
     pub shown: Vec3,
+    /// Coverage: the share of the camera rays that met something other than the background. 1 unless the
+    /// scene leaves its background out ([`crate::scene::Scene::cut_out`]); `light` and `shown` are
+    /// premultiplied by it.
+    pub alpha: f32,
 }
 
 /// What lies in the middle of a pixel.

@@ -82,6 +82,7 @@ impl<'a> Progressive<'a> {
         for (mean, new) in self.mean.pixels.iter_mut().zip(&film.pixels) {
             (0..PASSES).for_each(|p| mean.light[p] += (new.light[p] - mean.light[p]) / n as f32);
             mean.shown += (new.shown - mean.shown) / n as f32;
+            mean.alpha += (new.alpha - mean.alpha) / n as f32;
         }
         for ((mean, spread), new) in self.blocks.iter_mut().zip(blocks(&film)) {
             let off = new - *mean;
@@ -97,7 +98,8 @@ impl<'a> Progressive<'a> {
         self.emitted.iter().for_each(|n| bytes.extend(n.to_le_bytes()));
         for pixel in &self.mean.pixels {
             let colours = pixel.light.iter().chain([&pixel.shown]);
-            colours.flat_map(|c| c.to_array()).for_each(|x| bytes.extend(x.to_le_bytes()));
+            let numbers = colours.flat_map(|c| c.to_array()).chain([pixel.alpha]);
+            numbers.for_each(|x| bytes.extend(x.to_le_bytes()));
         }
         let noise = self.blocks.iter().flat_map(|(mean, spread)| [*mean, *spread]);
         noise.for_each(|x| bytes.extend(x.to_le_bytes()));
@@ -107,7 +109,7 @@ impl<'a> Progressive<'a> {
     /// Puts the picture where it was when [`Self::state`] was asked; whether the bytes are of its form.
     pub fn go_on_from(&mut self, mut state: &[u8]) -> bool {
         let fixed = size_of::<u32>() + 2 * size_of::<u64>();
-        let a_pixel = size_of::<f32>() * 3 * (PASSES + 1);
+        let a_pixel = size_of::<f32>() * (3 * (PASSES + 1) + 1);
         let a_block = 2 * size_of::<f64>();
         if state.len() != fixed + a_pixel * self.mean.pixels.len() + a_block * self.blocks.len() {
             return false;
@@ -119,6 +121,7 @@ impl<'a> Progressive<'a> {
             for colour in pixel.light.iter_mut().chain([&mut pixel.shown]) {
                 *colour = Vec3::from([(); 3].map(|()| f32::from_le_bytes(taken(from))));
             }
+            pixel.alpha = f32::from_le_bytes(taken(from));
         }
         for block in &mut self.blocks {
             *block = [(); 2].map(|()| f64::from_le_bytes(taken(from))).into();

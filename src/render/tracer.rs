@@ -2,6 +2,7 @@
 
 use super::film::{Film, PASSES, Pass, Pixel, Thing};
 use super::inside;
+use super::sensor::Sensor;
 use super::tone::Tone;
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
@@ -10,7 +11,7 @@ use crate::photons::map::PhotonMap;
 use crate::photons::{Shots, Spectrum};
 use crate::scene::{Camera, Finish, Light, Scene};
 use crate::transport::{Arrival, Event};
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -76,8 +77,7 @@ pub fn render(
     settings: &Settings,
     row_done: &(dyn Fn() + Sync),
 ) -> Film {
-    let rgb_from_xyz = colour::to_adapted_srgb(camera.white.xyz(|_| 1.0));
-    let view = View { scene, camera, maps, settings, rgb_from_xyz };
+    let view = View { scene, camera, maps, settings, sensor: Sensor::new(camera) };
     let pixels = (0..settings.height)
         .into_par_iter()
         .flat_map_iter(|y| {
@@ -119,7 +119,7 @@ pub(super) struct View<'a> {
     camera: &'a Camera,
     pub maps: &'a Maps,
     settings: &'a Settings,
-    rgb_from_xyz: Mat3,
+    sensor: Sensor,
 }
 
 /// A camera ray and what it has gathered: radiance by pass and wavelength. The wavelengths of a ray
@@ -127,14 +127,16 @@ pub(super) struct View<'a> {
 pub(super) struct Sight {
     pub nm: [f32; BANDS],
     light: [[f32; BANDS]; PASSES],
+    /// Whether it met the background of a scene that leaves its background out.
+    left_out: bool,
 }
 
 impl Sight {
-    fn colour(&self, rgb_from_xyz: &Mat3) -> [Vec3; PASSES] {
-        let weights = self.nm.map(colour::xyz_weight);
+    fn colour(&self, sensor: &Sensor) -> [Vec3; PASSES] {
+        let weights = self.nm.map(|nm| sensor.weight(nm));
         self.light.map(|bands| {
-            let xyz: Vec3 = (0..BANDS).map(|b| weights[b] * bands[b]).sum::<Vec3>() / BANDS as f32;
-            *rgb_from_xyz * xyz
+            let seen: Vec3 = (0..BANDS).map(|b| weights[b] * bands[b]).sum::<Vec3>() / BANDS as f32;
+            sensor.srgb(seen)
         })
     }
 
@@ -202,9 +204,10 @@ impl View<'_> {
         }
         let mut pixel = Pixel::default();
         for sight in &sights {
-            let light = sight.colour(&self.rgb_from_xyz);
+            let light = sight.colour(&self.sensor);
             (0..PASSES).for_each(|p| pixel.light[p] += light[p] / rays as f32);
-            pixel.shown += self.settings.tone.shown(light.iter().sum()) / rays as f32;
+            pixel.shown += self.settings.tone.shown(self.sensor.seen(light.iter().sum())) / rays as f32;
+            pixel.alpha += if sight.left_out { 0.0 } else { 1.0 / rays as f32 };
         }
         pixel
     }
@@ -232,11 +235,16 @@ impl View<'_> {
         let u = (x as f32 + 0.5 + tent(across)) / self.settings.width as f32;
         let v = (y as f32 + 0.5 + tent(down)) / self.settings.height as f32;
         let nm = std::array::from_fn(|b| colour::wavelength((b as f32 + hue) / BANDS as f32));
-        let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES] };
+        let mut sight = Sight { nm, light: [[0.0; BANDS]; PASSES], left_out: false };
         let mut share = [1.0; BANDS];
         let (mut origin, mut direction) = self.camera.ray_through(u, v, on_lens);
-        for _ in 0..MIRRORS {
-            match self.scene.first(origin, direction, None) {
+        for mirrors in 0..MIRRORS {
+            let event = self.scene.first(origin, direction, None);
+            if mirrors == 0 && self.scene.cut_out && is_background(self.scene, &event) {
+                sight.left_out = true;
+                break;
+            }
+            match event {
                 Event::Nothing => break,
                 Event::Light(i, colour) => {
                     let light = &self.scene.lights[i];
@@ -299,6 +307,16 @@ impl View<'_> {
         let (caustic, one) = self.maps.caustic.irradiance(surface, at);
         let (indirect, other) = self.maps.indirect.irradiance(surface, at);
         Seen { surface, at, holds: HOLDS * one.min(other), caustic, indirect }
+    }
+}
+
+/// Whether a camera ray that meets this first sees the background: nothing, a light, or a surface that
+/// is a backdrop.
+fn is_background(scene: &Scene, event: &Event) -> bool {
+    match event {
+        Event::Nothing | Event::Light(..) => true,
+        Event::Surface(s, ..) => scene.surfaces[*s].backdrop,
+        Event::Stone(..) => false,
     }
 }
 

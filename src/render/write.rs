@@ -1,13 +1,16 @@
-//! Pictures as files: PNG of 8 or 16 bits, EXR with the passes as layers. The command that made a
-//! picture is in its metadata; nothing else is, so equal pictures are equal bytes.
+//! Pictures as files: PNG of 8 or 16 bits, EXR with the passes as layers, JPEG and WebP. The command
+//! that made a picture and the program's version are in the metadata of PNG and EXR; nothing else is, so
+//! equal pictures are equal bytes.
 
-use super::film::{Film, Pass, Thing};
+use super::film::{Film, Pass, Pixel, Thing};
 use super::tone::Tone;
 use crate::optics::colour;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
 };
-use glam::Vec3;
+use glam::{Vec3, Vec4};
+use image::ExtendedColorType;
+use image::codecs::{jpeg::JpegEncoder, webp::WebPEncoder};
 
 /// A picture that could not be encoded.
 #[derive(Debug, thiserror::Error)]
@@ -21,7 +24,22 @@ pub enum EncodeError {
     /// As EXR.
     #[error("cannot encode the picture: {0}")]
     Exr(#[from] exr::error::Error),
+    /// As H.264.
+    #[error("cannot encode the film: {0}")]
+    H264(#[from] openh264::Error),
+    /// As MP4.
+    #[error("cannot encode the film: {0}")]
+    Mp4(#[from] mp4_atom::Error),
+    /// A frame that was made is not there any more.
+    #[error("frame {0} was taken away or changed while the animation was made: start it again")]
+    Frame(u32),
+    /// The encoded bytes could not be written.
+    #[error(transparent)]
+    Write(#[from] std::io::Error),
 }
+
+/// The program that makes the pictures, for their metadata.
+pub const PROGRAM: &str = concat!("cutlab ", env!("CARGO_PKG_VERSION"));
 
 /// How a picture was made, for its metadata.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +48,18 @@ pub struct Made<'a> {
     pub command: &'a str,
     /// The rounds of a progressive picture: how far it came.
     pub rounds: Option<u32>,
+}
+
+impl Made<'_> {
+    /// Says it in a PNG. The texts are iTXt: a STONE's name may hold any letter.
+    pub(super) fn note<W: std::io::Write>(&self, png: &mut png::Encoder<W>) -> Result<(), EncodeError> {
+        png.add_itxt_chunk("Software".into(), PROGRAM.into())?;
+        png.add_itxt_chunk("Command".into(), self.command.into())?;
+        if let Some(rounds) = self.rounds {
+            png.add_itxt_chunk("Rounds".into(), rounds.to_string())?;
+        }
+        Ok(())
+    }
 }
 
 /// Bits a channel of a PNG.
@@ -65,40 +95,105 @@ pub fn png(
     bits: Bits,
     made: Option<Made>,
 ) -> Result<Vec<u8>, EncodeError> {
+    let form = |depth| (png::ColorType::Rgb, depth);
     match bits {
-        Bits::Eight => encode(&bytes(shown), width, height, png::BitDepth::Eight, made),
+        Bits::Eight => encode(&bytes(shown), width, height, form(png::BitDepth::Eight), made),
         Bits::Sixteen => {
-            let sixteen = |x: f32| ((colour::srgb_encode(x) * 65535.0).round() as u16).to_be_bytes();
             let data: Vec<u8> = shown.iter().flat_map(|p| p.to_array().map(sixteen)).flatten().collect();
-            encode(&data, width, height, png::BitDepth::Sixteen, made)
+            encode(&data, width, height, form(png::BitDepth::Sixteen), made)
         }
     }
 }
 
+fn sixteen(x: f32) -> [u8; 2] {
+    sixteen_linear(colour::srgb_encode(x))
+}
+
+fn sixteen_linear(x: f32) -> [u8; 2] {
+    ((x.clamp(0.0, 1.0) * 65535.0).round() as u16).to_be_bytes()
+}
+
+/// What a display shows of a film that leaves its background out: linear colours, not premultiplied, and
+/// the share of each pixel that is covered.
+///
+/// Glare shines beyond the edges of things: a pixel is as opaque as it is bright.
+pub fn cut_out(film: &Film) -> Vec<Vec4> {
+    let straight = |p: &Pixel| {
+        let alpha = p.alpha.max(p.shown.max_element()).min(1.0);
+        if alpha > 0.0 { (p.shown / alpha).extend(alpha) } else { Vec4::ZERO }
+    };
+    film.pixels.iter().map(straight).collect()
+}
+
+/// What a display shows of such a film before a background of one colour.
+///
+/// - `colour`: linear sRGB
+pub fn before(film: &Film, colour: Vec3) -> Vec<Vec3> {
+    film.pixels.iter().map(|p| (p.shown + (1.0 - p.alpha) * colour).min(Vec3::ONE)).collect()
+}
+
+/// What [`cut_out`] gave as 8-bit RGBA bytes: colours in sRGB, coverage as it is.
+pub fn rgba_bytes(shown: &[Vec4]) -> Vec<u8> {
+    let alpha = |a: f32| (a.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let colours = bytes(&shown.iter().map(|p| p.truncate()).collect::<Vec<_>>());
+    colours.chunks_exact(3).zip(shown).flat_map(|(c, p)| [c[0], c[1], c[2], alpha(p.w)]).collect()
+}
+
+/// A PNG with alpha of what [`cut_out`] gave.
+pub fn rgba_png(
+    shown: &[Vec4],
+    width: u32,
+    height: u32,
+    bits: Bits,
+    made: Option<Made>,
+) -> Result<Vec<u8>, EncodeError> {
+    let (data, depth) = match bits {
+        Bits::Eight => (rgba_bytes(shown), png::BitDepth::Eight),
+        Bits::Sixteen => {
+            let pixel = |p: &Vec4| [sixteen(p.x), sixteen(p.y), sixteen(p.z), sixteen_linear(p.w)];
+            (shown.iter().flat_map(pixel).flatten().collect(), png::BitDepth::Sixteen)
+        }
+    };
+    encode(&data, width, height, (png::ColorType::Rgba, depth), made)
+}
+
+/// A JPEG of 8-bit RGB bytes, row after row.
+pub fn jpeg(data: &[u8], width: u32, height: u32) -> Result<Vec<u8>, EncodeError> {
+    /// Of 100: without blocks to be seen around facets' edges.
+    const QUALITY: u8 = 92;
+    let mut out = Vec::new();
+    JpegEncoder::new_with_quality(&mut out, QUALITY).encode(data, width, height, ExtendedColorType::Rgb8)?;
+    Ok(out)
+}
+
+/// A lossless WebP of 8-bit RGB or RGBA bytes, row after row.
+pub fn webp(data: &[u8], width: u32, height: u32, alpha: bool) -> Result<Vec<u8>, EncodeError> {
+    let colours = if alpha { ExtendedColorType::Rgba8 } else { ExtendedColorType::Rgb8 };
+    let mut out = Vec::new();
+    WebPEncoder::new_lossless(&mut out).encode(data, width, height, colours)?;
+    Ok(out)
+}
+
 /// A PNG of 8-bit RGB bytes, row after row.
 pub fn encode_rgb(data: &[u8], width: u32, height: u32) -> Result<Vec<u8>, EncodeError> {
-    encode(data, width, height, png::BitDepth::Eight, None)
+    encode(data, width, height, (png::ColorType::Rgb, png::BitDepth::Eight), None)
 }
 
 fn encode(
     data: &[u8],
     width: u32,
     height: u32,
-    depth: png::BitDepth,
+    (colour, depth): (png::ColorType, png::BitDepth),
     made: Option<Made>,
 ) -> Result<Vec<u8>, EncodeError> {
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, width, height);
-    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_color(colour);
     encoder.set_depth(depth);
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     if let Some(made) = made {
-        // iTXt: a STONE's name may hold any letter
-        encoder.add_itxt_chunk("Command".into(), made.command.into())?;
-        if let Some(rounds) = made.rounds {
-            encoder.add_itxt_chunk("Rounds".into(), rounds.to_string())?;
-        }
+        made.note(&mut encoder)?;
     }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(data)?;
@@ -114,7 +209,10 @@ fn text(text: &str) -> Text {
 
 /// An OpenEXR file: the picture and its passes, linear and unclamped; depth, facet and normal of
 /// the middle of each pixel.
-pub fn exr(film: &Film, things: &[Thing], made: Made) -> Result<Vec<u8>, EncodeError> {
+///
+/// - `alpha`: whether the film leaves its background out: it then has the channel `A`, by which colours
+///   are premultiplied
+pub fn exr(film: &Film, things: &[Thing], alpha: bool, made: Made) -> Result<Vec<u8>, EncodeError> {
     let floats = |values: Vec<f32>| FlatSamples::F32(values);
     let mut channels: Vec<AnyChannel<FlatSamples>> = Vec::new();
     let mut colour = |prefix: &str, values: &[Vec3]| {
@@ -128,6 +226,9 @@ pub fn exr(film: &Film, things: &[Thing], made: Made) -> Result<Vec<u8>, EncodeE
     for (pass, name) in Pass::ALL {
         colour(&format!("{name}."), &film.linear(Some(pass)));
     }
+    if alpha {
+        channels.push(AnyChannel::new(text("A"), floats(film.pixels.iter().map(|p| p.alpha).collect())));
+    }
     for (i, letter) in ["X", "Y", "Z"].iter().enumerate() {
         let samples = floats(things.iter().map(|t| t.normal[i]).collect());
         channels.push(AnyChannel::new(text(&format!("normal.{letter}")), samples));
@@ -137,7 +238,8 @@ pub fn exr(film: &Film, things: &[Thing], made: Made) -> Result<Vec<u8>, EncodeE
     channels.push(AnyChannel::new(text("Z"), floats(things.iter().map(|t| t.depth).collect())));
     let rounds = made.rounds.map_or_else(String::new, |n| format!("\nrounds: {n}"));
     let comments = Some(text(&format!("{}{rounds}", made.command)));
-    let attributes = LayerAttributes { comments, ..LayerAttributes::default() };
+    let software_name = Some(text(PROGRAM));
+    let attributes = LayerAttributes { comments, software_name, ..LayerAttributes::default() };
     let size = (film.width as usize, film.height as usize);
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
     let mut out = std::io::Cursor::new(Vec::new());

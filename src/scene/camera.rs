@@ -62,6 +62,10 @@ pub struct Camera {
     pub stops: f32,
     /// Light that it shows as white.
     pub white: &'static Illuminant,
+    /// Whether its colours are flat: each camera ray shows white, red, green, blue or black, whichever has
+    /// the greatest share of its light, as in drawings of what gem viewers show. Linear light keeps the
+    /// shares, by the three bands of [`crate::optics::rgb::basis`].
+    pub flat: bool,
 }
 
 impl Camera {
@@ -121,6 +125,7 @@ mod tests {
             aspect: 2.0,
             stops: 0.0,
             white: Illuminant::equal_energy(),
+            flat: false,
         };
         let (_, left) = camera.ray(0.0, 0.5);
         assert!((left.x.atan2(left.y).to_degrees() + 19.0).abs() < 1e-4);

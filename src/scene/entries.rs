@@ -1,20 +1,18 @@
-//! The entries of a scene file, and how each becomes a part of the scene.
+//! The entries of a scene file for camera, stones and surfaces, and how each becomes a part of the scene.
 
 use super::file::{Cast, GREATEST, Place, walking_stone};
-use super::lights::{Kind, LIGHTS};
 use super::mesh::Mesh;
-use super::panorama::Panorama;
+use super::reach::Files;
 use super::surface::{Finish, Plate, Shape};
-use super::{Camera, Lens, Light, PlacedStone, Pose, Reflectance, Surface};
+use super::{Camera, Lens, PlacedStone, Pose, Reflectance, Surface};
 use crate::cut::Design;
-use crate::formats::{scenery, stone};
-use crate::optics::daylight::ClearSky;
+use crate::cut::{families, library};
+use crate::formats::{self, FormatError, scenery, stone};
 use crate::optics::illuminants::ILLUMINANTS;
 use crate::optics::materials::MATERIALS;
-use crate::optics::viewers::{VIEWERS, Viewer};
 use crate::optics::{Illuminant, Material, rgb};
 use crate::walk::Stone;
-use glam::{DMat3, Mat3, Vec3};
+use glam::{DMat3, Vec3};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -27,23 +25,23 @@ pub struct Wrong {
     pub problem: String,
 }
 
-fn wrong(key: &'static str, problem: impl Into<String>) -> Wrong {
+pub(super) fn wrong(key: &'static str, problem: impl Into<String>) -> Wrong {
     Wrong { key, problem: problem.into() }
 }
 
 /// An entry of a catalogue by name; the error lists all.
-fn named<T>(key: &'static str, found: Option<T>, name: &str, all: &[&str]) -> Result<T, Wrong> {
+pub(super) fn named<T>(key: &'static str, found: Option<T>, name: &str, all: &[&str]) -> Result<T, Wrong> {
     found.ok_or_else(|| wrong(key, format!("{key} '{name}' is none of {}", all.join(", "))))
 }
 
-fn illuminant(key: &'static str, name: Option<&str>) -> Result<&'static Illuminant, Wrong> {
+pub(super) fn illuminant(key: &'static str, name: Option<&str>) -> Result<&'static Illuminant, Wrong> {
     let name = name.unwrap_or(Illuminant::equal_energy().name);
     let all: Vec<&str> = ILLUMINANTS.iter().map(|i| i.name).collect();
     named(key, Illuminant::named(name), name, &all)
 }
 
 /// A number above 0.
-fn positive(key: &'static str, value: Option<f32>) -> Result<f32, Wrong> {
+pub(super) fn positive(key: &'static str, value: Option<f32>) -> Result<f32, Wrong> {
     match value {
         Some(x) if x > 0.0 && x.is_finite() => Ok(x),
         Some(x) => Err(wrong(key, format!("{key} = {x} is not a number above 0"))),
@@ -51,8 +49,22 @@ fn positive(key: &'static str, value: Option<f32>) -> Result<f32, Wrong> {
     }
 }
 
+/// Least length, in world units, of what is to have an area: squares of less leave the range of `f32`.
+const LEAST: f32 = 1e-6;
+
+/// A length in the world that is long enough to span an area.
+///
+/// - `value`: in the file's unit
+pub(super) fn span(key: &'static str, value: Option<f32>, place: &Place) -> Result<f32, Wrong> {
+    let length = place.length(positive(key, value)?);
+    if length < LEAST {
+        return Err(wrong(key, format!("{key} = {} is too small to have an area", length / place.unit)));
+    }
+    Ok(length)
+}
+
 /// Turns about x, then y, then z, in degrees.
-fn turned(turn: Option<[f64; 3]>) -> DMat3 {
+pub(super) fn turned(turn: Option<[f64; 3]>) -> DMat3 {
     let [x, y, z] = turn.unwrap_or_default().map(f64::to_radians);
     DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
 }
@@ -71,7 +83,23 @@ pub struct CameraEntry {
     #[serde(default)]
     exposure: f32,
     white: Option<String>,
+    #[serde(default)]
+    colours: Colours,
 }
+
+/// How a camera sees colours.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Colours {
+    /// As an eye does.
+    #[default]
+    Eye,
+    /// White, red, green, blue or black, whichever most of the light is.
+    Flat,
+}
+
+/// Most stops that an exposure changes a picture by.
+const MOST_STOPS: f32 = 30.0;
 
 /// How wide the lens is: a diameter in the file's unit, or an f-number such as "f/8".
 #[derive(Debug, Clone, Deserialize)]
@@ -107,7 +135,12 @@ impl CameraEntry {
         }
         let lens = self.opened(lens, place, position, target)?;
         let white = illuminant("white", self.white.as_deref())?;
-        Ok(Camera { position, target, lens, aspect, stops: self.exposure, white })
+        if self.exposure.abs() > MOST_STOPS {
+            let most = format!("an exposure is a number of stops from -{MOST_STOPS} to {MOST_STOPS}");
+            return Err(wrong("exposure", most));
+        }
+        let flat = matches!(self.colours, Colours::Flat);
+        Ok(Camera { position, target, lens, aspect, stops: self.exposure, white, flat })
     }
 
     /// The lens with its aperture, if it has one.
@@ -167,10 +200,22 @@ impl StoneEntry {
         self.cut.as_deref().unwrap_or("round-brilliant")
     }
 
-    /// The design of that STONE: of the library, or of a regular file.
-    pub(super) fn design(&self) -> Result<Design, Wrong> {
-        let opened = stone::open_regular(self.cut()).map_err(|e| wrong("cut", e.to_string()))?;
-        Ok(opened.design)
+    /// The design of that STONE: of the library, or of a regular file beside the scene.
+    pub(super) fn design(&self, files: &Files) -> Result<Design, Wrong> {
+        let cut = self.cut();
+        let name = cut.split(':').next().unwrap_or_default();
+        let known = library::names().any(|n| n == name) || families::family(name).is_ok();
+        let opened = if known {
+            stone::open_regular(cut)
+        } else {
+            let path = files.find("cut", cut)?;
+            if path.exists() {
+                formats::read_regular(&path)
+            } else {
+                Err(FormatError::NoSuchStone { spec: cut.into(), nearest: library::nearest(name) })
+            }
+        };
+        Ok(opened.map_err(|e| wrong("cut", e.to_string()))?.design)
     }
 
     /// The stone and what it is made of: as the cast says, else the entry, else the design's own
@@ -207,7 +252,13 @@ impl StoneEntry {
         };
         let turn = turned(self.turn) * pose.rotation(&stone.solid);
         let radius = match self.radius {
-            Some(_) => positive("radius", self.radius)? * unit,
+            Some(_) => {
+                let radius = positive("radius", self.radius)? * unit;
+                if !(LEAST..=GREATEST as f32).contains(&radius) {
+                    return Err(wrong("radius", format!("a radius of {radius} is too small or too large")));
+                }
+                radius
+            }
             None => stone.unit as f32,
         };
         let at = self.at.clone().unwrap_or_else(|| vec![0.0, 0.0]);
@@ -245,22 +296,28 @@ pub struct SurfaceEntry {
     reflectance: ReflectanceEntry,
     #[serde(default)]
     mirror: bool,
+    backdrop: Option<bool>,
 }
 
 impl SurfaceEntry {
     pub(super) fn surface(&self, place: &Place) -> Result<Surface, Wrong> {
+        let stated = match self.reflectance {
+            ReflectanceEntry::Grey(r) => [r; 3],
+            ReflectanceEntry::Rgb(rgb) => rgb,
+            ReflectanceEntry::Edge { low, high, .. } => [low, high, low],
+        };
+        if let Some(r) = stated.iter().find(|r| !(0.0..=1.0).contains(*r)) {
+            return Err(wrong("reflectance", format!("a reflectance lies between 0 and 1, not at {r}")));
+        }
         let reflectance = match self.reflectance {
             ReflectanceEntry::Grey(r) => Reflectance::Grey(r),
             ReflectanceEntry::Rgb(rgb) => Reflectance::Mixture(rgb::mixture(rgb.into()).min(Vec3::ONE)),
             ReflectanceEntry::Edge { low, high, edge } => Reflectance::Edge { low, high, edge_nm: edge },
         };
-        if [400.0, 550.0, 700.0].iter().any(|nm| !(0.0..=1.0).contains(&reflectance.at(*nm))) {
-            return Err(wrong("reflectance", "a reflectance lies between 0 and 1"));
-        }
         let finish = if self.mirror { Finish::Mirror(reflectance) } else { Finish::Diffuse(reflectance) };
         let shape = match (&self.mesh, self.corner, self.u, self.v) {
             (Some(file), None, None, None) => {
-                let mesh = scenery::triangles(&place.folder.join(file));
+                let mesh = scenery::triangles(&place.files.find("mesh", file)?);
                 let mesh = mesh.map_err(|e| wrong("mesh", e.to_string()))?;
                 place.count_triangles(mesh.triangles.len()).map_err(|e| wrong("mesh", e.to_string()))?;
                 let scale = place.length(positive("scale", Some(self.scale.unwrap_or(1.0)))?);
@@ -273,109 +330,16 @@ impl SurfaceEntry {
             }
             (None, Some(corner), Some(u), Some(v)) => {
                 let [corner, u, v] = [corner, u, v].map(|p| place.point(p));
-                if u.cross(v).length() <= 1e-9 * u.length() * v.length() {
+                let shorter = u.length().min(v.length());
+                if shorter < LEAST || u.cross(v).length() <= 1e-9 * u.length() * v.length() {
                     return Err(wrong("u", "u and v span no area"));
                 }
                 Shape::Plate(Plate { corner, u, v })
             }
             _ => return Err(wrong("corner", "a surface has corner, u and v, or a mesh")),
         };
-        Ok(Surface { shape, finish })
-    }
-}
-
-/// `[[light]]`
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LightEntry {
-    kind: String,
-    at: Option<[f32; 3]>,
-    to: Option<[f32; 3]>,
-    side: Option<f32>,
-    radius: Option<f32>,
-    cone: Option<f32>,
-    viewer: Option<String>,
-    panorama: Option<String>,
-    sun_elevation: Option<f32>,
-    sun_azimuth: Option<f32>,
-    turbidity: Option<f32>,
-    turn: Option<[f64; 3]>,
-    radiance: Option<f32>,
-    power: Option<f32>,
-    colour: Option<[f32; 3]>,
-    spectrum: Option<String>,
-}
-
-impl LightEntry {
-    pub(super) fn light(&self, place: &Place) -> Result<Light, Wrong> {
-        let all: Vec<&str> = LIGHTS.iter().map(|k| k.name).collect();
-        let kind = named("kind", Kind::named(&self.kind), &self.kind, &all)?;
-        let emitter = (kind.read)(self, place)?;
-        let radiance = match (self.radiance, self.power, emitter.power()) {
-            (radiance, None, _) => positive("radiance", radiance)?,
-            (None, power, Some(of_one)) => positive("power", power)? / of_one,
-            (None, Some(_), None) => return Err(wrong("power", "a light at infinity has a radiance")),
-            (Some(_), Some(_), _) => return Err(wrong("power", "a light has a radiance or a power")),
-        };
-        let colour = self.colour.map_or(Vec3::ONE, |c| rgb::mixture(c.into()));
-        Ok(Light::new(emitter, illuminant("spectrum", self.spectrum.as_deref())?, colour * radiance))
-    }
-
-    /// Its place.
-    pub(super) fn at(&self, place: &Place) -> Result<Vec3, Wrong> {
-        self.at.map(|p| place.point(p)).ok_or_else(|| wrong("at", "at is missing"))
-    }
-
-    /// What it shines at, the first stone unless it says.
-    pub(super) fn to(&self, place: &Place) -> Vec3 {
-        self.to.map_or(place.centre, |p| place.point(p))
-    }
-
-    /// Its side, in the file's unit.
-    pub(super) fn side(&self) -> Result<f32, Wrong> {
-        positive("side", self.side)
-    }
-
-    /// Its radius, in the file's unit.
-    pub(super) fn radius(&self) -> Result<f32, Wrong> {
-        positive("radius", self.radius)
-    }
-
-    /// The full angle of its cone, degrees.
-    pub(super) fn cone_deg(&self) -> Result<f32, Wrong> {
-        positive("cone", self.cone)
-    }
-
-    /// The viewer it is, if any.
-    pub(super) fn viewer(&self) -> Result<Option<&'static Viewer>, Wrong> {
-        let all: Vec<&str> = VIEWERS.iter().map(|v| v.name).collect();
-        self.viewer.as_deref().map(|name| named("viewer", Viewer::named(name), name, &all)).transpose()
-    }
-
-    /// The panorama it shows, if any.
-    pub(super) fn panorama(&self, place: &Place) -> Result<Option<Panorama>, Wrong> {
-        let Some(file) = &self.panorama else { return Ok(None) };
-        let sky = Panorama::open(&place.folder.join(file)).map_err(|e| wrong("panorama", e))?;
-        place.count_pixels(sky.pixel_count()).map_err(|e| wrong("panorama", e.to_string()))?;
-        Ok(Some(sky))
-    }
-
-    /// The clear sky that it is a part of.
-    pub(super) fn clear_sky(&self) -> Result<ClearSky, Wrong> {
-        let within = |key: &'static str, value: Option<f32>, low: f32, high: f32| match value {
-            Some(x) if (low..=high).contains(&x) => Ok(x),
-            Some(x) => Err(wrong(key, format!("{key} = {x} is not from {low} to {high}"))),
-            None => Err(wrong(key, format!("{key} is missing"))),
-        };
-        Ok(ClearSky::new(
-            within("sun-elevation", self.sun_elevation, 0.0, 90.0)?,
-            within("sun-azimuth", self.sun_azimuth, -360.0, 360.0)?,
-            within("turbidity", Some(self.turbidity.unwrap_or(3.0)), 2.0, 10.0)?,
-        ))
-    }
-
-    /// How it is turned.
-    pub(super) fn turned(&self) -> Mat3 {
-        turned(self.turn).as_mat3()
+        // floors and walls are plates, a piece of jewellery is a mesh
+        let backdrop = self.backdrop.unwrap_or(matches!(shape, Shape::Plate(_)));
+        Ok(Surface { shape, finish, backdrop })
     }
 }

@@ -1,25 +1,11 @@
 //! Scene files: TOML, from the user or from the catalogue.
 //!
-//! `unit` is `"stone"` (one is the radius of the sphere around the first stone) or `"mm"`. Points
-//! are `[x, y, z]`, z up. Then
-//!
-//! - `[camera]`: `at`, `to` (the first stone if absent), `field` (degrees across the width) or
-//!   `field-short` (over the shorter side) or `width` (parallel rays), `exposure` in stops, `white`
-//!   (the illuminant that comes out white); `aperture` (a diameter, or "f/8" for a picture 36 mm wide in
-//!   a world of millimetres) and `focus` (a distance along the view, or a point; `to` if absent)
-//! - `[[stone]]` (none if only the surroundings are of interest): `cut`, `material`, `size` (mm) or
-//!   `radius` (as large as the scene wants it),
-//!   `pose` (`lying`, `table-up`, `table-down`), `turn` (degrees about x, y, z, in that order, after
-//!   the pose), `at` (`[x, y]` on the floor, or `[x, y, z]` of its centre)
-//! - `[[surface]]`: `corner`, `u`, `v` (u × v is the side that is there) or `mesh` with `at`, `turn`,
-//!   `scale`; `reflectance` (a number, `[r, g, b]`, or `{ low, high, edge }`); `mirror = true`
-//! - `[[light]]`: `kind` of `cutlab list lights` with what that needs; `radiance` or `power`,
-//!   `colour`, `spectrum`
-//!
-//! To compare with other programs: `depth` limits the segments of a path, which are followed to the
-//! end of their power without it; `polarisation = false` takes light as unpolarised at every facet.
+//! Their grammar is [`GRAMMAR`], which `cutlab list scene-grammar` prints. Files that a scene names are
+//! looked for beside it, and lie in its folder or below unless [`Cast::allow_outside`].
 
-use super::entries::{CameraEntry, LightEntry, StoneEntry, SurfaceEntry, Wrong};
+use super::entries::{CameraEntry, StoneEntry, SurfaceEntry, Wrong, wrong};
+use super::light_entry::LightEntry;
+use super::reach::Files;
 use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
 use crate::cut::Design;
 use crate::optics::Material;
@@ -32,6 +18,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Every key of a scene file, by example.
+pub static GRAMMAR: &str = include_str!("grammar.txt");
 
 /// A scene that cannot be set up. Each error is one line.
 #[derive(Debug, thiserror::Error)]
@@ -88,7 +77,7 @@ struct Document {
     about: String,
     unit: Unit,
     #[serde(default)]
-    picture: Option<[u32; 2]>,
+    picture: Option<Spanned<[u32; 2]>>,
     #[serde(default)]
     depth: Option<u32>,
     #[serde(default)]
@@ -126,6 +115,12 @@ pub struct Cast {
     /// Whether light keeps its polarisation from facet to facet; it does if neither this nor the scene
     /// says.
     pub polarisation: Option<bool>,
+    /// The panorama of every light that shows one.
+    pub panorama: Option<PathBuf>,
+    /// Whether the scene may name files outside its own folder.
+    pub allow_outside: bool,
+    /// Whether the camera leaves the background out: [`Scene::cut_out`].
+    pub cut_out: bool,
 }
 
 /// What entries are read against.
@@ -133,7 +128,9 @@ pub struct Place<'a> {
     /// World length of one of the file's units.
     pub unit: f32,
     /// Where files that the scene names are looked for.
-    pub folder: &'a Path,
+    pub files: &'a Files,
+    /// The panorama in place of those that the scene names.
+    pub panorama: Option<&'a Path>,
     /// Centre of the first stone; the origin where there is none.
     pub centre: Vec3,
     /// Triangles and pixels of the files that were read for the scene so far.
@@ -198,6 +195,17 @@ impl SceneFile {
         ] {
             limit.check(n).map_err(|cause| SceneError::Limit { file: file.into(), cause })?;
         }
+        if let Some(picture) = &document.picture
+            && picture.get_ref().iter().any(|side| !(1..=MOST_PIXELS).contains(side))
+        {
+            let problem = format!("a picture is from 1 to {MOST_PIXELS} pixels wide and high");
+            return Err(at(picture.span().start, problem));
+        }
+        if document.depth == Some(0) {
+            let problem = "a depth of 0 lets no light through: it is a number of segments from 1".into();
+            let line = text.lines().position(|l| l.trim_start().starts_with("depth")).unwrap_or(0) + 1;
+            return Err(SceneError::Line { file: file.into(), line, problem });
+        }
         Ok(SceneFile {
             name: name.into(),
             file: file.into(),
@@ -219,8 +227,17 @@ impl SceneFile {
 
     /// Width and height of its picture.
     pub fn picture(&self) -> (u32, u32) {
-        let [width, height] = self.document.picture.unwrap_or([640, 480]);
-        (width.clamp(1, 1 << 14), height.clamp(1, 1 << 14))
+        self.document.picture.as_ref().map_or((640, 480), |p| (*p.get_ref()).into())
+    }
+
+    /// How many stones it has places for.
+    pub fn places(&self) -> usize {
+        self.document.stone.len()
+    }
+
+    /// Whether one of its lights shows a panorama.
+    pub fn has_panorama(&self) -> bool {
+        self.document.light.iter().any(|l| l.get_ref().has_panorama())
     }
 
     /// Sets the scene up.
@@ -237,12 +254,13 @@ impl SceneFile {
             let problem = "unit is \"mm\" where there is no stone".into();
             return Err(SceneError::Line { file: self.file.clone(), line: text.unwrap_or(0) + 1, problem });
         }
+        let files = Files { folder: self.folder.clone(), anywhere: cast.allow_outside };
         let mut unit = 1.0;
         let mut stones: Vec<PlacedStone> = Vec::with_capacity(places);
         for (i, entry) in document.stone.iter().enumerate() {
             let design = match cast.designs.get(i) {
                 Some(design) => design.clone(),
-                None => self.say(entry, entry.get_ref().design())?,
+                None => self.say(entry, entry.get_ref().design(&files))?,
             };
             let (stone, material) = self.say(entry, entry.get_ref().stone(design, cast))?;
             if i == 0 && document.unit == Unit::Stone {
@@ -253,12 +271,17 @@ impl SceneFile {
             stones.push(PlacedStone { polarised, ..placed });
         }
         let centre = stones.first().map_or(Vec3::ZERO, |s| s.position);
-        let place = Place { unit, folder: &self.folder, centre, read: Default::default() };
+        let panorama = cast.panorama.as_deref();
+        let place = Place { unit, files: &files, panorama, centre, read: Default::default() };
         let camera: Camera = self.say(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
+        if let Some(i) = stone_around(&stones, &camera) {
+            let inside = wrong("at", format!("the camera stands inside stone {}", i + 1));
+            return self.say(&document.camera, Err(inside));
+        }
         let surfaces: Result<Vec<Surface>, _> =
             document.surface.iter().map(|e| self.say(e, e.get_ref().surface(&place))).collect();
         let lights: Result<Vec<Light>, _> =
-            document.light.iter().map(|e| self.say(e, e.get_ref().light(&place))).collect();
+            document.light.iter().map(|e| self.say(e, e.get_ref().light_outside(&place, &stones))).collect();
         Ok(Scene {
             name: self.name.clone(),
             surfaces: surfaces?,
@@ -266,6 +289,7 @@ impl SceneFile {
             stones,
             camera,
             depth: document.depth,
+            cut_out: cast.cut_out,
         })
     }
 
@@ -283,6 +307,19 @@ impl SceneFile {
             SceneError::Line { file: self.file.clone(), line, problem: wrong.problem }
         })
     }
+}
+
+/// Most pixels of a side of a picture.
+pub const MOST_PIXELS: u32 = 1 << 14;
+
+/// The number of a stone that some of the camera's rays begin in.
+fn stone_around(stones: &[PlacedStone], camera: &Camera) -> Option<usize> {
+    /// Places across and down that are looked at.
+    const GRID: u32 = 8;
+    let places = (0..=GRID).flat_map(|y| (0..=GRID).map(move |x| [x, y].map(|k| k as f32 / GRID as f32)));
+    let mut begin: Vec<Vec3> = places.map(|[u, v]| camera.ray_through(u, v, [u, v]).0).collect();
+    begin.dedup();
+    stones.iter().position(|s| begin.iter().any(|at| s.contains(*at)))
 }
 
 /// The greatest number in a scene: what is beyond it has no digits left in `f32` for a stone.

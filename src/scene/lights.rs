@@ -9,8 +9,9 @@ pub mod square;
 pub mod sun;
 
 use super::Aim;
-use super::entries::{LightEntry, Wrong};
+use super::entries::Wrong;
 use super::file::Place;
+use super::light_entry::LightEntry;
 use crate::optics::{Illuminant, rgb};
 use glam::{Mat3, Vec3};
 use std::fmt::Debug;

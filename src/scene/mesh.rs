@@ -29,7 +29,7 @@ impl Mesh {
     /// Places a mesh: turned and scaled about its own origin, then moved.
     pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Result<Mesh, Exceeded> {
         let place = |i: usize| (at + turn * mesh.vertices[i] * scale).as_vec3a();
-        let mut triangles: Vec<Triangle> = mesh
+        let triangles: Vec<Triangle> = mesh
             .triangles
             .iter()
             .map(|[a, b, c]| Triangle { v0: place(*a), v1: place(*b), v2: place(*c) })
@@ -42,6 +42,10 @@ impl Mesh {
             *count += 1;
             limits::SAME_BOX.check(*count)?;
         }
+        Ok(Mesh::of(triangles))
+    }
+
+    fn of(mut triangles: Vec<Triangle>) -> Mesh {
         let mut crc = crc32fast::Hasher::new();
         for t in &triangles {
             [t.v0, t.v1, t.v2].iter().flat_map(|v| v.to_array()).for_each(|x| crc.update(&x.to_le_bytes()));
@@ -49,7 +53,20 @@ impl Mesh {
         let tree = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Default::default());
         // in the tree's order, so that a leaf's number is its triangle's
         triangles = tree.primitive_indices.iter().map(|i| triangles[*i as usize]).collect();
-        Ok(Mesh { triangles, tree, checksum: crc.finalize() })
+        Mesh { triangles, tree, checksum: crc.finalize() }
+    }
+
+    /// The mesh with every corner moved.
+    pub fn moved(&self, to: &dyn Fn(Vec3) -> Vec3) -> Mesh {
+        let moved = |v: Vec3A| Vec3A::from(to(v.into()));
+        let each = |t: &Triangle| Triangle { v0: moved(t.v0), v1: moved(t.v1), v2: moved(t.v2) };
+        Mesh::of(self.triangles.iter().map(each).collect())
+    }
+
+    /// Height of its lowest corner.
+    pub fn lowest(&self) -> f32 {
+        let corners = self.triangles.iter().flat_map(|t| [t.v0, t.v1, t.v2]);
+        corners.map(|v| v.z).fold(f32::INFINITY, f32::min)
     }
 
     /// Distance along a ray and the unit normal on the ray's side.

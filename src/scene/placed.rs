@@ -47,7 +47,14 @@ impl PlacedStone {
         turned
     }
 
-    fn lowest(&self) -> f32 {
+    /// The stone turned with all that is around it about a point, then moved.
+    pub fn carried(&self, turn: Mat3, about: Vec3, by: Vec3) -> PlacedStone {
+        let position = about + turn * (self.position - about) + by;
+        PlacedStone { world_from_stone: turn * self.world_from_stone, position, ..self.clone() }
+    }
+
+    /// Height of its lowest corner.
+    pub fn lowest(&self) -> f32 {
         let height = |v: &DVec3| self.point_to_world(self.stone.from_design(*v).as_vec3()).z;
         self.stone.solid.vertices.iter().map(height).fold(f32::INFINITY, f32::min)
     }
@@ -75,6 +82,35 @@ impl PlacedStone {
     /// A walking-frame direction in the world.
     pub fn direction_to_world(&self, d: Vec3) -> Vec3 {
         self.world_from_stone * d
+    }
+
+    /// Whether a world point lies in the stone: the solid angle that its facets fill around the point is
+    /// a whole sphere rather than nothing.
+    ///
+    /// Source: A. van Oosterom and J. Strackee, *The solid angle of a plane triangle*, IEEE Trans.
+    /// Biomed. Eng. 30(2), 1983. Checked below.
+    pub fn contains(&self, point: Vec3) -> bool {
+        if point.distance_squared(self.position) > self.radius * self.radius {
+            return false;
+        }
+        let seen: Vec<DVec3> = self
+            .stone
+            .solid
+            .vertices
+            .iter()
+            .map(|v| self.point_to_world(self.stone.from_design(*v).as_vec3()).as_dvec3() - point.as_dvec3())
+            .collect();
+        let half_angle = |a: DVec3, b: DVec3, c: DVec3| {
+            let (x, y, z) = (a.length(), b.length(), c.length());
+            a.dot(b.cross(c)).atan2(x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
+        };
+        let face = |corners: &[usize]| -> f64 {
+            (2..corners.len())
+                .map(|i| half_angle(seen[corners[0]], seen[corners[i - 1]], seen[corners[i]]))
+                .sum()
+        };
+        let whole: f64 = self.stone.solid.faces.iter().map(|f| face(&f.corners)).sum();
+        whole.abs() > std::f64::consts::PI
     }
 
     /// Index of refraction at `nm`.

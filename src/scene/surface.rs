@@ -2,7 +2,7 @@
 
 use super::mesh::Mesh;
 use crate::optics::rgb;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use std::sync::Arc;
 
 /// Share of light that a surface gives back, by wavelength.
@@ -63,12 +63,16 @@ pub struct Surface {
     pub shape: Shape,
     /// What it does with light.
     pub finish: Finish,
+    /// Whether it is background, such as a floor or a wall: a picture that leaves its background out
+    /// ([`super::Scene::cut_out`]) does not show it.
+    pub backdrop: bool,
 }
 
 impl Surface {
     /// A diffuse parallelogram; `u × v` points to the reflecting side.
     pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
-        Surface { shape: Shape::Plate(Plate { corner, u, v }), finish: Finish::Diffuse(reflectance) }
+        let shape = Shape::Plate(Plate { corner, u, v });
+        Surface { shape, finish: Finish::Diffuse(reflectance), backdrop: true }
     }
 
     /// Distance along a ray to the surface, if it is met, and its unit normal on the ray's side.
@@ -82,6 +86,24 @@ impl Surface {
     /// Whether the surface stands in the way of a ray before `distance`.
     pub fn hides(&self, origin: Vec3, direction: Vec3, distance: f32) -> bool {
         self.hit(origin, direction).is_some_and(|(t, _)| t < distance)
+    }
+
+    /// The surface turned about a point, then moved.
+    pub fn carried(&self, turn: Mat3, about: Vec3, by: Vec3) -> Surface {
+        let point = |p: Vec3| about + turn * (p - about) + by;
+        let shape = match &self.shape {
+            Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.moved(&point))),
+            Shape::Plate(p) => Shape::Plate(Plate { corner: point(p.corner), u: turn * p.u, v: turn * p.v }),
+        };
+        Surface { shape, ..self.clone() }
+    }
+
+    /// Height of its lowest corner.
+    pub fn lowest(&self) -> f32 {
+        match &self.shape {
+            Shape::Mesh(mesh) => mesh.lowest(),
+            Shape::Plate(_) => self.bounds().0.z,
+        }
     }
 
     /// Lowest and highest corner of its box.

@@ -5,7 +5,7 @@ use std::path::Path;
 /// Options, with a value, that do not change a picture.
 const SILENT: [&str; 5] = ["-o", "--output", "--photon-map", "-j", "--threads"];
 /// The same without a value.
-const SILENT_FLAGS: [&str; 5] = ["-q", "--quiet", "--json", "--passes", "--force"];
+const SILENT_FLAGS: [&str; 6] = ["-q", "--quiet", "--json", "--passes", "--force", "--allow-outside"];
 
 /// The process's command line without output names; paths are bare file names.
 pub fn normalised() -> String {

@@ -1,13 +1,15 @@
 //! `--progressive`: rounds of a picture until a stop.
 
 use super::Args;
-use crate::cli::console::Console;
+use super::outlook::{self, Outlook};
+use super::picture::Progress;
 use crate::cli::outcome::Failure;
 use crate::cli::values;
 use crate::math::typed::{self, NumberError, Unit};
 use crate::render::{Film, Progressive, Settings};
 use crate::scene::Scene;
 use crate::store::kept::Kept;
+use indicatif::HumanDuration;
 use std::time::{Duration, Instant};
 
 /// Seconds between two writings of a picture that is still getting better.
@@ -46,13 +48,26 @@ impl Stops {
     /// Noise at which a picture is good enough if nothing is said.
     const NOISE: f64 = 0.02;
 
+    /// Noise to stop at, if noise is to stop it.
+    fn noise(&self) -> Option<f64> {
+        let none = self.rounds.is_none() && self.time.is_none() && self.noise.is_none();
+        if none { Some(Self::NOISE) } else { self.noise }
+    }
+
+    /// About how long it takes to the first stop, if that is known.
+    fn left(&self, outlook: &Outlook, rounds: u32, taken: Duration) -> Option<Duration> {
+        let counted = self.rounds.map(f64::from);
+        let foreseen = self.noise().and_then(|noise| outlook.rounds_to(noise));
+        let by_rounds = [counted, foreseen].into_iter().flatten();
+        let by_rounds = by_rounds.filter_map(|all| outlook::time_to(all, rounds, taken));
+        by_rounds.chain(self.time.map(|time| time.saturating_sub(taken))).min()
+    }
+
     /// - `taken`: time that the picture has taken so far
     fn reached(&self, picture: &Progressive, taken: Duration) -> bool {
-        let none = self.rounds.is_none() && self.time.is_none() && self.noise.is_none();
-        let noise = if none { Some(Self::NOISE) } else { self.noise };
         self.rounds.is_some_and(|most| picture.rounds() >= most)
             || self.time.is_some_and(|time| taken >= time)
-            || noise.is_some_and(|noise| picture.noise() <= noise)
+            || self.noise().is_some_and(|noise| picture.noise() <= noise)
     }
 }
 
@@ -65,13 +80,15 @@ pub fn take(
     args: &Args,
     scene: &Scene,
     settings: &Settings,
-    console: &Console,
+    progress: &Progress,
     mut kept: Option<&mut Kept>,
     keep: &mut dyn FnMut(&Film, u32) -> Result<(), Failure>,
 ) -> Result<(Film, u32), Failure> {
     let mut since = Instant::now();
     let mut written = since;
-    let sign = console.spinner("round 1");
+    let console = progress.console();
+    let sign = progress.begin("round 1", 0);
+    let mut outlook = Outlook::default();
     let mut picture = Progressive::new(scene, &scene.camera, *settings, args.photons());
     let earlier = kept.as_ref().and_then(|kept| kept.load());
     if let Some((seconds, state)) = earlier.as_ref().and_then(|state| state.split_first_chunk()) {
@@ -83,7 +100,9 @@ pub fn take(
     }
     while picture.rounds() == 0 || !args.stops.reached(&picture, since.elapsed()) {
         picture.round(&|| ());
-        sign.set_message(format!("round {}, noise {:.1} %", picture.rounds() + 1, 100.0 * picture.noise()));
+        outlook.note(picture.rounds(), picture.noise());
+        let left = args.stops.left(&outlook, picture.rounds(), since.elapsed());
+        sign.say(&said(&picture, left));
         if let Some(kept) = &mut kept {
             kept.save(|| [&since.elapsed().as_secs_f64().to_le_bytes()[..], &picture.state()].concat())?;
         }
@@ -92,7 +111,19 @@ pub fn take(
             written = Instant::now();
         }
     }
-    sign.finish_and_clear();
+    drop(sign);
     console.note(&format!("{} rounds, noise {:.1} %", picture.rounds(), 100.0 * picture.noise()));
     Ok((picture.film().clone(), picture.rounds()))
+}
+
+/// How far a picture is: the round that is taken, the noise so far, and about how long it still takes.
+fn said(picture: &Progressive, left: Option<Duration>) -> String {
+    let mut said = format!("round {}", picture.rounds() + 1);
+    if picture.noise().is_finite() {
+        said += &format!(", noise {:.1} %", 100.0 * picture.noise());
+    }
+    if let Some(left) = left {
+        said += &format!(", about {} left", HumanDuration(left));
+    }
+    said
 }

@@ -13,8 +13,8 @@ pub static KIND: Kind = Kind {
     name: "disc",
     about: "a disc that shines from one side: at, to, radius",
     read: |entry, place| {
-        let radius = place.length(entry.radius()?);
-        Ok(Arc::new(Disc::facing(entry.at(place)?, entry.to(place), radius, 90.0)))
+        let radius = entry.radius(place)?;
+        Ok(Arc::new(Disc::facing(entry.at(place)?, entry.to(place)?, radius, 90.0)))
     },
 };
 

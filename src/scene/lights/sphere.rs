@@ -12,7 +12,7 @@ pub static KIND: Kind = Kind {
     name: "sphere",
     about: "a globe that shines all round: at, radius",
     read: |entry, place| {
-        let radius = place.length(entry.radius()?);
+        let radius = entry.radius(place)?;
         Ok(Arc::new(Sphere { centre: entry.at(place)?, radius }))
     },
 };

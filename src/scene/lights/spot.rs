@@ -9,8 +9,8 @@ pub static KIND: Kind = Kind {
     name: "spot",
     about: "a disc that shines in a cone of so many degrees: at, to, radius, cone",
     read: |entry, place| {
-        let radius = place.length(entry.radius()?);
+        let radius = entry.radius(place)?;
         let half_deg = 0.5 * entry.cone_deg()?;
-        Ok(Arc::new(Disc::facing(entry.at(place)?, entry.to(place), radius, half_deg)))
+        Ok(Arc::new(Disc::facing(entry.at(place)?, entry.to(place)?, radius, half_deg)))
     },
 };

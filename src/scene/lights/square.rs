@@ -13,8 +13,8 @@ pub static KIND: Kind = Kind {
     name: "square",
     about: "a square that shines from one side: at, to, side",
     read: |entry, place| {
-        let side = place.length(entry.side()?);
-        Ok(Arc::new(Square::facing(entry.at(place)?, entry.to(place), side)))
+        let side = entry.side(place)?;
+        Ok(Arc::new(Square::facing(entry.at(place)?, entry.to(place)?, side)))
     },
 };
 

@@ -1,0 +1,57 @@
+//! `--background`: what stands behind the stones in a picture.
+
+use crate::optics::colour;
+use glam::Vec3;
+
+/// What a picture has for its background.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Background {
+    /// Nothing: the picture is transparent there.
+    Transparent,
+    /// One colour, in linear sRGB.
+    Colour(Vec3),
+}
+
+/// Value parser: `transparent`, `white`, `black`, `#RRGGBB`.
+pub fn parse(text: &str) -> Result<Background, String> {
+    let of = |[r, g, b]: [u8; 3]| {
+        let linear = |byte: u8| colour::srgb_decode(f32::from(byte) / 255.0);
+        Background::Colour(Vec3::new(linear(r), linear(g), linear(b)))
+    };
+    match text.to_ascii_lowercase().as_str() {
+        "transparent" => Ok(Background::Transparent),
+        "white" => Ok(of([255; 3])),
+        "black" => Ok(of([0; 3])),
+        other => other.strip_prefix('#').and_then(bytes).map(of).ok_or_else(|| {
+            "a background is transparent, white, black, or a colour as '#1e90ff' (in quotes: # begins a comment)"
+                .into()
+        }),
+    }
+}
+
+/// Six hexadecimal digits.
+fn bytes(digits: &str) -> Option<[u8; 3]> {
+    if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        return None;
+    }
+    let number = u32::from_str_radix(digits, 16).ok()?;
+    let [_, r, g, b] = number.to_be_bytes();
+    Some([r, g, b])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_read_as_a_style_sheet_has_them() {
+        assert_eq!(parse("Transparent"), Ok(Background::Transparent));
+        assert_eq!(parse("white"), Ok(Background::Colour(Vec3::ONE)));
+        assert_eq!(parse("#000000"), Ok(Background::Colour(Vec3::ZERO)));
+        let Ok(Background::Colour(c)) = parse("#FF0080") else { unreachable!("a colour") };
+        assert!((c - Vec3::new(1.0, 0.0, 0.2158605)).abs().max_element() < 1e-5, "{c}");
+        for wrong in ["#fff", "red ", "#12345g", "#+12345", "#1234567", ""] {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! `-o` of `cutlab render`: what is written and where, and the work that is kept beside it.
+
+use super::Args;
+use crate::cli::console::Console;
+use crate::cli::outcome::{self, Failure};
+use crate::render::animation;
+use crate::render::{Pass, mp4};
+use crate::scene::SceneFile;
+use crate::scene::file::MOST_PIXELS;
+use crate::store::replace::{self, WriteError};
+use crate::store::{limits, lock};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// What is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Png,
+    Jpeg,
+    WebP,
+    Exr,
+    /// PNG pictures whose names have a number.
+    Numbered,
+    Gif,
+    Apng,
+    Mp4,
+}
+
+impl Kind {
+    /// Its name in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Png | Kind::Numbered => "a PNG",
+            Kind::Jpeg => "a JPEG",
+            Kind::WebP => "a WebP",
+            Kind::Exr => "an EXR",
+            Kind::Gif => "a GIF",
+            Kind::Apng => "an animated PNG",
+            Kind::Mp4 => "an MP4",
+        }
+    }
+
+    /// Whether its pixels can be transparent by degrees.
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Kind::Png | Kind::Numbered | Kind::WebP | Kind::Exr | Kind::Apng)
+    }
+
+    /// Whether it is an animation in one file.
+    pub fn is_film(self) -> bool {
+        matches!(self, Kind::Gif | Kind::Apng | Kind::Mp4)
+    }
+}
+
+/// A target that this process has to itself until it is dropped.
+pub struct Alone<'a> {
+    target: &'a Target,
+    path: PathBuf,
+    _lock: std::fs::File,
+}
+
+impl Alone<'_> {
+    /// Takes away what is kept beside the target, the work being done.
+    pub fn ends(self) -> Result<(), WriteError> {
+        let gone = |path: PathBuf, result: std::io::Result<()>| match result {
+            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(WriteError { path, cause }),
+            _ => Ok(()),
+        };
+        let [kept, frames] = [lock::hidden(&self.target.path, "kept"), self.target.folder()];
+        gone(kept.clone(), std::fs::remove_file(&kept))?;
+        gone(frames.clone(), std::fs::remove_dir_all(&frames))
+    }
+}
+
+/// The lock goes with the process that had it, and a folder without frames with it; work that is kept
+/// stays for the next start.
+impl Drop for Alone<'_> {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir(self.target.folder());
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// Where pictures go.
+#[derive(Debug)]
+pub struct Target {
+    path: PathBuf,
+    kind: Kind,
+}
+
+impl Target {
+    /// The file's ending decides, and whether it is an animation.
+    pub fn of(path: &Path, args: &Args) -> Result<Target, Failure> {
+        let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+        let several = args.frames.is_some();
+        let shown = path.display();
+        let stdout = path == Path::new("-");
+        if stdout && (several || args.passes) {
+            return Err(Failure::input("several pictures cannot go to standard output: name a file with -o"));
+        }
+        let places = path.file_name().map_or(0, |n| n.to_string_lossy().matches('%').count());
+        let numbered = numbered(path, 0).is_some();
+        if several && places > 0 && !(numbered && ending == "png") {
+            return Err(Failure::input(format!(
+                "{shown}: frames are numbered by one %d or %03d in the name of a .png; other names of an animation have no %"
+            )));
+        }
+        if !several && numbered {
+            return Err(Failure::input(format!("{shown}: the name has a place for numbers of --frames N")));
+        }
+        let kind = match (ending.as_str(), several) {
+            _ if stdout => Kind::Png,
+            ("png", true) if numbered => Kind::Numbered,
+            ("png" | "apng", true) => Kind::Apng,
+            ("gif", true) => Kind::Gif,
+            ("mp4" | "m4v", true) => Kind::Mp4,
+            ("png", false) => Kind::Png,
+            ("jpg" | "jpeg", false) => Kind::Jpeg,
+            ("webp", false) => Kind::WebP,
+            ("exr", false) => Kind::Exr,
+            (_, true) => {
+                return Err(Failure::input(format!(
+                    "{shown}: an animation is .mp4, .gif, .apng or .png, or numbered pictures (name-%03d.png)"
+                )));
+            }
+            ("mp4" | "m4v" | "gif" | "apng", false) => {
+                return Err(Failure::input(format!("{shown}: an animation needs --frames N")));
+            }
+            (_, false) => {
+                return Err(Failure::input(format!(
+                    "{shown}: pictures are .png, .jpg, .webp or .exr, name the file so"
+                )));
+            }
+        };
+        if args.passes && kind.is_film() {
+            return Err(Failure::input("passes of an animation need numbered pictures: -o name-%03d.png"));
+        }
+        Ok(Target { path: path.into(), kind })
+    }
+
+    /// Width and height; one of them alone keeps the scene's shape. Those of an MP4 are even.
+    pub fn size(&self, args: &Args, file: &SceneFile) -> Result<(u32, u32), Failure> {
+        let (w, h) = file.picture();
+        let scaled = |side: u32, a: u32, b: u32| {
+            (u64::from(side) * u64::from(a)).div_ceil(u64::from(b)).clamp(1, u64::from(MOST_PIXELS)) as u32
+        };
+        let (width, height) = match (args.width, args.height) {
+            (Some(width), Some(height)) => (width, height),
+            (Some(width), None) => (width, scaled(width, h, w)),
+            (None, Some(height)) => (scaled(height, w, h), height),
+            (None, None) => (w, h),
+        };
+        if self.kind != Kind::Mp4 {
+            return Ok((width, height));
+        }
+        for (option, given) in [("--width", args.width), ("--height", args.height)] {
+            if let Some(odd) = given.filter(|n| n % 2 == 1) {
+                let even = odd + 1;
+                return Err(Failure::input(format!("an MP4 has even sides: {option} {even}")));
+            }
+        }
+        let (width, height) = (width.next_multiple_of(2), height.next_multiple_of(2));
+        let fits = mp4::SIDES.contains(&width) && mp4::SIDES.contains(&height);
+        if !fits || width.min(height) > mp4::SHORTER_SIDE {
+            return Err(Failure::input(format!(
+                "an MP4 is from {0}×{0} to {1}×{2} pixels, not {width}×{height}: --width and --height set it",
+                mp4::SIDES.start(),
+                mp4::SIDES.end(),
+                mp4::SHORTER_SIDE
+            )));
+        }
+        Ok((width, height))
+    }
+
+    /// What is written.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// The name that was asked for.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Has the target to itself from here on.
+    ///
+    /// - `goes_on`: whether what is done of it outlives this process
+    pub fn alone(&self, goes_on: bool, console: &Console) -> Result<Alone<'_>, Failure> {
+        if goes_on {
+            outcome::goes_on();
+        }
+        let waiting = || {
+            let path = self.path.display();
+            console.note(&format!("another cutlab is making {path}: waiting for it to end"));
+        };
+        let path = lock::hidden(&self.path, "lock");
+        let lock = lock::take(&path, &waiting).map_err(|cause| WriteError { path: path.clone(), cause })?;
+        Ok(Alone { target: self, path, _lock: lock })
+    }
+
+    /// Whether another start, which may have been killed, left something beside the target.
+    pub fn has_leftovers(&self) -> bool {
+        let beside = ["kept", "lock", "frames"].map(|ending| lock::hidden(&self.path, ending));
+        !replace::is_stream(&self.path) && beside.iter().any(|p| p.symlink_metadata().is_ok())
+    }
+
+    /// Frames of an animation in one file wait here until all are there.
+    fn folder(&self) -> PathBuf {
+        lock::hidden(&self.path, "frames")
+    }
+
+    /// What frame number `number` shows, if it is there with all that belongs to it.
+    ///
+    /// - `pixels`: how many it must have; `alpha`: whether they are transparent in part
+    pub fn finished(
+        &self,
+        number: u32,
+        (passes, alpha): (bool, bool),
+        command: &str,
+        pixels: u32,
+    ) -> Option<Vec<u8>> {
+        let path = self.frame(number);
+        let shown = |path: &Path| animation::finished_frame(&whole(path, pixels)?, command, pixels);
+        let mut others = Pass::ALL.iter().filter(|_| passes);
+        if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
+            return None;
+        }
+        let channels = if alpha { 4 } else { 3 };
+        shown(&path).filter(|bytes| !self.kind.is_film() || bytes.len() == channels * pixels as usize)
+    }
+
+    /// The file of frame number `number`.
+    pub fn frame(&self, number: u32) -> PathBuf {
+        match self.kind {
+            Kind::Numbered => numbered(&self.path, number).unwrap_or_else(|| self.path.clone()),
+            kind if kind.is_film() => self.folder().join(format!("{number:03}.png")),
+            _ => self.path.clone(),
+        }
+    }
+}
+
+/// The bytes of a file, if it is one and not larger than a PNG of so many pixels of ours can be.
+fn whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
+    /// Of a pixel of four channels of 16 bits that nothing packs, with room to spare; and of the texts.
+    const PIXEL: u64 = 16;
+    const TEXTS: u64 = 1 << 20;
+    let (mut bytes, most) = (Vec::new(), u64::from(pixels) * PIXEL + TEXTS);
+    limits::regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
+    (bytes.len() as u64 <= most).then_some(bytes)
+}
+
+/// `turn-%03d.png` with the number. None unless the name has one place for it, `%d` or `%0Nd` with N
+/// from 1 to [`MOST_DIGITS`], and no other `%`.
+fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
+    /// Digits that a number is filled up to at most.
+    const MOST_DIGITS: usize = 20;
+    let name = path.file_name()?.to_str()?;
+    let (before, place) = name.split_once('%')?;
+    let (digits, after) = place.split_once('d')?;
+    let width: usize = match digits.strip_prefix('0') {
+        None if digits.is_empty() => 0,
+        Some(width) if width.bytes().all(|b| b.is_ascii_digit()) && !width.starts_with('0') => {
+            width.parse().ok()?
+        }
+        _ => return None,
+    };
+    if width > MOST_DIGITS || after.contains('%') {
+        return None;
+    }
+    Some(path.with_file_name(format!("{before}{number:0width$}{after}")))
+}
+
+/// `turn.png` for the caustic pass: `turn-caustic.png`.
+pub fn beside(path: &Path, pass: &str) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{pass}.{ending}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_numbered_where_the_name_says() {
+        let name = |text: &str, n| numbered(Path::new(text), n).map(|p| p.display().to_string());
+        assert_eq!(name("a/turn-%03d.png", 7).as_deref(), Some("a/turn-007.png"));
+        assert_eq!(name("turn%d.png", 12).as_deref(), Some("turn12.png"));
+        assert_eq!(name("a%b/turn%02d.png", 123).as_deref(), Some("a%b/turn123.png"));
+        assert_eq!(name("%020d.png", 1).as_deref(), Some("00000000000000000001.png"));
+        for none in [
+            "turn.png",
+            "100%.png",
+            "%99999999999d.png",
+            "%021d.png",
+            "f%0d.png",
+            "f%00d.png",
+            "f%003d.png",
+            "f%x.png",
+            "f%-3d.png",
+            "f%3d.png",
+            "f%+d.png",
+            "f%.3d.png",
+            "f%d-%d.png",
+            "f%%d.png",
+            "f%1$d.png",
+            "a%03d/turn.png",
+            "f%０3d.png",
+        ] {
+            assert_eq!(name(none, 12), None, "{none}");
+        }
+    }
+}
