@@ -1,9 +1,8 @@
 //! What a command says and where: results on standard output, notes and progress on standard
 //! error.
 
-use super::heartbeat;
 use super::outcome::{Failure, complain};
-use super::values;
+use super::{heartbeat, values};
 use crate::store::terminal::{printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;

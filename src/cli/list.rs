@@ -75,8 +75,8 @@ impl Entry {
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let all = match args.kind {
         Kind::SceneGrammar => {
-            let said = if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) };
-            return said.map(|()| Code::Done);
+            return if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) }
+                .map(|()| Code::Done);
         }
         Kind::Cuts => entries::cuts(),
         Kind::Materials => entries::materials(),

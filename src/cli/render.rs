@@ -62,10 +62,10 @@ pub struct Args {
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels across; the scene has a default
-    #[arg(long, value_parser = values::whole(1..=16384, "a width is a whole number of pixels"))]
+    #[arg(long, value_parser = values::whole(1..=scene::file::MOST_PIXELS, "a width is a whole number of pixels"))]
     width: Option<u32>,
     /// Pixels down; the scene has a default
-    #[arg(long, value_parser = values::whole(1..=16384, "a height is a whole number of pixels"))]
+    #[arg(long, value_parser = values::whole(1..=scene::file::MOST_PIXELS, "a height is a whole number of pixels"))]
     height: Option<u32>,
     /// Camera rays a pixel: 25, or 1 in each round of --progressive
     #[arg(long, value_parser = values::whole(1..=1_000_000, "camera rays are a whole number"))]
@@ -92,7 +92,7 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = values::whole(1..=100_000, "an animation has a whole number of pictures"))]
     frames: Option<u32>,
     /// Frames a second [so many that a turn takes 3 to 6 seconds]
-    #[arg(long, value_name = "N", requires = "frames", value_parser = clap::value_parser!(u32).range(1..=120))]
+    #[arg(long, value_name = "N", requires = "frames", value_parser = values::whole(1..=120, "frames a second are a whole number"))]
     fps: Option<u32>,
     /// What turns in an animation: camera, stone, light, or all (stones and meshes as one piece)
     #[arg(long, default_value = "camera", requires = "frames", value_parser = choices::turn)]

@@ -14,6 +14,7 @@ pub enum Exposure {
     Stops(f32),
 }
 
+/// Value parser of `--exposure`.
 pub fn exposure(text: &str) -> Result<Exposure, String> {
     if text.trim().eq_ignore_ascii_case("auto") {
         return Ok(Exposure::Auto);
@@ -27,23 +28,28 @@ fn one_of<T: Copy, const N: usize>(all: &[(&str, T); N], name: &str) -> Result<T
     found.ok_or_else(|| format!("there is {}", all.each_ref().map(|(n, _)| *n).join(", ")))
 }
 
+/// Value parser of `--pose`.
 pub fn pose(name: &str) -> Result<Pose, String> {
     one_of(&Pose::ALL, name)
 }
 
+/// Value parser of `--turn`.
 pub fn turn(name: &str) -> Result<Turn, String> {
     one_of(&Turn::ALL, name)
 }
 
+/// Value parser of `--tone`.
 pub fn curve(name: &str) -> Result<Curve, String> {
     one_of(&Curve::ALL, name)
 }
 
+/// Value parser of `--glare`.
 pub fn f_number(text: &str) -> Result<f32, String> {
     let number = text.trim().strip_prefix("f/").unwrap_or(text);
     Ok(typed::within(number, Unit::None, 1.0..=64.0, "an f-number is a number")? as f32)
 }
 
+/// Value parser of `--photons` and `--nearest`.
 pub fn counted(text: &str) -> Result<usize, String> {
     Ok(typed::whole(text, 1..=50_000_000, "photons are a whole number")? as usize)
 }
