@@ -61,7 +61,8 @@ struct Step {
 /// on which an eye rests. Without a table it is the middle of the face-up outline, halfway up the
 /// points of the stone that lie on it.
 pub fn pivot(solid: &Polyhedron) -> DVec3 {
-    let table = (0..solid.planes.len()).filter(|f| Zone::of(solid.planes[*f].normal) == Zone::Table);
+    let is_table = |f: &usize| Zone::of(solid.area_vector(*f).normalize_or_zero()) == Zone::Table;
+    let table = (0..solid.faces.len()).filter(is_table);
     let corners: Option<Vec<DVec3>> = table
         .max_by(|a, b| solid.area(*a).total_cmp(&solid.area(*b)))
         .map(|face| solid.polygon(face).collect());
