@@ -1,5 +1,6 @@
 //! Honest errors: of 2,000 short runs, the true value lies within ±1.96 errors in 93 to 97 of 100,
-//! for every random metric.
+//! for every random metric; more often for shares of rays and medians, whose errors are the longer side of
+//! an interval.
 //!
 //! The stone has few facets, so that runs are cheap, and a low index and a tilt, so that no score is
 //! 0: a single cut in quartz that shows its window, and in ruby for what it absorbs. The truth is a run of a thousand times the
@@ -9,7 +10,7 @@ mod brilliants;
 
 use brilliants::{SEED, plan, subject};
 use cutlab::cut::library;
-use cutlab::metrics::{METRICS, Reading};
+use cutlab::metrics::{METRICS, Metric, Reading, Statistic};
 use cutlab::optics::Material;
 use cutlab::study::score::{Effort, Plan, Subject, Tilt, score};
 use rayon::prelude::*;
@@ -53,7 +54,12 @@ fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
         let (mean, error) = (mean / RUNS as f64, error / RUNS as f64);
         let bias = (mean - truth.value) / error;
         println!("{name:24} {:10.6} ± {error:.6}: {share:.4} covered, bias {bias:+.3} errors", truth.value);
-        if !(0.93..=0.97).contains(&share) {
+        let metric = Metric::named(name).expect("in the catalogue");
+        let longer_side = matches!(
+            metric.reading,
+            Reading::View(Statistic::Share(_)) | Reading::Beam(Statistic::Median(..))
+        );
+        if !(0.93..=if longer_side { 1.0 } else { 0.97 }).contains(&share) {
             wrong.push(format!("{name}: {share}"));
         }
     }

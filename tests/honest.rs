@@ -18,7 +18,12 @@ fn material(name: &str) -> Material {
 
 fn subject(cut: &str, material: Material, tilt: Option<Tilt>) -> Subject {
     let design = library::design(cut, &BTreeMap::new()).expect("in the library").expect("builds");
-    Subject { stone: cut.into(), material, shape: design.solid().map(Into::into).map_err(|e| e.to_string()), tilt }
+    Subject {
+        stone: cut.into(),
+        material,
+        shape: design.solid().map(Into::into).map_err(|e| e.to_string()),
+        tilt,
+    }
 }
 
 fn plan(metrics: &[&str], effort: Effort, seed: u64) -> Plan {
@@ -139,11 +144,7 @@ fn scores_never_leave_their_range() {
         for degrees in [0.0, 20.0, 60.0] {
             let stone = subject(cut, material("diamond"), Some(Tilt { degrees, azimuth: 0.0 }));
             for observer in [None, Some(0.0), Some(90.0)] {
-                let plan = Plan {
-                    observer,
-                    effort: Effort::Samples(1 << 10),
-                    ..Plan::default()
-                };
+                let plan = Plan { observer, effort: Effort::Samples(1 << 10), ..Plan::default() };
                 let row = score(&stone, &plan);
                 for (metric, e) in METRICS.iter().zip(&row.scores) {
                     let Some(Estimate { value, error }) = e else { continue };
@@ -161,7 +162,8 @@ fn scores_never_leave_their_range() {
 fn what_does_not_apply_is_empty_and_says_why() {
     let bench = Bench::new();
     for exact in [&[][..], &["--exact"]] {
-        let mut command = vec!["score", "octahedron", "--metrics", "table_iso,table_cos,wlr", "--error", "0.02"];
+        let mut command =
+            vec!["score", "octahedron", "--metrics", "table_iso,table_cos,wlr", "--error", "0.02"];
         command.extend(exact);
         let (table, said) = bench.ends(0, &command);
         let row = table.lines().nth(1).expect("a row");
@@ -212,4 +214,12 @@ fn a_comparison_has_the_median_that_a_score_has() {
     let found = compare(&[stone.clone(), stone.clone()], &plan, &|| ());
     assert_eq!(found.rows[0].scores[1], score(&stone, &plan).scores[1]);
     assert_eq!(found.is_significant(0, 1), Some(false));
+}
+
+/// A ratio that goes beyond 1 is not called a fraction.
+#[test]
+fn a_unit_is_called_what_it_is() {
+    let (listed, _) = Bench::new().ends(0, &["list", "metrics"]);
+    assert!(listed.contains("a ratio, 0 to 100") && listed.contains("a fraction, 0 to 1\n"), "{listed}");
+    assert!(!listed.contains("a fraction, 0 to 100"), "{listed}");
 }

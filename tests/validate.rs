@@ -11,7 +11,14 @@ fn run(part: Option<&str>, seed: u64) -> Vec<Outcome> {
 
 fn check(outcomes: &[Outcome]) {
     for o in outcomes {
-        assert!(o.verdict != Verdict::Failed, "{}: {:?} for {:?}: {}", o.figure.name, o.ours, o.figure.expected, o.why);
+        assert!(
+            o.verdict != Verdict::Failed,
+            "{}: {:?} for {:?}: {}",
+            o.figure.name,
+            o.ours,
+            o.figure.expected,
+            o.why
+        );
         assert!(o.verdict == Verdict::Passed || !o.why.is_empty(), "{}", o.figure.name);
         let skips = o.why.contains("CUTLAB_CORPUS") || o.why.starts_with("no /");
         assert_eq!(o.verdict == Verdict::Skipped, skips, "{}: {}", o.figure.name, o.why);

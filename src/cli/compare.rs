@@ -161,8 +161,10 @@ fn text(comparison: &Comparison, plan: &Plan) -> String {
         line.extend(rows.iter().map(|r| shown(r.scores[m])));
         line.extend(comparison.differences.iter().enumerate().map(|(other, d)| {
             let mark = if comparison.is_significant(other, m) == Some(true) { " *" } else { "" };
-            let sign = if d[m].is_some_and(|e| e.value > 0.0) { "+" } else { "" };
-            format!("{sign}{}{mark}", shown(d[m]))
+            let shown = shown(d[m]);
+            let positive = d[m].is_some_and(|e| e.value > 0.0 && number(e).0.parse() != Ok(0.0));
+            let sign = if positive { "+" } else { "" };
+            format!("{sign}{shown}{mark}")
         }));
         lines.push(line);
     }

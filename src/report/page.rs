@@ -146,16 +146,21 @@ pub(super) fn tilt_section(plots: &[Plot]) -> String {
     out + "</div>\n</section>\n"
 }
 
-/// A number with two digits of its error, and the error; a small number in powers of ten.
+/// A number with two digits of its error, and the error; a small number in powers of ten. What is nothing
+/// in the digits shown has no sign.
 pub fn number(e: Estimate) -> (String, Option<String>) {
+    let unsigned = |text: String| {
+        let nothing = text.parse::<f64>() == Ok(0.0);
+        if nothing { text.trim_start_matches('-').to_owned() } else { text }
+    };
     if e.error <= 0.0 || !e.error.is_finite() {
-        return (format!("{:.4}", e.value), None);
+        return (unsigned(format!("{:.4}", e.value)), None);
     }
     let digits = (1.0 - e.error.log10().floor()).max(0.0) as usize;
     if digits > 6 {
-        return (format!("{:.2e}", e.value), Some(format!("{:.0e}", e.error)));
+        return (unsigned(format!("{:.2e}", e.value)), Some(format!("{:.0e}", e.error)));
     }
-    (format!("{:.digits$}", e.value), Some(format!("{:.digits$}", e.error)))
+    (unsigned(format!("{:.digits$}", e.value)), Some(format!("{:.digits$}", e.error)))
 }
 
 impl Score {

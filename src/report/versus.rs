@@ -2,7 +2,7 @@
 
 use super::bundle::{ReportError, Request, table_picture};
 use super::diagram::projection::{self, View};
-use super::page::{cell, data_uri, escaped, head, scope_figure, tilt_section};
+use super::page::{cell, data_uri, escaped, head, number, scope_figure, tilt_section};
 use super::{scopes, tilts};
 use crate::solid::{Polyhedron, SolidError};
 use crate::study::compare::Comparison;
@@ -134,7 +134,8 @@ fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut Strin
             let d = differences[m];
             let differs = comparison.is_significant(other, m) == Some(true);
             let text = cell(d, if differs { "value differs" } else { "value same" });
-            let sign = if d.is_some_and(|e| e.value > 0.0) { "<b>+" } else { "<b>" };
+            let positive = d.is_some_and(|e| e.value > 0.0 && number(e).0.parse() != Ok(0.0));
+            let sign = if positive { "<b>+" } else { "<b>" };
             *out += &text.replacen("<b>", sign, 1);
         }
         *out += "</tr>\n";
