@@ -11,7 +11,12 @@ mod import;
 mod list;
 mod merge;
 mod outcome;
+mod outputs;
 mod parameters;
+mod plot;
+mod plots;
+mod proportion_columns;
+mod readable;
 mod render;
 mod report;
 mod score;
@@ -62,6 +67,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Join the parts that --shard made of a table
     Merge(merge::Args),
+    /// Draw the curves or maps of a table that is there
+    Plot(plot::Args),
     /// Scores of stones beside each other, with their differences
     Compare(compare::Args),
     /// Everything about one stone: pictures, scores and a page
@@ -82,6 +89,7 @@ impl Command {
             Command::Score(args) => score::run(args, console),
             Command::Sweep(args) => sweep::run(args, console),
             Command::Merge(args) => merge::run(args, console),
+            Command::Plot(args) => plot::run(args, console),
             Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::Validate(args) => validate::run(args, console),

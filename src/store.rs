@@ -3,5 +3,6 @@
 pub mod kept;
 pub mod limits;
 pub mod lock;
+pub mod place;
 pub mod progress;
 pub mod replace;

@@ -56,7 +56,7 @@ fn every_form_has_the_same_numbers_and_a_companion_says_what_they_are() {
     let array: Vec<serde_json::Value> = serde_json::from_slice(&bench.read("s.json")).expect("JSON");
     assert_eq!(lines, array);
     assert_eq!((lines.len(), lines[0]["wlr"].as_f64()), (2, wlr.ok()));
-    let meta: serde_json::Value = serde_json::from_slice(&bench.read("s.meta.json")).expect("JSON");
+    let meta: serde_json::Value = serde_json::from_slice(&bench.read("s.csv.meta.json")).expect("JSON");
     assert_eq!((&meta["version"], &meta["seed"]), (&env!("CARGO_PKG_VERSION").into(), &1.into()));
     assert!(meta["command"].as_str().is_some_and(|c| c.starts_with("cutlab score tolkowsky octahedron")));
     assert!(meta["samples"]["hemisphere"]["least"].as_u64().is_some_and(|n| n >= 1000), "{meta}");
@@ -106,9 +106,9 @@ fn survives(kills: u32, error: &str) -> u32 {
     }
     bench.ends(1, &broken);
     assert_eq!(bench.read("broken.csv"), bench.read("whole.csv"));
-    assert_eq!(bench.read("broken.meta.json"), bench.read("whole.meta.json"));
+    assert_eq!(bench.read("broken.csv.meta.json"), bench.read("whole.csv.meta.json"));
     let left = bench.names();
-    assert_eq!(left, ["broken.csv", "broken.meta.json", "in", "whole.csv", "whole.meta.json"]);
+    assert_eq!(left, ["broken.csv", "broken.csv.meta.json", "in", "whole.csv", "whole.csv.meta.json"]);
     hits
 }
 

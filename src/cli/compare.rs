@@ -12,6 +12,7 @@ use crate::store::replace;
 use crate::study::compare::{Comparison, RUNS, compare, is_significant};
 use crate::study::score::{Plan, Subject};
 use serde::Serialize;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -26,7 +27,7 @@ spread of the runs' differences. A difference beyond three of its errors is call
 pub struct Args {
     /// The stones; differences are from the first
     #[arg(required = true, num_args = 2.., value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     /// A folder for a page that shows them beside each other; it is made
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -101,12 +102,18 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(if short { Code::SomeFailed } else { Code::Done })
 }
 
-fn request(stone: &str, args: &Args) -> Result<Request, Failure> {
+fn request(stone: &OsStr, args: &Args) -> Result<Request, Failure> {
     let design = stones::open(stone)?.design;
-    let material = args.scoring.substance.of(&design);
+    let material = args.scoring.substance.within(stone)?.of(&design);
     let size = args.scoring.size.or((design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(design, size)?;
-    Ok(Request { stone: stone.into(), design, material, seed: args.scoring.seed, command: words::typed() })
+    Ok(Request {
+        stone: stones::shown(stone),
+        design,
+        material,
+        seed: args.scoring.seed,
+        command: words::typed(),
+    })
 }
 
 fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {

@@ -11,6 +11,9 @@ pub struct Console {
     /// No notes and no progress, errors only
     #[arg(long, short, global = true, display_order = 1000)]
     quiet: bool,
+    /// Replace files that are there, whoever made them; an input never
+    #[arg(long, global = true, display_order = 1000)]
+    pub force: bool,
     /// Results as JSON
     #[arg(long, global = true, display_order = 1000)]
     pub json: bool,

@@ -8,6 +8,7 @@ use super::stones::{self, DEFAULT_STONE};
 use crate::cut::families;
 use crate::formats;
 use crate::store::replace;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -20,7 +21,7 @@ Examples:
 pub struct Args {
     /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
-    stone: String,
+    stone: OsString,
     /// Exact total of facets; girdle flats are added or taken to meet it
     #[arg(long, value_name = "N")]
     facets: Option<u32>,
@@ -53,7 +54,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = stones::family(&args.stone).is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
+    let has_size = args
+        .stone
+        .to_str()
+        .and_then(stones::family)
+        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
@@ -62,17 +67,20 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     {
         return Err(Failure::input(format!(
             "{} is a file with fixed facets: --{flag} needs a parametric cut (cutlab list cuts)",
-            args.stone
+            stones::shown(&args.stone)
         )));
     }
-    let imported = stones::open(&parameters.applied_to(&args.stone))?;
+    let imported = match args.stone.to_str() {
+        Some(text) => stones::open(parameters.applied_to(text))?,
+        None => stones::open(&args.stone)?,
+    };
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let design = stones::sized(imported.design, args.size.filter(|_| !has_size))?;
     let (made_up_of, facets) = families::made_up_of(&design)?;
 
     let mut files = args.output.clone();
     if files.is_empty() {
-        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone)).into());
+        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
     }
     for file in &files {
         if file == Path::new("-") {

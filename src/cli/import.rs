@@ -6,10 +6,11 @@ use super::console::Console;
 use super::outcome::{self, Code, Failure};
 use super::stones;
 use crate::cut::Unit;
-use crate::formats::{self, Format, FormatError, stone};
+use crate::formats::{self, Format};
 use crate::store::{limits, replace};
 use plan::Job;
 use serde::Serialize;
+use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +25,7 @@ Files of a folder that are of no known format are passed over. Nothing is overwr
 pub struct Args {
     /// Designs, meshes, and folders of them; the content decides the format of each
     #[arg(required = true, value_name = "FILE|DIR")]
-    files: Vec<String>,
+    files: Vec<OsString>,
     /// Where to write: a file whose ending chooses the format, or a folder
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
@@ -72,7 +73,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Ok(row) => row.clone(),
         Err(failure) => {
             let error = Some(failure.message());
-            Row { file: job.stone.clone(), outcome: "failed", error, ..Row::default() }
+            Row { file: stones::shown(&job.stone), outcome: "failed", error, ..Row::default() }
         }
     };
     let rows: Vec<Row> = jobs.iter().zip(&results).map(row).collect();
@@ -89,7 +90,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
     }
     if results.is_empty() {
-        return Err(Failure::input(format!("no designs and no meshes in {}", args.files.join(", "))));
+        return Err(Failure::input(format!(
+            "no designs and no meshes in {}",
+            args.files.iter().map(stones::shown).collect::<Vec<_>>().join(", ")
+        )));
     }
     Ok(stones::code(&results))
 }
@@ -111,7 +115,7 @@ fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Fai
     };
     if to_file {
         let job =
-            |stone: &String| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
+            |stone: &OsString| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
         return Ok((args.files.iter().map(job).collect(), format));
     }
     let ending = format.extensions.first().copied().unwrap_or(format.name);
@@ -119,21 +123,19 @@ fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Fai
 }
 
 fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<Row, Failure> {
-    let file = job.stone.clone();
+    let file = stones::shown(&job.stone);
+    if job.by_chance {
+        return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
+    }
     let to_output = job.target == Path::new("-");
-    let (bytes, read) = match stone::open(&job.stone) {
-        Err(FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. })
-            if job.by_chance =>
-        {
-            return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
-        }
-        Err(error) => match error.body() {
+    let (bytes, read) = match stones::open(&job.stone) {
+        Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.body.as_ref()?))) {
             Some((of, body)) => {
                 let scale = args.size.map_or(1.0, |mm| mm / body.width());
                 let unit = if args.size.is_some() { Unit::Millimetre } else { Unit::Free };
-                let name = stones::file_stem(&job.stone);
+                let name = stones::shown(stones::file_stem(&job.stone));
                 let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
-                let said = error.to_string();
+                let said = failure.message();
                 let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
                 (
                     bytes,
@@ -145,7 +147,7 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
                     },
                 )
             }
-            None => return Err(error.into()),
+            None => return Err(failure),
         },
         Ok(imported) => {
             let facets = imported.design.solid()?.faces.len();

@@ -97,6 +97,15 @@ impl Failure {
         Failure::new(Code::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
+    /// A file that is there already and that another command made.
+    pub fn other_is_there(target: &Path) -> Failure {
+        let target = target.display();
+        Failure::new(
+            Code::Io,
+            format!("{target} exists and this command did not make it: --force replaces it, -o names another"),
+        )
+    }
+
     /// Standard output could not be written; a reader that went away is no error.
     pub fn output(cause: &std::io::Error) -> Failure {
         if cause.kind() == std::io::ErrorKind::BrokenPipe {

@@ -11,6 +11,7 @@ use crate::photons::{self, Shots, file};
 use crate::render::animation::Turn;
 use crate::render::{self, Curve, Maps, Tone, tone};
 use crate::scene::{self, Cast, Pose, SCENES, Scene, SceneFile};
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -25,7 +26,7 @@ Examples:
 pub struct Args {
     /// The stones, for the scene's places in order; without them the scene's own
     #[arg(value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     /// What is around it: a name of `cutlab list scenes`, or a TOML file
     #[arg(long, default_value = "table", value_name = "NAME|FILE")]
     scene: String,
@@ -153,8 +154,8 @@ fn counted(text: &str) -> Result<usize, String> {
 /// Takes the picture or pictures.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
-    let first = args.stones.first().map(String::as_str).or(file.first_cut());
-    let called = first.map_or(String::new(), |stone| format!("{}-", stones::file_stem(stone)));
+    let first = args.stones.first().map(OsString::as_os_str).or(file.first_cut().map(OsStr::new));
+    let called = first.map_or(String::new(), |stone| format!("{}-", stones::file_stem(stone).display()));
     let ending = if args.frames.is_some() { "gif" } else { "png" };
     let output = args.output.clone().unwrap_or_else(|| format!("{called}{}.{ending}", file.name).into());
     let target = frames::Target::of(&output, args)?;
@@ -187,15 +188,18 @@ fn scene_file(name: &str) -> Result<SceneFile, Failure> {
 }
 
 fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
-    let mut designs = Vec::new();
+    let (mut designs, mut materials) = (Vec::new(), Vec::new());
     for spec in &args.stones {
         let imported = stones::open(spec)?;
         imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-        let material = args.substance.of(&imported.design);
+        let substance = args.substance.within(spec)?;
+        let material = substance.of(&imported.design);
+        materials.push(substance.asked());
         designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
     }
     Ok(Cast {
         designs,
+        materials,
         material: args.substance.asked(),
         size_mm: args.size,
         pose: args.pose,

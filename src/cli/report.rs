@@ -12,6 +12,7 @@ use crate::report::page::number;
 use crate::report::{self, ReportError, Request};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -26,7 +27,7 @@ ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml
 pub struct Args {
     /// The stone: a name from `cutlab list cuts`, with parameters or not, or a file
     #[arg(default_value = DEFAULT_STONE)]
-    stone: String,
+    stone: OsString,
     /// The folder to write into; it is made
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
@@ -52,12 +53,17 @@ struct Summary {
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let imported = stones::open(&args.stone)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = args.substance.of(&imported.design);
+    let material = args.substance.within(&args.stone)?.of(&imported.design);
     args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
     let size = args.size.or((imported.design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(imported.design, size)?;
-    let request =
-        Request { stone: args.stone.clone(), design, material, seed: args.seed, command: words::typed() };
+    let request = Request {
+        stone: stones::shown(&args.stone),
+        design,
+        material,
+        seed: args.seed,
+        command: words::typed(),
+    };
 
     let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {

@@ -11,7 +11,8 @@ use crate::study::batch::Outcome;
 use crate::study::identity::{Held, Identity};
 use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
 
 #[derive(Debug, Clone, clap::Args)]
 pub struct Scoring {
@@ -77,7 +78,7 @@ impl Scoring {
     pub fn plan(&self) -> Plan {
         let default = Plan::default();
         Plan {
-            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.metrics.clone() },
+            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.once() },
             effort: self.error.map_or(default.effort, Effort::Error),
             polarised: self.polarisation,
             seed: self.seed,
@@ -85,6 +86,17 @@ impl Scoring {
             observer: self.observer,
             ..default
         }
+    }
+
+    /// The metrics asked for: one that is named again is meant once.
+    fn once(&self) -> Vec<&'static Metric> {
+        let mut metrics: Vec<&'static Metric> = Vec::new();
+        for metric in &self.metrics {
+            if !metrics.iter().any(|m| m.name == metric.name) {
+                metrics.push(metric);
+            }
+        }
+        metrics
     }
 
     /// The options with every setting spelled out, as they could be typed again.
@@ -110,10 +122,11 @@ impl Scoring {
     }
 
     /// What the STONE `spec` is made of, and its shape as large as it is to be.
-    fn shape(&self, spec: &str) -> Result<(Material, Shape), Failure> {
+    fn shape(&self, spec: &OsStr) -> Result<(Material, Shape), Failure> {
+        let substance = self.substance.within(spec)?;
         let failure = match stones::open(spec) {
             Ok(imported) => {
-                let material = self.substance.of(&imported.design);
+                let material = substance.of(&imported.design);
                 let size = self.size.or(stones::usual_size(&imported.design, &material));
                 let design = stones::sized(imported.design, size)?;
                 return Ok((material, design.solid()?.into()));
@@ -122,25 +135,26 @@ impl Scoring {
         };
         let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
         let body = body.ok_or(failure)?;
-        let material = self.substance.drawn_for(None);
+        let material = substance.drawn_for(None);
         let size = self.size.or((!material.is_clear()).then_some(stones::USUAL_SIZE));
         let scale = size.map_or(1.0, |mm| mm / body.width());
         Ok((material, Shape::Dented(Box::new(body.scaled(scale)))))
     }
 
     /// Scores the STONE `spec`.
-    pub fn score(&self, spec: &str, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
+    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
         let opened = self.shape(spec);
-        let known = opened.is_ok() || self.substance.material.is_some() || self.substance.ri.is_some();
+        let substance = self.substance.within(spec).unwrap_or(self.substance);
+        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
         let (material, shape, code) = match opened {
             Ok((material, shape)) => (material, Ok(shape), None),
             Err(failure) => {
-                let of_index = || Material::of_index(self.substance.ri.unwrap_or(1.0));
-                let material = self.substance.material.cloned().unwrap_or_else(of_index);
+                let of_index = || Material::of_index(substance.ri.unwrap_or(1.0));
+                let material = substance.material.cloned().unwrap_or_else(of_index);
                 (material, Err(failure.message()), Some(failure.code()))
             }
         };
-        let mut row = score(&Subject { stone: spec.into(), material, shape, tilt }, plan);
+        let mut row = score(&Subject { stone: stones::shown(spec), material, shape, tilt }, plan);
         if !known {
             row.material.clear();
         }
@@ -159,21 +173,21 @@ pub struct Inputs {
     /// In one word.
     pub identity: String,
     /// The stones that are files, with what they held when the table was begun.
-    files: BTreeMap<String, Held>,
+    files: BTreeMap<OsString, (PathBuf, Held)>,
 }
 
 impl Inputs {
     /// Those of a table of these stones.
     ///
     /// - `command`: with every setting spelled out
-    pub fn of<'a>(command: &str, stones: impl Iterator<Item = &'a str>) -> Inputs {
+    pub fn of<'a>(command: &str, stones: impl Iterator<Item = &'a OsStr>) -> Inputs {
         let (mut identity, mut files) = (Identity::of(command), BTreeMap::new());
         for stone in stones {
-            identity.add(stone);
+            identity.add(stone.as_encoded_bytes());
             if let Some(file) = folders::file_of(stone) {
-                let held = Held::by(file);
+                let held = Held::by(&file);
                 identity.add_file(&held);
-                files.insert(stone.to_owned(), held);
+                files.insert(stone.to_owned(), (file, held));
             }
         }
         Inputs { identity: identity.hex(), files }
@@ -181,10 +195,10 @@ impl Inputs {
 
     /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
     /// one of this table.
-    pub fn checked(&self, stone: &str, scored: (Row, Outcome)) -> (Row, Outcome) {
+    pub fn checked(&self, stone: &OsStr, scored: (Row, Outcome)) -> (Row, Outcome) {
         let (mut row, outcome) = scored;
-        let Some(held) = self.files.get(stone) else { return (row, outcome) };
-        let now = Held::by(Path::new(stone));
+        let Some((file, held)) = self.files.get(stone) else { return (row, outcome) };
+        let now = Held::by(file);
         let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
         if now == *held || read_in_time {
             return (row, outcome);
@@ -200,17 +214,8 @@ impl Inputs {
     }
 }
 
-/// Refuses an output that is one of the inputs.
-pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
-    let same = |stone: &str| Path::new(stone) == output;
-    match stones.find(|s| same(s)) {
-        Some(stone) => Err(Failure::input(format!("{stone} is an input: write to another file"))),
-        None => Ok(()),
-    }
-}
-
 /// Value parser of `--metrics`.
-fn metric(name: &str) -> Result<&'static Metric, String> {
+pub fn metric(name: &str) -> Result<&'static Metric, String> {
     Metric::named(name).ok_or_else(|| {
         let near = stones::nearest(name, METRICS.iter().map(|m| m.name));
         format!("no metric is called '{name}', the nearest is '{near}' (all: cutlab list metrics)")

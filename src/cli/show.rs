@@ -6,7 +6,7 @@ mod tiers;
 use super::console::Console;
 use super::drawing::Drawing;
 use super::outcome::{Code, Failure, Shape};
-use super::stones;
+use super::stones::{self, Substance};
 use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Proportions, Ratios};
 use crate::cut::symmetry::Symmetry;
@@ -19,6 +19,7 @@ use crate::walk::Stone;
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tiers::TierRow;
@@ -27,7 +28,7 @@ use tiers::TierRow;
 pub struct Args {
     /// Stones: names from `cutlab list cuts`, with parameters or not, or files
     #[arg(required = true, value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     /// Girdle width in millimetres, for volume in mm³ and weight
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -154,14 +155,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let results = stones::each(&args.stones, console, "reading", |spec| match sheet(spec, args) {
         Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
-        Err(failure) => MeshSheet::of(spec, &failure).map(Shown::Mesh).ok_or(failure),
+        Err(failure) => MeshSheet::of(&stones::shown(spec), &failure).map(Shown::Mesh).ok_or(failure),
     });
-    let pairs = args.stones.iter().zip(&results);
+    let names = args.stones.iter().map(stones::shown);
+    let pairs = names.zip(&results);
     if console.json {
         let entries: Vec<Entry> = pairs
             .map(|(file, result)| match result {
                 Ok(sheet) => Entry::Good(sheet),
-                Err(failure) => Entry::Bad(Bad::of(file, failure)),
+                Err(failure) => Entry::Bad(Bad::of(&file, failure)),
             })
             .collect();
         console.print_json(&entries)?;
@@ -188,7 +190,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 type Draw = fn(&Args, &Path, &Console) -> Result<(), Failure>;
 
 /// The only stone, for what draws one.
-fn only<'a>(args: &'a Args, option: &str) -> Result<&'a str, Failure> {
+fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
     match &args.stones[..] {
         [spec] => Ok(spec),
         _ => Err(Failure::input(format!("{option} draws one stone: name one"))),
@@ -204,7 +206,7 @@ fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failu
             .ok_or_else(|| Failure::input(format!("{}: --diagram draws .svg or .png", path.display())))?,
     };
     let design = stones::open(spec)?.design;
-    let substance = &args.substance;
+    let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
     replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
     console.note(&format!("wrote {}", path.display()));
@@ -218,22 +220,23 @@ fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure
         return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
     }
     let design = stones::open(spec)?.design;
-    let index = args.substance.of(&design).index_d();
-    let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let index = args.substance.within(spec)?.of(&design).index_d();
+    let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
     replace::write(path, pattern.svg.as_bytes())?;
     console.note(&format!("{}: {} virtual facets", path.display(), pattern.polygons));
     Ok(())
 }
 
-fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
+fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
     let imported = stones::open(spec)?;
     let design = imported.design;
-    let material = args.substance.of(&design);
+    let substance = args.substance.within(spec)?;
+    let material = substance.of(&design);
     let index = material.index_d();
-    let p = proportions::of(&design).map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let p = proportions::of(&design).map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     Ok(Sheet {
-        file: spec.into(),
+        file: stones::shown(spec),
         format: imported.format.to_string(),
         name: design.name.clone(),
         facets: p.facets,
@@ -245,7 +248,7 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
             Unit::Free => "file",
         },
         facets_by_kind: p.by_zone.iter().copied().collect(),
-        measured: Measured::of(&p, &design, args),
+        measured: Measured::of(&p, &design, args.size, &substance),
         tiers: design.tiers.iter().map(TierRow::of).collect(),
         brilliant: p.brilliant,
         proportion_envelope: brilliant::envelope(&p),
@@ -259,15 +262,15 @@ fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
 }
 
 impl Measured {
-    fn of(p: &Proportions, design: &Design, args: &Args) -> Measured {
+    fn of(p: &Proportions, design: &Design, size: Option<f64>, substance: &Substance) -> Measured {
         // weight is asked for by --size or known by the unit; without a material it is diamond's
-        let to_mm = match (args.size, design.unit) {
+        let to_mm = match (size, design.unit) {
             (Some(mm), _) => Some(mm / p.width),
             (None, Unit::Millimetre) => Some(1.0),
             (None, Unit::Free) => None,
         };
         let volume_mm3 = to_mm.map(|k| p.volume * k.powi(3));
-        let weighed = args.substance.material.unwrap_or(materials::MATERIALS[0]);
+        let weighed = substance.material.unwrap_or(materials::MATERIALS[0]);
         let carats = volume_mm3.and_then(|v| weighed.carats(v));
         Measured {
             width: p.width,

@@ -14,6 +14,7 @@ use crate::scene::Scene;
 use crate::store::kept::Kept;
 use crate::store::replace::{self, WriteError};
 use crate::store::{limits, lock};
+use crate::study::identity::BUILD;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -157,7 +158,8 @@ pub fn take(
 ) -> Result<Vec<PathBuf>, Failure> {
     let command = command::normalised();
     // what another version made, or was made of files that have changed since, is of no use
-    let identity = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
+    let identity =
+        format!("{command} # {} {BUILD}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
     let Some(frames) = args.frames else {
         let alone = if args.stops.progressive && !replace::is_stream(&target.path) {
             Some(target.alone(console)?)
