@@ -27,11 +27,6 @@ impl Console {
         write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| Failure::output(&e))
     }
 
-    /// A result that is a file's bytes: standard output.
-    pub fn print_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
-        Ok(crate::store::replace::write("-".as_ref(), bytes)?)
-    }
-
     /// A result as JSON: standard output.
     pub fn print_json(&self, value: &impl serde::Serialize) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(value).map_err(|e| Failure::input(e.to_string()))?;

@@ -3,11 +3,12 @@
 use super::outcome::Failure;
 use super::stones::{self, Spec};
 use crate::formats;
-use crate::store::place::FileId;
 use crate::study::meta::Meta;
+use globset::{GlobBuilder, GlobMatcher};
 use std::ffi::{OsStr, OsString};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::io::ErrorKind;
+use std::path::{Component, Path, PathBuf};
 
 /// Every file below `folder`, in the order of their names, but for hidden ones: they are someone's
 /// notes, or a file in the making. Links to folders are not followed: they may lead round in a circle.
@@ -69,18 +70,20 @@ pub fn expanded(arguments: &[OsString]) -> Result<Vec<OsString>, Failure> {
     Ok(all)
 }
 
-/// The tables that `merge` joins into `output`: what a pattern matches, without companions and without
-/// the whole that an earlier merge made.
-pub fn parts(arguments: &[OsString], output: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let is_whole = |table: &PathBuf| {
-        let is_output = FileId::of(table).is_some() && FileId::of(table) == FileId::of(output);
-        is_output && Meta::read(&Meta::found_beside(table)).is_ok_and(|meta| meta.shard.is_none())
-    };
+/// The tables that `merge` joins: of what a pattern matches, neither companions nor whole tables.
+pub fn parts(arguments: &[OsString]) -> Result<Vec<PathBuf>, Failure> {
+    let is_whole =
+        |table: &Path| Meta::read(&Meta::found_beside(table)).is_ok_and(|meta| meta.shard.is_none());
     let mut all = Vec::new();
     for argument in arguments {
         if is_pattern(argument) {
-            let found = matching(argument)?.into_iter();
-            all.extend(found.filter(|table| !Meta::is_companion(table) && !is_whole(table)));
+            let mut found = matching(argument)?;
+            found.retain(|table| !Meta::is_companion(table) && !is_whole(table));
+            if found.is_empty() {
+                let pattern = stones::shown(argument);
+                return Err(Failure::input(format!("no part of a table matches {pattern}")));
+            }
+            all.extend(found);
         } else {
             all.push(argument.into());
         }
@@ -90,18 +93,61 @@ pub fn parts(arguments: &[OsString], output: &Path) -> Result<Vec<PathBuf>, Fail
 
 /// Whether an argument is a pattern of file names, and not the name of a file.
 fn is_pattern(argument: &OsStr) -> bool {
-    let has_wildcard = argument.as_encoded_bytes().iter().any(|b| b"*?[".contains(b));
-    has_wildcard && fs::symlink_metadata(argument).is_err()
+    has_wildcard(argument) && fs::symlink_metadata(argument).is_err()
 }
 
-/// What matches a pattern, by name.
+fn has_wildcard(name: &OsStr) -> bool {
+    name.as_encoded_bytes().iter().any(|b| b"*?[".contains(b))
+}
+
+/// What matches a pattern, by name. `*` and `?` stand for what is no `/`, `**` for folders below; names
+/// need not be UTF-8.
 fn matching(pattern: &OsStr) -> Result<Vec<PathBuf>, Failure> {
     let shown = stones::shown(pattern);
     let text = pattern.to_str().ok_or_else(|| Failure::input(format!("{shown}: a pattern is UTF-8")))?;
-    let paths = glob::glob(text).map_err(|e| Failure::input(format!("{shown}: {e}")))?;
-    let fail = |e: glob::GlobError| Failure::reading(&e.path().display().to_string(), e.error());
-    let found: Vec<PathBuf> = paths.collect::<Result<_, _>>().map_err(fail)?;
+    let path: PathBuf = Path::new(text).components().collect(); // without `//` and `/./`
+    let glob =
+        GlobBuilder::new(&path.to_string_lossy()).literal_separator(true).backslash_escape(false).build();
+    let glob = glob.map_err(|e| Failure::input(format!("{shown}: {}", e.kind())))?.compile_matcher();
+    let is_plain = |part: &Component| !has_wildcard(part.as_os_str());
+    let base: PathBuf = path.components().take_while(is_plain).collect();
+    let depth = match text.contains("**") {
+        true => usize::MAX,
+        false => path.components().skip_while(is_plain).count(),
+    };
+    let mut found = Vec::new();
+    match_below(&base, depth, &glob, &mut found)
+        .map_err(|(folder, cause)| Failure::reading(&folder.display().to_string(), &cause))?;
+    found.sort();
     if found.is_empty() { Err(Failure::input(format!("no file matches {shown}"))) } else { Ok(found) }
+}
+
+/// Adds what matches in a folder, and up to `depth` folders below it.
+fn match_below(
+    folder: &Path,
+    depth: usize,
+    glob: &GlobMatcher,
+    found: &mut Vec<PathBuf>,
+) -> Result<(), (PathBuf, std::io::Error)> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let fail = |cause| (here.to_owned(), cause);
+    let entries = match fs::read_dir(here) {
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(()),
+        entries => entries.map_err(fail)?,
+    };
+    for entry in entries {
+        let path = folder.join(entry.map_err(fail)?.file_name());
+        // links may lead round in a circle, which has an end where the pattern has one
+        let goes_on = path.is_dir() && (depth != usize::MAX || !path.is_symlink());
+        if goes_on && depth > 1 {
+            let below = if depth == usize::MAX { depth } else { depth - 1 };
+            match_below(&path, below, glob, found)?;
+        }
+        if glob.is_match(&path) {
+            found.push(path);
+        }
+    }
+    Ok(())
 }
 
 /// Whether a file that a folder holds is to be read as a stone: not what cutlab itself writes beside

@@ -2,7 +2,9 @@
 
 use super::console::Console;
 use super::drawing::Drawing;
+use super::import;
 use super::outcome::{Code, Failure};
+use super::outputs::{self, Outputs};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use crate::cut::families;
@@ -17,9 +19,11 @@ Examples:
   cutlab generate --facets 153                    round-brilliant-153.obj in this folder
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
-  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png")]
+  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .png
+  cutlab generate designs/ --to svg -o sheets     the diagrams of a whole folder, into another")]
 pub struct Args {
-    /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
+    /// What to make: a name from `cutlab list cuts`, with parameters or not, a file, or a folder of
+    /// files, whose stones are written into the folder -o
     #[arg(default_value = DEFAULT_STONE)]
     stone: OsString,
     /// Exact total of facets; girdle flats are added or taken to meet it
@@ -32,7 +36,7 @@ pub struct Args {
     /// several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg or png
+    /// Format for `-o -` and for a folder: a name or ending from `cutlab list formats`, svg or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
     #[command(flatten)]
@@ -50,6 +54,9 @@ struct Made {
 
 /// Makes the stone and writes it.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    if Path::new(&args.stone).is_dir() {
+        return folder(args, console);
+    }
     let mut parameters = args.parameters.clone();
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
@@ -82,23 +89,27 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if files.is_empty() {
         files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
     }
-    for file in &files {
-        if file == Path::new("-") {
-            let bytes = match Drawing::named(&args.to) {
-                Some(drawing) => drawing.bytes(&design, design.refractive_index)?,
-                None => formats::encode(&design, &args.to)?,
-            };
-            console.print_bytes(&bytes)?;
-            continue;
+    let encoded = |file: &PathBuf| {
+        let drawing = if replace::is_stream(file) { Drawing::named(&args.to) } else { Drawing::of(file) };
+        Ok(match drawing {
+            Some(drawing) => drawing.bytes(&design, design.refractive_index)?,
+            None if replace::is_stream(file) => formats::encode(&design, &args.to)?,
+            None => formats::encode(&design, formats::written_to(file)?.name)?,
+        })
+    };
+    let encoded: Vec<Vec<u8>> = files.iter().map(encoded).collect::<Result<_, Failure>>()?;
+    let mut outputs = Outputs::beside([&args.stone], console);
+    for (file, bytes) in files.iter().zip(&encoded) {
+        outputs.claim(file, |there| outputs::holds(there, bytes))?;
+    }
+    for (file, bytes) in files.iter().zip(&encoded) {
+        replace::write(file, bytes)?;
+        if !replace::is_stdout(file) {
+            console.note(&format!("wrote {}", file.display()));
         }
-        match Drawing::of(file) {
-            Some(drawing) => replace::write(file, &drawing.bytes(&design, design.refractive_index)?)?,
-            None => formats::write(&design, file)?,
-        }
-        console.note(&format!("wrote {}", file.display()));
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
-    if files.iter().any(|f| f == Path::new("-")) {
+    if files.iter().any(|f| replace::is_stdout(f)) {
         console.note(&summary);
     } else if console.json {
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
@@ -106,4 +117,16 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print(&summary)?;
     }
     Ok(Code::Done)
+}
+
+/// Writes every stone of a folder into another.
+fn folder(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let stone = stones::shown(&args.stone);
+    let [output] = &args.output[..] else {
+        return Err(Failure::input(format!("{stone} is a folder: -o names one folder to write into")));
+    };
+    if args.facets.is_some() || !args.parameters.0.is_empty() {
+        return Err(Failure::input(format!("{stone} is a folder: its stones have no parameters to set")));
+    }
+    import::run(&import::Args::of_folder(args.stone.clone(), output.clone(), &args.to, args.size), console)
 }

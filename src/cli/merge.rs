@@ -38,7 +38,7 @@ pub struct Args {
 /// Joins the parts.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let form = tables::form_of(&args.output, console)?;
-    let tables = folders::parts(&args.parts, &args.output)?;
+    let tables = folders::parts(&args.parts)?;
     let mut outputs = Outputs::of(console);
     tables.iter().for_each(|table| outputs.reads(table));
     let parts: Vec<Part> = tables.iter().map(|p| Part::open(p)).collect::<Result<_, _>>()?;

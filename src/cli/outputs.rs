@@ -63,7 +63,9 @@ impl Outputs {
         let place = real.join(path.file_name().unwrap_or_default());
         if let Some(other) = self.claimed.insert(place, path.to_owned()) {
             let other = other.display();
-            return Err(Failure::input(format!("{other} is given for two outputs: name another file for one")));
+            return Err(Failure::input(format!(
+                "{other} is given for two outputs: name another file for one"
+            )));
         }
         if is_there && !self.force && !is_own(path) {
             return Err(Failure::other_is_there(path));

@@ -55,7 +55,13 @@ impl Plots {
     /// Draws the plots of a table; their files.
     ///
     /// - `command`: recorded in each
-    pub fn draw(&self, bytes: &[u8], form: Form, layout: &Layout, command: &str) -> Result<Vec<PathBuf>, Failure> {
+    pub fn draw(
+        &self,
+        bytes: &[u8],
+        form: Form,
+        layout: &Layout,
+        command: &str,
+    ) -> Result<Vec<PathBuf>, Failure> {
         if self.is_empty() {
             return Ok(Vec::new());
         }
@@ -83,7 +89,9 @@ pub fn layout_of(table: &Path, meta: &Meta) -> Result<Layout, Failure> {
         let table = table.display();
         match meta.build.is_empty() {
             true => format!("{table} is of an older cutlab, which did not note its axes: make it anew"),
-            false => format!("{table} has nothing to draw its scores against: it is of no sweep and no --tilt"),
+            false => {
+                format!("{table} has nothing to draw its scores against: it is of no sweep and no --tilt")
+            }
         }
     };
     meta.layout.clone().filter(|l| (1..=2).contains(&l.axes.len())).ok_or_else(|| Failure::input(why()))

@@ -39,7 +39,9 @@ pub fn text(columns: &[String], table: &Numbers, metrics: &[&'static Metric]) ->
             text.add_row([metric.name.to_owned()].into_iter().chain(cells).chain([metric.unit.to_owned()]));
         }
     } else {
-        text.set_header(leading.iter().map(|c| c.to_string()).chain(metrics.iter().map(|m| m.name.to_owned())));
+        text.set_header(
+            leading.iter().map(|c| c.to_string()).chain(metrics.iter().map(|m| m.name.to_owned())),
+        );
         for row in 0..rows {
             let cells = metrics.iter().map(|metric| score(metric, row).unwrap_or_else(|| NONE.into()));
             text.add_row(leading.iter().map(|column| lead(column, row)).chain(cells));

@@ -6,6 +6,7 @@ mod rounds;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::outputs::Outputs;
 use super::stones;
 use crate::photons::{self, Shots, file};
 use crate::render::animation::Turn;
@@ -159,6 +160,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let ending = if args.frames.is_some() { "gif" } else { "png" };
     let output = args.output.clone().unwrap_or_else(|| format!("{called}{}.{ending}", file.name).into());
     let target = frames::Target::of(&output, args)?;
+    let mut outputs = Outputs::beside(&args.stones, console);
+    outputs.reads(Path::new(&args.scene));
+    target.claim(args, &mut outputs)?;
     let (width, height) = size(args, &file);
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
     let tone = Tone { curve: args.tone, ..Tone::default() };

@@ -78,7 +78,7 @@ struct Sort {
 /// Scores every stone and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
+    args.scoring.notes(false, console);
     let order = order(args, &plan.metrics)?;
     let specs = folders::expanded(&args.stones)?;
     let mut outputs = Outputs::beside(&specs, console);
@@ -100,7 +100,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         (given, _) => given.to_vec(),
     };
     let tilts: Vec<Tilt> = args.tilt.map_or_else(Vec::new, |steps| {
-        axes.iter().flat_map(|&azimuth| steps.values().map(move |degrees| Tilt { degrees, azimuth })).collect()
+        axes.iter()
+            .flat_map(|&azimuth| steps.values().map(move |degrees| Tilt { degrees, azimuth }))
+            .collect()
     });
     if let Some(steps) = &args.tilt {
         let names: Vec<String> = axes.iter().map(f64::to_string).collect();
@@ -186,11 +188,11 @@ fn azimuth(text: &str) -> Result<f64, String> {
 /// Value parser of `--tilt`.
 fn tilt(text: &str) -> Result<Steps, String> {
     let steps: Steps = text.parse()?;
-    match steps.values().all(|degrees| degrees.abs() < MOST_TILT) {
+    match steps.from.abs().max(steps.to.abs()) <= MOST_TILT {
         true => Ok(steps),
-        false => Err(format!("a stone can be tilted by less than {MOST_TILT}°")),
+        false => Err(format!("a stone can be tilted by up to {MOST_TILT}°")),
     }
 }
 
-/// Steeper than this the silhouette has no width that numbers of nine decimals tell from none.
-const MOST_TILT: f64 = 89.9999;
+/// Steeper than this the silhouette of a flat stone has hardly any width left.
+const MOST_TILT: f64 = 89.9;

@@ -63,11 +63,13 @@ impl Scoring {
 
     /// Says once what of the material asked for is a guess: its index, or the size of stones that
     /// have none.
-    pub fn notes(&self, console: &Console) {
+    ///
+    /// - `sized`: whether all stones have a size
+    pub fn notes(&self, sized: bool, console: &Console) {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
         let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
         self.substance.note_range(from, to, console);
-        if self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
+        if !sized && self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
             let mm = stones::USUAL_SIZE;
             console
                 .note(&format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it"));
@@ -222,11 +224,14 @@ pub fn metric(name: &str) -> Result<&'static Metric, String> {
     })
 }
 
+/// Tables have nine decimals.
+const LEAST_ERROR: f64 = 1e-9;
+
 /// Value parser of `--error`.
 fn error(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(e) if e > 0.0 && e.is_finite() => Ok(e),
-        _ => Err("a standard error is a number above 0".into()),
+        Ok(e) if (LEAST_ERROR..=1e3).contains(&e) => Ok(e),
+        _ => Err(format!("a standard error is a number from {LEAST_ERROR} to 1000")),
     }
 }
 

@@ -5,7 +5,9 @@ mod tiers;
 
 use super::console::Console;
 use super::drawing::Drawing;
+use super::folders;
 use super::outcome::{Code, Failure, Shape};
+use super::outputs::Outputs;
 use super::stones::{self, Substance};
 use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Proportions, Ratios};
@@ -26,7 +28,7 @@ use tiers::TierRow;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Stones: names from `cutlab list cuts`, with parameters or not, or files
+    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns
     #[arg(required = true, value_name = "STONE")]
     stones: Vec<OsString>,
     /// Girdle width in millimetres, for volume in mm³ and weight
@@ -146,18 +148,26 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let is_stdout = |path: &&PathBuf| replace::is_stdout(path);
+    if [&args.beams, &args.diagram].into_iter().flatten().filter(is_stdout).count() > 1 {
+        return Err(Failure::input(
+            "one drawing at a time goes to standard output: name a file for the other",
+        ));
+    }
+    let stones = folders::expanded(&args.stones)?;
+    let mut outputs = Outputs::beside(&stones, console);
     for (path, draw) in [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)] {
         let Some(path) = path else { continue };
-        draw(args, path, console)?;
-        if path == Path::new("-") {
+        draw(args, path, &mut outputs, console)?;
+        if replace::is_stdout(path) {
             return Ok(Code::Done); // standard output is the drawing
         }
     }
-    let results = stones::each(&args.stones, console, "reading", |spec| match sheet(spec, args) {
+    let results = stones::each(&stones, console, "reading", |spec| match sheet(spec, args) {
         Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
         Err(failure) => MeshSheet::of(&stones::shown(spec), &failure).map(Shown::Mesh).ok_or(failure),
     });
-    let names = args.stones.iter().map(stones::shown);
+    let names = stones.iter().map(stones::shown);
     let pairs = names.zip(&results);
     if console.json {
         let entries: Vec<Entry> = pairs
@@ -187,7 +197,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// Draws something of the only stone into a file.
-type Draw = fn(&Args, &Path, &Console) -> Result<(), Failure>;
+type Draw = fn(&Args, &Path, &mut Outputs, &Console) -> Result<(), Failure>;
 
 /// The only stone, for what draws one.
 fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
@@ -198,9 +208,9 @@ fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
 }
 
 /// Draws the cutting diagram of the only stone.
-fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+fn draw_diagram(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
     let spec = only(args, "--diagram")?;
-    let drawing = match path == Path::new("-") {
+    let drawing = match replace::is_stream(path) {
         true => Drawing::Svg,
         false => Drawing::of(path)
             .ok_or_else(|| Failure::input(format!("{}: --diagram draws .svg or .png", path.display())))?,
@@ -208,22 +218,22 @@ fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failu
     let design = stones::open(spec)?.design;
     let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
+    outputs.write(path, &drawing.bytes(&design, asked.or(design.refractive_index))?)?;
     console.note(&format!("wrote {}", path.display()));
     Ok(())
 }
 
 /// Draws the virtual facets of the only stone.
-fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+fn draw_beams(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
     let spec = only(args, "--beams")?;
-    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && path != Path::new("-") {
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !replace::is_stream(path) {
         return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
     }
     let design = stones::open(spec)?.design;
     let index = args.substance.within(spec)?.of(&design).index_d();
     let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
-    replace::write(path, pattern.svg.as_bytes())?;
+    outputs.write(path, pattern.svg.as_bytes())?;
     console.note(&format!("{}: {} virtual facets", path.display(), pattern.polygons));
     Ok(())
 }

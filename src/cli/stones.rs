@@ -111,6 +111,14 @@ pub fn shown(name: impl AsRef<OsStr>) -> String {
 /// Opens one STONE. A material or index that it names itself is what its design is drawn for.
 pub fn open(argument: impl AsRef<OsStr>) -> Result<Imported, Failure> {
     let spec = Spec::of(argument)?;
+    let path = Path::new(spec.base());
+    if !is_cut(spec.base()) && path.is_dir() {
+        let name = shown(path);
+        std::fs::read_dir(path).map_err(|cause| Failure::reading(&name, &cause))?;
+        return Err(Failure::input(format!(
+            "{name} is a folder, and here one stone is named: name a file in it"
+        )));
+    }
     let mut imported = stone::open(spec.base())?;
     if let Some(material) = spec.substance.asked() {
         imported.design.refractive_index = Some(material.index_d());

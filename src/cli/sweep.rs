@@ -54,7 +54,7 @@ pub struct Args {
 /// Scores every point and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
+    args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE), console);
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
     let mut command = format!("cutlab sweep {}", quoted(&args.stone));
@@ -150,8 +150,13 @@ fn check(args: &Args) -> Result<(), Failure> {
         {
             return Err(Failure::input("--vary ri does not go with --material and --ri"));
         }
-        if key == INDEX && !(1.0..=10.0).contains(&from.min(to)) {
-            return Err(Failure::input("a refractive index is a number from 1 to 10"));
+        let (low, high, what) = match key {
+            INDEX => (1.0, 10.0, "a refractive index is a number from 1 to 10"),
+            SIZE => (1e-3, 1e3, "a girdle width is a number of millimetres from 0.001 to 1000"),
+            _ => continue,
+        };
+        if !(low..=high).contains(&from.min(to)) || from.max(to) > high {
+            return Err(Failure::input(format!("--vary {key}={}: {what}", varied.steps)));
         }
     }
     if args.scatter.is_some() && args.vary.len() > MOST_SCATTERED {

@@ -106,7 +106,11 @@ impl Drawing<'_> {
             let Some(at) = *at else { continue };
             let called = |column: &String| {
                 let cell = numbers.texts(column).get(row).map_or("", String::as_str);
-                if column == TILT_AXIS { format!("about {}°", cell.trim_end_matches(".0")) } else { cell.into() }
+                if column == TILT_AXIS {
+                    format!("about {}°", cell.trim_end_matches(".0"))
+                } else {
+                    cell.into()
+                }
             };
             let name = curves.iter().map(called).collect::<Vec<_>>().join(", ");
             let point = (at, value.zip(*error));
@@ -172,7 +176,8 @@ impl Drawing<'_> {
             let value = |key: &str| document.parameters.get(key).copied().or_else(|| self.default_of(key));
             let at = self.axes.iter().map(|axis| value(&axis.key)).collect::<Option<_>>()?;
             let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
-            let differs = |key: &str| value(key).zip(self.held(key)).is_some_and(|(a, b)| (a - b).abs() > 1e-6);
+            let differs =
+                |key: &str| value(key).zip(self.held(key)).is_some_and(|(a, b)| (a - b).abs() > 1e-6);
             let other = family.parameters.iter().map(|p| p.key);
             Some(Mark {
                 name: if name == family.name { "reference".into() } else { name.into() },
@@ -181,7 +186,8 @@ impl Drawing<'_> {
                 other: other.filter(|key| !MINOR.contains(key) && !is_axis(key) && differs(key)).collect(),
             })
         };
-        let own = self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true, other: vec![] });
+        let own =
+            self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true, other: vec![] });
         let near = |a: &Mark, b: &Mark| {
             let same_place = a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);
             same_place && a.other.is_empty() == b.other.is_empty()

@@ -3,8 +3,8 @@
 //! The file is an append-only list of records, each with its checksum, headed by the identity of
 //! the work. One process at a time has it, by a lock that ends with the process.
 
-use super::{limits, lock};
 use super::replace::WriteError;
+use super::{limits, lock};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};

@@ -148,19 +148,13 @@ impl Parts {
         }
         for pair in parts.windows(2) {
             if pair[0].shard() == pair[1].shard() {
-                return Err(MergeError::Twice(
-                    pair[0].table.clone(),
-                    pair[1].table.clone(),
-                    pair[0].shard(),
-                ));
+                return Err(MergeError::Twice(pair[0].table.clone(), pair[1].table.clone(), pair[0].shard()));
             }
         }
         let (of, total) = (first.shard().of, first.meta.total);
         let there = |s: &Shard| parts.iter().any(|p| p.shard() == *s);
-        let absent: Vec<Shard> = (1..=of)
-            .map(|number| Shard { number, of })
-            .filter(|s| !there(s) && s.rows(total) > 0)
-            .collect();
+        let absent: Vec<Shard> =
+            (1..=of).map(|number| Shard { number, of }).filter(|s| !there(s) && s.rows(total) > 0).collect();
         if !absent.is_empty() {
             return Err(MergeError::Missing(absent, total));
         }

@@ -147,7 +147,11 @@ impl Form {
             let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(row);
             let record = reader.records().next().transpose().map_err(|e| TableError::Row(e.to_string()))?;
             let record = record.unwrap_or_default();
-            return Ok(columns.iter().zip(&record).map(|(column, cell)| Cell::of_csv(column, cell)).collect());
+            return Ok(columns
+                .iter()
+                .zip(&record)
+                .map(|(column, cell)| Cell::of_csv(column, cell))
+                .collect());
         }
         let mut row: serde_json::Map<String, serde_json::Value> =
             serde_json::from_slice(row).map_err(|e| TableError::Row(e.to_string()))?;

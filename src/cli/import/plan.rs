@@ -87,6 +87,15 @@ pub fn into_folder(arguments: &[OsString], output: &Path, ending: &str) -> Resul
     Ok(found.into_iter().zip(places).map(job).collect())
 }
 
+/// A name for each stone, no two the same.
+pub fn places_of(stones: &[OsString]) -> Vec<PathBuf> {
+    let found = |stone: &OsString| {
+        let folder = Path::new(stone).parent().and_then(Path::file_name).map(OsStr::to_owned);
+        Found { stone: stone.clone(), below: stones::file_stem(stone).into(), folder, by_chance: false }
+    };
+    places(&stones.iter().map(found).collect::<Vec<_>>())
+}
+
 /// A place for each, no two the same: each has the shortest name that no other would have as well.
 fn places(found: &[Found]) -> Vec<PathBuf> {
     let key = |name: &Path| stones::shown(name).to_lowercase();

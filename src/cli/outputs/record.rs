@@ -1,7 +1,7 @@
 //! The command that a picture, drawing or page records, by which its own output is known again.
 //!
-//! PNG and APNG have it as the text `Command`, EXR as the comment of its first layer, SVG and HTML as
-//! a processing instruction behind the drawing or page.
+//! PNG and APNG have it as the text `Command`, EXR as the comment of its first layer, SVG, HTML and GIF
+//! as a processing instruction behind their end.
 
 use crate::cli::{stones, words};
 use crate::report::page::escaped;
@@ -45,11 +45,13 @@ fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
 }
 
 /// An SVG drawing or HTML page with its command recorded.
-pub fn recorded(mut text: String, command: &str) -> String {
-    text += BEFORE;
-    text += &escaped(command);
-    text += AFTER;
-    text
+pub fn recorded(text: String, command: &str) -> String {
+    text + &behind(command)
+}
+
+/// What stands behind a drawing, page or GIF and records its command.
+pub fn behind(command: &str) -> String {
+    format!("{BEFORE}{}{AFTER}", escaped(command))
 }
 
 /// Whether the picture, drawing or page at `path` was made by `command`.
@@ -83,8 +85,7 @@ pub fn is_of(path: &Path, command: &str) -> bool {
             let mut end = Vec::new();
             let from = SeekFrom::Start(length.saturating_sub(LONGEST));
             let read = file.seek(from).and_then(|_| file.take(LONGEST).read_to_end(&mut end));
-            let record = recorded(String::new(), command);
-            read.is_ok() && end.ends_with(record.as_bytes())
+            read.is_ok() && end.ends_with(behind(command).as_bytes())
         }
     }
 }

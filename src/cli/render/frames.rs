@@ -6,6 +6,7 @@
 use super::{Args, auto_stops, command, maps, rounds, stops};
 use crate::cli::console::Console;
 use crate::cli::outcome::{self, Failure};
+use crate::cli::outputs::{Outputs, record};
 use crate::photons::file;
 use crate::render::animation::{self, Turn};
 use crate::render::write::{self, Bits, Made};
@@ -82,6 +83,24 @@ impl Target {
             return Err(Failure::input("passes of an animation need numbered pictures: -o name-%03d.png"));
         }
         Ok(Target { path: path.into(), kind })
+    }
+
+    /// Takes the places of all files, or says why they cannot be written.
+    pub fn claim(&self, args: &Args, outputs: &mut Outputs) -> Result<(), Failure> {
+        let command = command::normalised();
+        let is_own = |there: &Path| record::is_of(there, &command);
+        if let Some(map) = &args.photon_map {
+            outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
+        }
+        let numbers = if self.kind == Kind::Numbered { args.frames.unwrap_or(1) } else { 1 };
+        for number in 0..numbers {
+            let path = if self.is_one_file() { self.path.clone() } else { self.frame(number) };
+            for (_, name) in Pass::ALL.iter().filter(|_| args.passes && self.kind != Kind::Exr) {
+                outputs.claim(&beside(&path, name), is_own)?;
+            }
+            outputs.claim(&path, is_own)?;
+        }
+        Ok(())
     }
 
     /// Has the target to itself from here on: what is done of it outlives this process.
@@ -215,7 +234,11 @@ pub fn take(
         Kind::Gif => animation::gif(&pictures, width, height),
         _ => animation::apng(&pictures, width, height, &command),
     };
-    replace::write(&target.path, &bytes.map_err(|e| Failure::input(e.to_string()))?)?;
+    let mut bytes = bytes.map_err(|e| Failure::input(e.to_string()))?;
+    if target.kind == Kind::Gif {
+        bytes.extend(record::behind(&command::normalised()).bytes());
+    }
+    replace::write(&target.path, &bytes)?;
     let fail = |cause| WriteError { path: target.path.clone(), cause };
     std::fs::remove_dir_all(target.folder()).map_err(fail)?;
     alone.ends()?;
