@@ -290,7 +290,7 @@ fn tilts_are_drawn_about_both_axes() {
     assert_eq!((axis[0].as_str(), axis[9].as_str(), &wlr[2]), ("0.0", "90.0", &wlr[7]));
     assert_ne!(wlr[0], wlr[5], "an oval looks otherwise when it is tilted about its length");
     let svg = drawing(&bench, "tilt.svg");
-    for word in ["tilt", "about 0°", "about 90°", "wlr of oval"] {
+    for word in ["tilt (°)", "axis at 0°", "axis at 90°", "wlr of oval"] {
         assert!(svg.contains(word), "{word}");
     }
     let several =

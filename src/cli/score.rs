@@ -11,7 +11,7 @@ use super::stones::{self, DEFAULT_STONE};
 use super::tables::{self, Study, Table};
 use super::words::quoted;
 use crate::metrics::Metric;
-use crate::report::plot::TILT_AXIS;
+use crate::report::plot::{TILT, TILT_AXIS};
 use crate::study::batch::{Line, Order};
 use crate::study::meta::Layout;
 use crate::study::score::Tilt;
@@ -107,7 +107,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(steps) = &args.tilt {
         let names: Vec<String> = axes.iter().map(f64::to_string).collect();
         command += &format!(" --tilt {steps} --tilt-axis {}", names.join(","));
-        leading.push("tilt_deg");
+        leading.push(TILT);
         leading.extend((axes.len() > 1).then_some(TILT_AXIS));
     }
     let columns = table::columns(&leading, &plan.metrics);
@@ -168,7 +168,7 @@ fn layout(specs: &[OsString], axes: &[f64]) -> Layout {
     };
     let several = [(specs.len() > 1, table::STONE_COLUMNS[0]), (axes.len() > 1, TILT_AXIS)];
     let curves = several.iter().filter(|(is, _)| *is).map(|(_, column)| column.to_string()).collect();
-    Layout { stone: alone, axes: vec!["tilt_deg".into()], curves, scattered: false }
+    Layout { stone: alone, axes: vec![TILT.into()], curves, scattered: false }
 }
 
 /// Value parser of `--sort`.

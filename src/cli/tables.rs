@@ -269,9 +269,12 @@ pub fn claim_table(
     begun: bool,
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
-    outputs.claim(output, |there| begun || Meta::is_of(there, command, shard))?;
-    let is_own = |there: &Path| begun || Meta::read(there).is_ok_and(|meta| meta.command == command);
-    outputs.claim(&Meta::beside(output), is_own)
+    // a kill may have come between the new companion and the new table
+    let says_so = |companion: &Path| Meta::read(companion).is_ok_and(|meta| meta.command == command);
+    let is_own =
+        |there: &Path| Meta::is_of(there, command, shard) || (begun && says_so(&Meta::found_beside(there)));
+    outputs.claim(output, is_own)?;
+    outputs.claim(&Meta::beside(output), says_so)
 }
 
 /// What was written, for `--json`.

@@ -33,6 +33,9 @@ pub struct Axis {
 impl Axis {
     /// The axis of the parameter `key`, of a family or of every stone.
     pub fn of(key: &str, family: Option<&Family>) -> Axis {
+        if key == TILT {
+            return Axis { key: key.into(), title: "tilt (°)".into() };
+        }
         let parameter = family.and_then(|f| f.parameters.iter().find(|p| p.key == key));
         let name = if key == "ri" { "refractive index".into() } else { key.replace('-', " ") };
         let unit = match (parameter.map(|p| p.unit.trim()), key) {
@@ -58,6 +61,9 @@ pub struct Drawing<'a> {
     /// A stone to be marked above the others: its name and place on the axes.
     pub own: Option<(&'a str, &'a [f64])>,
 }
+
+/// Column of a stone's tilt.
+pub const TILT: &str = "tilt_deg";
 
 /// Column of the azimuth about which a stone is tilted.
 pub const TILT_AXIS: &str = "tilt_axis_deg";
@@ -107,7 +113,7 @@ impl Drawing<'_> {
             let called = |column: &String| {
                 let cell = numbers.texts(column).get(row).map_or("", String::as_str);
                 if column == TILT_AXIS {
-                    format!("about {}°", cell.trim_end_matches(".0"))
+                    format!("axis at {}°", cell.trim_end_matches(".0"))
                 } else {
                     cell.into()
                 }
