@@ -136,7 +136,7 @@ mod tests {
         let shown = [glam::Vec3::ZERO; 2];
         let files = [
             png(&shown, 2, 1, Bits::Eight, Some(made)).expect("a PNG"),
-            exr(&film, &vec![Default::default(); 2], made).expect("an EXR"),
+            exr(&film, &[Default::default(); 2], made).expect("an EXR"),
         ];
         for bytes in files {
             let path = top.path().join("p");
