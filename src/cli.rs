@@ -12,7 +12,12 @@ mod import;
 mod list;
 mod merge;
 mod outcome;
+mod outputs;
 mod parameters;
+mod plot;
+mod plots;
+mod proportion_columns;
+mod readable;
 mod render;
 mod report;
 mod score;
@@ -31,8 +36,8 @@ use crate::store::limits;
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
-use std::ffi::OsString;
 use standing::Standing;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
@@ -70,6 +75,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Join the parts that --shard made of a table
     Merge(merge::Args),
+    /// Draw the curves or maps of a table that is there
+    Plot(plot::Args),
     /// Scores of stones beside each other, with their differences
     Compare(compare::Args),
     /// Everything about one stone: pictures, scores and a page
@@ -90,6 +97,7 @@ impl Command {
             Command::Score(args) => score::run(args, console),
             Command::Sweep(args) => sweep::run(args, console),
             Command::Merge(args) => merge::run(args, console),
+            Command::Plot(args) => plot::run(args, console),
             Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
             Command::Validate(args) => validate::run(args, console),

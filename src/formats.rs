@@ -293,10 +293,34 @@ fn no_writer(asked: &str) -> FormatError {
     FormatError::NoWriter { asked: asked.into(), known }
 }
 
-/// Whether some format that is read, or is refused by name, has files of this ending.
-pub fn has_known_ending(path: &Path) -> bool {
+/// Endings that files of every kind have: their content alone tells whether one is a design.
+const COMMON_ENDINGS: [&str; 2] = ["toml", "txt"];
+
+/// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an ending that
+/// only designs and meshes have, else by its content. A scene, a table with its companion and the
+/// settings of other programs are not; a design that is damaged is.
+pub fn is_meant_as_stone(path: &Path) -> bool {
+    /// From here on no other kind of file begins like that.
+    const SURE: u8 = 90;
     let ending = ending_of(path);
-    FORMATS.iter().any(|f| f.extensions.contains(&&*ending)) || refused::has_ending(&ending)
+    let has_ending = FORMATS.iter().any(|f| f.extensions.contains(&&*ending)) || refused::has_ending(&ending);
+    if has_ending && !COMMON_ENDINGS.contains(&&*ending) {
+        return true;
+    }
+    let Ok(bytes) = bytes_of(path) else { return has_ending };
+    let name = path.display().to_string();
+    let source = Source { name: &name, bytes: &bytes, folder: path.parent() };
+    let sure = FORMATS.iter().map(|f| (f.sniff)(&source)).max().unwrap_or(0);
+    if sure == (own::FORMAT.sniff)(&source) {
+        return sure > 0 && own::is_meant(&source);
+    }
+    let understood = || {
+        matches!(
+            read_bytes(&name, &bytes, path.parent()),
+            Ok(_) | Err(FormatError::NoStone { .. } | FormatError::Limit { .. })
+        )
+    };
+    sure >= SURE || (sure > 0 && understood())
 }
 
 fn ending_of(path: &Path) -> String {

@@ -3,6 +3,7 @@
 pub mod kept;
 pub mod limits;
 pub mod lock;
+pub mod place;
 pub mod progress;
 pub mod replace;
 pub mod stdin;

@@ -3,6 +3,7 @@
 pub mod batch;
 pub mod compare;
 pub mod identity;
+pub mod line;
 pub mod merge;
 pub mod meta;
 pub mod score;

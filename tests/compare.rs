@@ -90,3 +90,60 @@ fn the_page_has_both_stones_and_needs_nothing_beside_it() {
     assert!(page.contains("tilt (°)") && page.contains("octahedron less tolkowsky"));
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
 }
+
+const QUICK: [&str; 4] = ["--metrics", "wlr,spread", "--error", "0.01"];
+
+/// One design in two materials: each stands in its column's head, its file's row and its entry.
+#[test]
+fn materials_stand_beside_the_stones_in_every_form() {
+    let bench = Bench::new();
+    bench.good(&["generate", "-q", "classic", "-o", "D.asc"]);
+    let compare = |options: &[&str]| {
+        let stones = ["compare", "-q", "D.asc:material=quartz", "D.asc:material=topaz"];
+        bench.ends(0, &[&stones[..], &QUICK, options].concat()).0
+    };
+    let shown = compare(&["-o", "c.md"]);
+    assert!(shown.contains("(quartz)") && shown.contains("(topaz)"), "{shown}");
+    let markdown = bench::text(&bench.read("c.md"));
+    for word in ["(quartz)", "| wlr |", "| weight |", "| table |", "| --- |"] {
+        assert!(markdown.contains(word), "{word}: {markdown}");
+    }
+    let rows: serde_json::Value = serde_json::from_str(&compare(&["--json"])).expect("JSON");
+    assert_eq!(rows[0]["scores"][1]["material"], "topaz");
+    compare(&["-o", "c.csv"]);
+    compare(&["-o", "c.json"]);
+    let table: serde_json::Value = serde_json::from_slice(&bench.read("c.json")).expect("JSON");
+    let find = |metric: &str, material: &str| {
+        let all = table.as_array().expect("rows");
+        all.iter().find(|r| r["metric"] == metric && r["material"] == material).expect("its row").clone()
+    };
+    let (quartz, topaz) = (find("wlr", "quartz"), find("wlr", "topaz"));
+    let number = |v: &serde_json::Value| v.as_f64().expect("a number");
+    let less = number(&topaz["value"]) - number(&quartz["value"]);
+    assert!((number(&topaz["difference"]) - less).abs() < 1e-6 && topaz["significant"] == "yes", "{topaz}");
+    assert!(quartz["difference"].is_null() && quartz["significant"].is_null(), "{quartz}");
+    let weight = number(&find("weight", "topaz")["value"]) / number(&find("weight", "quartz")["value"]);
+    assert!((weight - 3.53 / 2.65).abs() < 0.03, "{weight}");
+    let csv = bench::text(&bench.read("c.csv"));
+    assert_eq!(csv.lines().count(), 1 + table.as_array().map_or(0, Vec::len));
+    assert_eq!(compare(&["-o", "-"]), csv);
+    // again by the same command; by another only with --force
+    compare(&["-o", "c.csv"]);
+    let other = ["compare", "cube", "octahedron", "--metrics", "spread", "-o", "c.csv"];
+    assert!(bench.ends(3, &other).1.contains("--force"));
+    assert!(bench.ends(2, &["compare", "cube"]).1.contains("two stones"));
+}
+
+/// As many stones as a folder holds: each has a line of a width that can be read.
+#[test]
+fn many_stones_have_a_line_each() {
+    let bench = Bench::new();
+    for i in 0..12 {
+        let file = format!("designs/a-name-that-is-longer-than-others-{i}.obj");
+        bench.good(&["generate", "-q", "--table", &format!("{}", 50 + i), "-o", &file]);
+    }
+    let command = [&["compare", "-q", "designs"], &QUICK[..]].concat();
+    let (shown, _) = bench.ends(0, &command);
+    assert_eq!(shown.lines().filter(|l| l.starts_with("designs/")).count(), 12, "{shown}");
+    assert!(shown.lines().all(|l| l.chars().count() < 160), "{shown}");
+}

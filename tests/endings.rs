@@ -283,5 +283,5 @@ fn an_input_that_is_replaced_meanwhile_has_no_scores() {
     assert!(lines[0].contains("in/11.toml") && lines[0].contains("replaced"), "{lines:?}");
     let table = text(&bench.read("t.csv"));
     assert!(table.lines().nth(12).expect("its row").contains(",,"), "{table}");
-    bench.good(&["score", "in", "--metrics", "wlr", "--error", "0.01", "-o", "t.csv", "-q"]);
+    bench.good(&["score", "in", "--metrics", "wlr", "--error", "0.01", "-o", "t.csv", "-q", "--force"]);
 }

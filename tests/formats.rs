@@ -279,7 +279,7 @@ fn stones_are_named_in_one_grammar() {
     let stone_of = |spec: &str| stone::open(spec).map(|i| i.design.planes().len());
     assert!(stone_of("prism:sides=9,").is_ok_and(|n| n == 11));
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/square.asc");
-    assert_eq!(stone::open(&file.display().to_string()).expect("a file").format, "gemcad");
+    assert_eq!(stone::open(file.display().to_string()).expect("a file").format, "gemcad");
     for (spec, said) in [
         ("round-briliant", "no cut and no file is called 'round-briliant'; did you mean 'round-brilliant'?"),
         ("round-briliant:table=55", "did you mean 'round-brilliant'?"),

@@ -172,5 +172,5 @@ fn a_killed_sweep_leaves_no_plot_without_its_table() {
     assert!(bench.kill_after(Duration::from_millis(150), &command));
     assert!(!bench.exists("t.csv"));
     bench.good(&command);
-    assert_eq!(bench.names(), ["t.csv", "t.meta.json", "wlr.svg"]);
+    assert_eq!(bench.names(), ["t.csv", "t.csv.meta.json", "wlr.svg"]);
 }

@@ -1,24 +1,34 @@
 //! `cutlab compare`: stones beside each other, with differences and what they are worth.
 
+mod written;
+
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::outputs::{Outputs, record};
 use super::scoring::Scoring;
-use super::{standing, stones, words};
+use super::{folders, standing, stones, tables, words};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
-use crate::report::page::number;
 use crate::report::{Request, versus};
 use crate::store::replace;
+use crate::study::batch::Summary;
 use crate::study::compare::{Comparison, RUNS, compare};
+use crate::study::identity::{BUILD, Identity};
+use crate::study::meta::Meta;
 use crate::study::score::{Plan, Subject};
+use crate::study::table::Form;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use written::Compared;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   cutlab compare round-brilliant tolkowsky
   cutlab compare tolkowsky mine.asc --metrics wlr,fire_streak --error 0.0005 --json
+  cutlab compare D.asc:material=quartz D.asc:material=topaz    one design in two materials
+  cutlab compare designs/ --metrics iso,wlr -o all.csv  a row for each metric and stone; also .md
   cutlab compare tolkowsky scan-dn eppler -o out       and a page with pictures and tilt curves
 
 Every stone is scored with the same random numbers in 32 runs, and the error of a difference is the
@@ -26,11 +36,12 @@ spread of the runs' differences. A difference is called significant if it is bey
 errors and not negligible: more than 1e-6 of the metric's scale (1, or 100 for percentages), or 1e-4
 where photons are traced, because they are followed until 1e-4 of their light is left.")]
 pub struct Args {
-    /// The stones; differences are from the first
-    #[arg(required = true, num_args = 2.., value_name = "STONE")]
-    stones: Vec<String>,
-    /// A folder for a page that shows them beside each other; it is made
-    #[arg(long, short, value_name = "DIR")]
+    /// The stones, files, folders of files and patterns; differences are from the first
+    #[arg(required = true, value_name = "STONE")]
+    stones: Vec<OsString>,
+    /// A folder for a page that shows them beside each other, which is made; or a file for the table with
+    /// the proportions: .csv, .jsonl, .json or .md
+    #[arg(long, short, value_name = "DIR|FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
     scoring: Scoring,
@@ -50,6 +61,7 @@ struct Entry<'a> {
 #[derive(Serialize)]
 struct Scored<'a> {
     stone: &'a str,
+    material: &'a str,
     #[serde(flatten)]
     score: Option<Estimate>,
     /// Why there is no score.
@@ -69,8 +81,21 @@ struct Differs<'a> {
 /// Compares the stones.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
-    let requests: Vec<Request> = args.stones.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
+    args.scoring.notes(false, console);
+    let specs = folders::expanded(&args.stones)?;
+    if specs.len() < 2 {
+        return Err(Failure::input("a comparison needs two stones or more"));
+    }
+    let output = args.output.as_deref().map(Output::of).transpose()?;
+    let mut outputs = Outputs::beside(&specs, console);
+    let command = record::own_command();
+    match &output {
+        Some(Output::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
+        Some(Output::Markdown(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
+        Some(Output::Table(path, _)) => tables::claim_table(path, &command, None, false, &mut outputs)?,
+        None => (),
+    }
+    let requests: Vec<Request> = specs.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
     let subject = |r: &Request| {
         let shape = Ok(r.design.solid()?.into());
         Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
@@ -89,33 +114,112 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             }
         }
     }
+    let compared = Compared { requests: &requests, comparison: &comparison, plan: &plan };
     if console.json {
         console.print_json(&entries(&comparison, &plan))?;
-    } else {
-        console.print(&text(&comparison, &plan))?;
+    } else if !output.as_ref().is_some_and(|o| replace::is_stdout(o.path())) {
+        console.print(&compared.text())?;
     }
-    if let Some(folder) = &args.output {
-        let bar = console.steps(versus::STEPS * requests.len());
-        let page = versus::html(&requests, &comparison, &plan, &|what| {
-            bar.set_message(what);
-            bar.inc(1);
-        });
-        bar.finish_and_clear();
-        let path = folder.join("index.html");
-        replace::write(&path, page?.as_bytes())?;
-        console.note(&format!("wrote {}", path.display()));
+    if let Some(output) = &output {
+        let path = output.path();
+        match output {
+            Output::Page(_) => {
+                let bar = console.steps(versus::STEPS * requests.len());
+                let page = versus::html(&requests, &comparison, &plan, &|what| {
+                    bar.set_message(what);
+                    bar.inc(1);
+                });
+                bar.finish_and_clear();
+                replace::write(path, record::recorded(page?, &command).as_bytes())?;
+            }
+            Output::Markdown(_) => {
+                replace::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
+            }
+            Output::Table(_, form) => write_table(&compared, path, *form, command)?,
+        }
+        if !replace::is_stdout(path) {
+            console.note(&format!("wrote {}", path.display()));
+        }
     }
     Ok(if short { Code::SomeFailed } else { Code::Done })
 }
 
-fn request(stone: &str, args: &Args) -> Result<Request, Failure> {
+/// What `-o` asks for, by its ending.
+enum Output {
+    /// A page in a folder.
+    Page(PathBuf),
+    /// The table for people.
+    Markdown(PathBuf),
+    /// The table with a row for each metric and stone.
+    Table(PathBuf, Form),
+}
+
+impl Output {
+    fn of(path: &Path) -> Result<Output, Failure> {
+        let path = path.to_owned();
+        if replace::is_stream(&path) {
+            return Ok(Output::Table(path, Form::Csv));
+        }
+        let ending = path.extension().filter(|_| !path.is_dir());
+        Ok(match ending {
+            Some(ending) if ending.eq_ignore_ascii_case("md") => Output::Markdown(path),
+            Some(_) => {
+                let form = Form::of(&path).map_err(|_| {
+                    let path = path.display();
+                    Failure::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
+                })?;
+                Output::Table(path, form)
+            }
+            None => Output::Page(path.join("index.html")),
+        })
+    }
+
+    fn path(&self) -> &Path {
+        match self {
+            Output::Page(path) | Output::Markdown(path) | Output::Table(path, _) => path,
+        }
+    }
+}
+
+/// Writes the table, after its companion.
+fn write_table(compared: &Compared, path: &Path, form: Form, command: String) -> Result<(), Failure> {
+    let bytes = compared.table(form)?;
+    if !replace::is_stream(path) {
+        let meta = Meta {
+            program: "cutlab".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            build: BUILD.into(),
+            seed: compared.plan.seed,
+            study: Identity::of(&command).hex(),
+            command,
+            columns: written::COLUMNS.map(String::from).into(),
+            layout: None,
+            total: 0,
+            shard: None,
+            summary: Summary::default(),
+            crc32: format!("{:08x}", crc32fast::hash(&bytes)),
+            metrics: Meta::definitions(compared.plan),
+        };
+        let meta = meta.bytes().map_err(|e| Failure::input(e.to_string()))?;
+        replace::write(&Meta::beside(path), &meta)?;
+    }
+    Ok(replace::write(path, &bytes)?)
+}
+
+fn request(stone: &OsStr, args: &Args) -> Result<Request, Failure> {
     let imported = stones::open(stone)?;
-    standing::note(stone, &imported);
+    standing::note(&stones::shown(stone), &imported);
     let design = imported.design;
-    let material = args.scoring.substance.of(&design);
+    let material = args.scoring.substance.within(stone)?.of(&design);
     let size = args.scoring.size.or((design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(design, size)?;
-    Ok(Request { stone: stone.into(), design, material, seed: args.scoring.seed, command: words::typed() })
+    Ok(Request {
+        stone: stones::shown(stone),
+        design,
+        material,
+        seed: args.scoring.seed,
+        command: words::typed(),
+    })
 }
 
 fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
@@ -126,7 +230,12 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
         negligible: comparison.negligible[m],
         scores: rows
             .iter()
-            .map(|r| Scored { stone: &r.stone, score: r.scores[m], left_out: r.why_left_out(metric) })
+            .map(|r| Scored {
+                stone: &r.stone,
+                material: &r.material,
+                score: r.scores[m],
+                left_out: r.why_left_out(metric),
+            })
             .collect(),
         differences: rows[1..]
             .iter()
@@ -140,48 +249,4 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
             .collect(),
     };
     plan.metrics.iter().enumerate().map(entry).collect()
-}
-
-/// The table for people.
-fn text(comparison: &Comparison, plan: &Plan) -> String {
-    let rows = &comparison.rows;
-    let shown = |value: Option<Estimate>| match value.map(number) {
-        Some((value, Some(error))) => format!("{value} ± {error}"),
-        Some((value, None)) => value,
-        None => "–".into(),
-    };
-    let names: Vec<&str> = rows.iter().map(|r| r.stone.as_str()).collect();
-    let labels = versus::labels(&names);
-    let mut head = vec![String::new()];
-    head.extend(labels.iter().cloned());
-    head.extend(labels[1..].iter().map(|label| format!("{label} less {}", labels[0])));
-    let mut lines = vec![head];
-    for (m, metric) in plan.metrics.iter().enumerate() {
-        let mut line = vec![metric.name.to_string()];
-        line.extend(rows.iter().map(|r| shown(r.scores[m])));
-        line.extend(comparison.differences.iter().enumerate().map(|(other, d)| {
-            let mark = if comparison.is_significant(other, m) == Some(true) { " *" } else { "" };
-            let shown = shown(d[m]);
-            let positive = d[m].is_some_and(|e| e.value > 0.0 && number(e).0.parse() != Ok(0.0));
-            let sign = if positive { "+" } else { "" };
-            format!("{sign}{shown}{mark}")
-        }));
-        lines.push(line);
-    }
-    let widths: Vec<usize> =
-        (0..lines[0].len()).map(|c| lines.iter().map(|l| l[c].chars().count()).max().unwrap_or(0)).collect();
-    let mut out = String::new();
-    for line in &lines {
-        let cells: Vec<String> =
-            line.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}", w = *w)).collect();
-        out += cells.join("  ").trim_end();
-        out += "\n";
-    }
-    for line in versus::explained(&names) {
-        out += &format!("{line}\n");
-    }
-    for line in versus::left_out(comparison) {
-        out += &format!("{line}\n");
-    }
-    out + "after ± one standard error; * a difference beyond three of its errors, and not negligible\n"
 }

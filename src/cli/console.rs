@@ -13,6 +13,9 @@ pub struct Console {
     /// No notes and no progress, errors only
     #[arg(long, short, global = true, display_order = 1000)]
     quiet: bool,
+    /// Replace files that are there, whoever made them; an input never
+    #[arg(long, global = true, display_order = 1000)]
+    pub force: bool,
     /// Results as JSON
     #[arg(long, global = true, display_order = 1000)]
     pub json: bool,
@@ -56,11 +59,6 @@ impl Console {
     /// What was made, where files are the result: standard output, unless quiet.
     pub fn tell(&self, text: &str) -> Result<(), Failure> {
         if self.quiet { Ok(()) } else { self.print(text) }
-    }
-
-    /// A result that is a file's bytes: standard output.
-    pub fn print_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
-        Ok(crate::store::replace::write("-".as_ref(), bytes)?)
     }
 
     /// A result as JSON: standard output.

@@ -1,16 +1,22 @@
 //! Which files a folder, or a pattern of file names, stands for.
 
 use super::outcome::Failure;
-use super::stones;
-use crate::formats::stone::{self, STANDARD_INPUT};
-use crate::formats::{self, FormatError};
+use super::stones::{self, Spec};
+use crate::formats;
+use crate::formats::stone::STANDARD_INPUT;
+use crate::study::meta::Meta;
+use globset::{GlobBuilder, GlobMatcher};
+use std::ffi::{OsStr, OsString};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::io::ErrorKind;
+use std::path::{Component, Path, PathBuf};
 
 /// Every file below `folder`, in the order of their names, but for hidden ones: they are someone's
 /// notes, or a file in the making. Links to folders are not followed: they may lead round in a circle.
 ///
 /// - `skipped`: a folder, in canonical form, that is not searched
+///
+/// A folder below that cannot be listed is given in place of its files: whoever reads it says why not.
 pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
     let fail = |cause: std::io::Error| Failure::reading(&folder.display().to_string(), &cause);
     let mut entries: Vec<PathBuf> = fs::read_dir(folder)
@@ -26,7 +32,10 @@ pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Fail
         if path.is_dir() {
             let is_skipped = skipped.is_some() && path.canonicalize().ok().as_deref() == skipped;
             if !is_link && !is_skipped {
-                found.extend(files(&path, skipped)?);
+                match files(&path, skipped) {
+                    Ok(below) => found.extend(below),
+                    Err(_) => found.push(path),
+                }
             }
         } else if path.is_file() {
             found.push(path);
@@ -36,61 +45,122 @@ pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Fail
 }
 
 /// The STONE that a file is: a file with the name of a cut is meant as the file.
-pub fn as_stone(file: &Path) -> String {
-    let here = Path::new(".").join(file);
-    if file.components().count() == 1 { here.display().to_string() } else { file.display().to_string() }
+pub fn as_stone(file: &Path) -> OsString {
+    if file.components().count() == 1 { Path::new(".").join(file).into() } else { file.into() }
 }
 
 /// The stones of a command: folders replaced by their designs and meshes, patterns (`*.asc`) by what
-/// they match. What is in a folder and of no format is passed over.
-pub fn expanded(arguments: &[String]) -> Result<Vec<String>, Failure> {
+/// they match. What is in a folder and is no stone is passed over.
+pub fn expanded(arguments: &[OsString]) -> Result<Vec<OsString>, Failure> {
+    let mut all = Vec::new();
+    for argument in arguments {
+        let spec = Spec::of(argument)?;
+        let name = spec.base();
+        let mut found = Vec::new();
+        if is_pattern(name) {
+            for path in matching(name)? {
+                if path.is_dir() { found.extend(designs(&path)?) } else { found.push(as_stone(&path)) }
+            }
+        } else if Path::new(name).is_dir() {
+            found.extend(designs(Path::new(name))?);
+        } else {
+            all.push(argument.clone());
+        }
+        all.extend(found.into_iter().map(|file| spec.applied_to(file)));
+    }
+    Ok(all)
+}
+
+/// The tables that `merge` joins: of what a pattern matches, neither companions nor whole tables.
+pub fn parts(arguments: &[OsString]) -> Result<Vec<PathBuf>, Failure> {
+    let is_whole =
+        |table: &Path| Meta::read(&Meta::found_beside(table)).is_ok_and(|meta| meta.shard.is_none());
     let mut all = Vec::new();
     for argument in arguments {
         if is_pattern(argument) {
-            for found in matching(argument)? {
-                if found.is_dir() { all.extend(designs(&found)?) } else { all.push(as_stone(&found)) }
+            let mut found = matching(argument)?;
+            found.retain(|table| !Meta::is_companion(table) && !is_whole(table));
+            if found.is_empty() {
+                let pattern = stones::shown(argument);
+                return Err(Failure::input(format!("no part of a table matches {pattern}")));
             }
-        } else if Path::new(argument).is_dir() {
-            all.extend(designs(Path::new(argument))?);
+            all.extend(found);
         } else {
-            all.push(argument.clone());
+            all.push(argument.into());
         }
     }
     Ok(all)
 }
 
-/// Files, with patterns replaced by what they match.
-pub fn matched(arguments: &[String]) -> Result<Vec<PathBuf>, Failure> {
-    let each = |a: &String| if is_pattern(a) { matching(a) } else { Ok(vec![PathBuf::from(a)]) };
-    Ok(arguments.iter().map(each).collect::<Result<Vec<_>, _>>()?.concat())
-}
-
 /// Whether an argument is a pattern of file names, and not the name of a file.
-fn is_pattern(argument: &str) -> bool {
-    argument.contains(['*', '?', '[']) && fs::symlink_metadata(argument).is_err()
+fn is_pattern(argument: &OsStr) -> bool {
+    has_wildcard(argument) && fs::symlink_metadata(argument).is_err()
 }
 
-/// What matches a pattern, by name.
-fn matching(pattern: &str) -> Result<Vec<PathBuf>, Failure> {
-    let paths = glob::glob(pattern).map_err(|e| Failure::input(format!("{pattern}: {e}")))?;
-    let fail = |e: glob::GlobError| Failure::reading(&e.path().display().to_string(), e.error());
-    let found: Vec<PathBuf> = paths.collect::<Result<_, _>>().map_err(fail)?;
-    if found.is_empty() { Err(Failure::input(format!("no file matches {pattern}"))) } else { Ok(found) }
+fn has_wildcard(name: &OsStr) -> bool {
+    name.as_encoded_bytes().iter().any(|b| b"*?[".contains(b))
+}
+
+/// What matches a pattern, by name. `*` and `?` stand for what is no `/`, `**` for folders below; names
+/// need not be UTF-8.
+fn matching(pattern: &OsStr) -> Result<Vec<PathBuf>, Failure> {
+    let shown = stones::shown(pattern);
+    let text = pattern.to_str().ok_or_else(|| Failure::input(format!("{shown}: a pattern is UTF-8")))?;
+    let path: PathBuf = Path::new(text).components().collect(); // without `//` and `/./`
+    let glob =
+        GlobBuilder::new(&path.to_string_lossy()).literal_separator(true).backslash_escape(false).build();
+    let glob = glob.map_err(|e| Failure::input(format!("{shown}: {}", e.kind())))?.compile_matcher();
+    let is_plain = |part: &Component| !has_wildcard(part.as_os_str());
+    let base: PathBuf = path.components().take_while(is_plain).collect();
+    let depth = match text.contains("**") {
+        true => usize::MAX,
+        false => path.components().skip_while(is_plain).count(),
+    };
+    let mut found = Vec::new();
+    match_below(&base, depth, &glob, &mut found)
+        .map_err(|(folder, cause)| Failure::reading(&folder.display().to_string(), &cause))?;
+    found.sort();
+    if found.is_empty() { Err(Failure::input(format!("no file matches {shown}"))) } else { Ok(found) }
+}
+
+/// Adds what matches in a folder, and up to `depth` folders below it.
+fn match_below(
+    folder: &Path,
+    depth: usize,
+    glob: &GlobMatcher,
+    found: &mut Vec<PathBuf>,
+) -> Result<(), (PathBuf, std::io::Error)> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let fail = |cause| (here.to_owned(), cause);
+    let entries = match fs::read_dir(here) {
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(()),
+        entries => entries.map_err(fail)?,
+    };
+    for entry in entries {
+        let path = folder.join(entry.map_err(fail)?.file_name());
+        // links may lead round in a circle, which has an end where the pattern has one
+        let goes_on = path.is_dir() && (depth != usize::MAX || !path.is_symlink());
+        if goes_on && depth > 1 {
+            let below = if depth == usize::MAX { depth } else { depth - 1 };
+            match_below(&path, below, glob, found)?;
+        }
+        if glob.is_match(&path) {
+            found.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Whether a file that a folder holds is to be read as a stone: not what cutlab itself writes beside
+/// one, nor a table that has its companion.
+pub fn is_meant_as_stone(file: &Path) -> bool {
+    file.is_dir() || (!Meta::is_companion(file) && formats::is_meant_as_stone(file) && !Meta::is_beside(file))
 }
 
 /// The designs and meshes in a folder.
-fn designs(folder: &Path) -> Result<Vec<String>, Failure> {
-    let is_design = |file: &PathBuf| {
-        let none = |e| {
-            matches!(
-                e,
-                FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. }
-            )
-        };
-        formats::has_known_ending(file) || !stone::open(&as_stone(file)).is_err_and(none)
-    };
-    let found: Vec<String> =
-        files(folder, None)?.iter().filter(|f| is_design(f)).map(|f| as_stone(f)).collect();
+fn designs(folder: &Path) -> Result<Vec<OsString>, Failure> {
+    let found: Vec<OsString> =
+        files(folder, None)?.iter().filter(|f| is_meant_as_stone(f)).map(|f| as_stone(f)).collect();
     if found.is_empty() {
         return Err(Failure::input(format!("no designs and no meshes in {}", folder.display())));
     }
@@ -98,6 +168,9 @@ fn designs(folder: &Path) -> Result<Vec<String>, Failure> {
 }
 
 /// The file that a STONE is read from, if it is one.
-pub fn file_of(stone: &str) -> Option<&Path> {
-    Some(Path::new(stone)).filter(|path| stone != STANDARD_INPUT && !stones::is_cut(stone) && path.is_file())
+pub fn file_of(stone: &OsStr) -> Option<PathBuf> {
+    let spec = Spec::of(stone).ok()?;
+    let path = PathBuf::from(spec.base());
+    let is_file = spec.base() != STANDARD_INPUT && !stones::is_cut(spec.base()) && path.is_file();
+    is_file.then_some(path)
 }

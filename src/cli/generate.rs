@@ -2,16 +2,19 @@
 
 use super::console::Console;
 use super::drawing::{self, Drawing};
+use super::import;
 use super::outcome::{Code, Failure};
+use super::outputs::{self, Outputs};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
+use super::values;
 use super::weight::{self, Weight};
 use crate::cut::{Design, families};
-use super::values;
 use crate::formats::{self, FormatError};
 use crate::optics::Material;
 use crate::report::diagram::Paper;
 use crate::store::replace;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -21,11 +24,13 @@ Examples:
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
   cutlab generate round-brilliant:depth=61.5,crown-height=15,pavilion-depth=43 --carat 1 -o stone.glb
-  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .pdf, .png")]
+  cutlab generate classic -o classic.svg          the cutting diagram, one page; also .pdf, .png
+  cutlab generate designs/ --to svg -o sheets     the diagrams of a whole folder, into another")]
 pub struct Args {
-    /// What to make: a name from `cutlab list cuts`, with parameters or not, or a file
+    /// What to make: a name from `cutlab list cuts`, with parameters or not, a file, or a folder of
+    /// files, whose stones are written into the folder -o
     #[arg(default_value = DEFAULT_STONE)]
-    stone: String,
+    stone: OsString,
     /// Exact total of facets; girdle flats are added or taken to meet it
     #[arg(long, value_name = "N", value_parser = values::whole(1..=1_000_000, "a total of facets is a whole number"))]
     facets: Option<u32>,
@@ -40,7 +45,7 @@ pub struct Args {
     /// given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -`: a name or ending from `cutlab list formats`, svg, pdf or png
+    /// Format for `-o -` and for a folder: a name or ending from `cutlab list formats`, svg, pdf or png
     #[arg(long, value_name = "FORMAT", default_value = "obj")]
     to: String,
     /// Paper of the cutting diagram
@@ -65,11 +70,18 @@ struct Made {
 
 /// Makes the stone and writes it.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    if Path::new(&args.stone).is_dir() {
+        return folder(args, console);
+    }
     let mut parameters = args.parameters.clone();
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = stones::family(&args.stone).is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
+    let has_size = args
+        .stone
+        .to_str()
+        .and_then(stones::family)
+        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
@@ -78,10 +90,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     {
         return Err(Failure::input(format!(
             "{} is a file with fixed facets: --{flag} needs a parametric cut (cutlab list cuts)",
-            args.stone
+            stones::shown(&args.stone)
         )));
     }
-    let imported = stones::open(&parameters.applied_to(&args.stone))?;
+    let imported = match args.stone.to_str() {
+        Some(text) => stones::open(parameters.applied_to(text))?,
+        None => stones::open(&args.stone)?,
+    };
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let mut size = args.size.filter(|_| !has_size);
     if let Some(carats) = args.carat {
@@ -99,31 +114,30 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 
     let mut files = args.output.clone();
     if files.is_empty() {
-        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone)).into());
+        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
     }
-    for file in &files {
-        if file == Path::new("-") {
-            let bytes = match Drawing::named(&args.to) {
-                Some(drawing) => drawing.bytes(&design, index, args.paper)?,
-                None => {
-                    let format = formats::written_as(&args.to).map_err(with_drawings)?;
-                    encoded(&design, asked.as_ref(), format.name, console)?
-                }
-            };
-            console.print_bytes(&bytes)?;
-            continue;
+    let encode = |file: &PathBuf| {
+        let drawing = if replace::is_stream(file) { Drawing::named(&args.to) } else { Drawing::of(file) };
+        if let Some(drawing) = drawing {
+            return drawing.bytes(&design, index, args.paper);
         }
-        match Drawing::of(file) {
-            Some(drawing) => replace::write(file, &drawing.bytes(&design, index, args.paper)?)?,
-            None => {
-                let format = formats::written_to(file).map_err(with_drawings)?;
-                replace::write(file, &encoded(&design, asked.as_ref(), format.name, console)?)?;
-            }
+        let format =
+            if replace::is_stream(file) { formats::written_as(&args.to) } else { formats::written_to(file) };
+        encoded(&design, asked.as_ref(), format.map_err(with_drawings)?.name, console)
+    };
+    let encoded: Vec<Vec<u8>> = files.iter().map(encode).collect::<Result<_, Failure>>()?;
+    let mut outputs = Outputs::beside([&args.stone], console);
+    for (file, bytes) in files.iter().zip(&encoded) {
+        outputs.claim(file, |there| outputs::holds(there, bytes))?;
+    }
+    for (file, bytes) in files.iter().zip(&encoded) {
+        replace::write(file, bytes)?;
+        if !replace::is_stdout(file) {
+            console.note(&format!("wrote {}", file.display()));
         }
-        console.note(&format!("wrote {}", file.display()));
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
-    if files.iter().any(|f| f == Path::new("-")) {
+    if files.iter().any(|f| replace::is_stdout(f)) {
         console.note(&summary);
     } else if console.json {
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
@@ -154,4 +168,16 @@ fn with_drawings(error: FormatError) -> FormatError {
         }
         error => error,
     }
+}
+
+/// Writes every stone of a folder into another.
+fn folder(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let stone = stones::shown(&args.stone);
+    let [output] = &args.output[..] else {
+        return Err(Failure::input(format!("{stone} is a folder: -o names one folder to write into")));
+    };
+    if args.facets.is_some() || !args.parameters.0.is_empty() {
+        return Err(Failure::input(format!("{stone} is a folder: its stones have no parameters to set")));
+    }
+    import::run(&import::Args::of_folder(args.stone.clone(), output.clone(), &args.to, args.size), console)
 }

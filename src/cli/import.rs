@@ -1,17 +1,19 @@
 //! `cutlab import`: any format in, any format out, whole folders at once.
 
-mod plan;
+pub mod plan;
 
 use super::console::Console;
+use super::drawing::Drawing;
 use super::outcome::{self, Code, Failure};
-use super::standing;
-use super::stones;
+use super::outputs::{self, Outputs};
+use super::{standing, stones};
 use crate::cut::Unit;
-use crate::formats::{self, Encoded, Format, FormatError, stone};
-use crate::store::{limits, replace};
+use crate::formats::{self, Encoded, Format};
+use crate::report::diagram::Paper;
+use crate::store::{place, replace};
 use plan::Job;
 use serde::Serialize;
-use std::io::Read;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -25,16 +27,14 @@ Files of a folder that are of no known format are passed over. Nothing is overwr
 pub struct Args {
     /// Designs, meshes, and folders of them; the content decides the format of each
     #[arg(required = true, value_name = "FILE|DIR")]
-    files: Vec<String>,
+    files: Vec<OsString>,
     /// Where to write: a file whose ending chooses the format, or a folder
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
-    /// Format to write, a name or ending from `cutlab list formats` [for a folder: toml]
+    /// Format to write, a name or ending from `cutlab list formats`, or svg or png for the cutting
+    /// diagram [for a folder: toml]
     #[arg(long, value_name = "FORMAT")]
     to: Option<String>,
-    /// Replace files that exist
-    #[arg(long)]
-    force: bool,
     /// Scale to this girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -57,23 +57,68 @@ struct Row {
     error: Option<String>,
 }
 
+impl Args {
+    /// Of everything in one folder into another.
+    pub fn of_folder(folder: OsString, output: PathBuf, to: &str, size: Option<f64>) -> Args {
+        Args { files: vec![folder], output, to: Some(to.to_owned()), size }
+    }
+}
+
+/// What a stone is written as.
+#[derive(Clone, Copy)]
+enum Written {
+    Format(&'static Format),
+    Drawing(Drawing),
+}
+
+impl Written {
+    fn named(name: &str) -> Result<Written, Failure> {
+        match Drawing::named(name) {
+            Some(drawing) => Ok(Written::Drawing(drawing)),
+            None => Ok(Written::Format(formats::written_as(name)?)),
+        }
+    }
+
+    fn to(path: &Path) -> Result<Written, Failure> {
+        match Drawing::of(path) {
+            Some(drawing) => Ok(Written::Drawing(drawing)),
+            None => Ok(Written::Format(formats::written_to(path)?)),
+        }
+    }
+
+    fn ending(self) -> &'static str {
+        match self {
+            Written::Format(format) => format.extensions.first().copied().unwrap_or(format.name),
+            Written::Drawing(Drawing::Svg) => "svg",
+            Written::Drawing(Drawing::Pdf) => "pdf",
+            Written::Drawing(Drawing::Png) => "png",
+        }
+    }
+}
+
 const WRITTEN: &str = "written";
 const THERE: &str = "there already";
 const PASSED_OVER: &str = "passed over";
 
 /// Reads every file and writes it again.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let to_output = args.output == Path::new("-");
-    let (jobs, format) = plan(args, to_output)?;
+    let to_output = replace::is_stdout(&args.output);
+    let (jobs, format) = plan(args)?;
+    let outputs = Outputs::beside(jobs.iter().map(|job| &job.stone), console);
     if !to_output {
+        if let Some(job) = jobs.first() {
+            // nothing is read for a place where nothing can be written
+            place::tried(&job.target.with_file_name("x"))?;
+        }
         outcome::goes_on();
     }
-    let mut results = stones::each(&jobs, console, "importing", |job| import(job, args, format, console));
+    let work = |job: &Job| import(job, args, format, &outputs, console);
+    let mut results = stones::each(&jobs, console, "importing", work);
     let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
         Ok(row) => row.clone(),
         Err(failure) => {
             let error = Some(failure.message());
-            Row { file: job.stone.clone(), outcome: "failed", error, ..Row::default() }
+            Row { file: stones::shown(&job.stone), outcome: "failed", error, ..Row::default() }
         }
     };
     let rows: Vec<Row> = jobs.iter().zip(&results).map(row).collect();
@@ -90,15 +135,20 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
     }
     if results.is_empty() {
-        return Err(Failure::input(format!("no designs and no meshes in {}", args.files.join(", "))));
+        return Err(Failure::input(format!(
+            "no designs and no meshes in {}",
+            args.files.iter().map(stones::shown).collect::<Vec<_>>().join(", ")
+        )));
     }
     Ok(stones::code(&results))
 }
 
 /// What is to be imported, and the format to write it in.
-fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Failure> {
+fn plan(args: &Args) -> Result<(Vec<Job>, Written), Failure> {
     let alone = args.files.len() == 1 && !Path::new(&args.files[0]).is_dir();
-    let to_file = to_output || (args.output.extension().is_some() && !args.output.is_dir());
+    let is_folder =
+        args.output.is_dir() || (args.output.extension().is_none() && !replace::is_stream(&args.output));
+    let to_file = !is_folder;
     if to_file && !alone {
         return Err(Failure::input(format!(
             "several stones do not fit into the one file {}: give a folder and --to FORMAT",
@@ -106,36 +156,46 @@ fn plan(args: &Args, to_output: bool) -> Result<(Vec<Job>, &'static Format), Fai
         )));
     }
     let format = match &args.to {
-        Some(asked) => formats::written_as(asked)?,
-        None if to_file && !to_output => formats::written_to(&args.output)?,
-        None => formats::written_as("toml")?,
+        Some(asked) => Written::named(asked)?,
+        None if to_file && !replace::is_stream(&args.output) => Written::to(&args.output)?,
+        None => Written::named("toml")?,
     };
     if to_file {
         let job =
-            |stone: &String| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
+            |stone: &OsString| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
         return Ok((args.files.iter().map(job).collect(), format));
     }
-    let ending = format.extensions.first().copied().unwrap_or(format.name);
-    Ok((plan::into_folder(&args.files, &args.output, ending)?, format))
+    Ok((plan::into_folder(&args.files, &args.output, format.ending())?, format))
 }
 
-fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<Row, Failure> {
-    let file = job.stone.clone();
-    let to_output = job.target == Path::new("-");
-    let (bytes, read) = match stone::open(&job.stone) {
-        Err(FormatError::Unrecognised { .. } | FormatError::TooLarge { .. } | FormatError::Empty { .. })
-            if job.by_chance =>
-        {
-            return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
+fn import(
+    job: &Job,
+    args: &Args,
+    format: Written,
+    outputs: &Outputs,
+    console: &Console,
+) -> Result<Row, Failure> {
+    let file = stones::shown(&job.stone);
+    if job.by_chance {
+        return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
+    }
+    let to_stream = replace::is_stream(&job.target);
+    if !to_stream {
+        outputs.check_inputs(&job.target)?;
+        if console.force {
+            place::tried(&job.target)?;
         }
-        Err(error) => match error.body() {
+    }
+    let (bytes, read) = match stones::open(&job.stone) {
+        Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.body.as_ref()?))) {
             Some((of, body)) => {
                 let scale = args.size.map(|mm| mm / body.width()).or(formats::unit_mm(of));
                 let unit = if scale.is_some() { Unit::Millimetre } else { Unit::Free };
                 let scale = scale.unwrap_or(1.0);
-                let name = stones::file_stem(&job.stone);
+                let name = stones::shown(stones::file_stem(&job.stone));
+                let Written::Format(format) = format else { return Err(failure) };
                 let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
-                let said = error.to_string();
+                let said = failure.message();
                 let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
                 (
                     bytes,
@@ -147,37 +207,33 @@ fn import(job: &Job, args: &Args, format: &Format, console: &Console) -> Result<
                     },
                 )
             }
-            None => return Err(error.into()),
+            None => return Err(failure),
         },
         Ok(imported) => {
-            let imported = standing::stood(imported)?;
             let facets = imported.design.solid()?.faces.len();
             let design = stones::sized(imported.design, args.size)?;
-            let Encoded { bytes, remarks } = formats::encode_as(&design, None, format.name)?;
             let mut warnings = imported.warnings;
-            warnings.extend(remarks);
+            let bytes = match format {
+                Written::Format(format) => {
+                    let Encoded { bytes, remarks } = formats::encode_as(&design, None, format.name)?;
+                    warnings.extend(remarks);
+                    bytes
+                }
+                Written::Drawing(drawing) => drawing.bytes(&design, design.refractive_index, Paper::A4)?,
+            };
             (bytes, Row { format: Some(imported.format), facets: Some(facets), warnings, ..Row::default() })
         }
     };
-    if to_output {
-        console.print_bytes(&bytes)?;
-    } else if args.force {
+    if to_stream || console.force {
         replace::write(&job.target, &bytes)?;
     } else if job.target.symlink_metadata().is_ok() || !replace::create(&job.target, &bytes)? {
         // an import that was interrupted, started again
-        if !holds(&job.target, &bytes) {
+        if !outputs::holds(&job.target, &bytes) {
             return Err(Failure::exists(&file, &job.target));
         }
         return Ok(Row { file, outcome: THERE, ..read });
     }
     Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
-}
-
-/// Whether there is a file at `path` of just these bytes.
-fn holds(path: &Path, bytes: &[u8]) -> bool {
-    let mut there = Vec::new();
-    let read = limits::regular(path).and_then(|f| f.take(bytes.len() as u64 + 1).read_to_end(&mut there));
-    read.is_ok() && there == bytes
 }
 
 /// The rows in columns, then how many had which outcome.

@@ -3,9 +3,14 @@
 use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
+use super::outputs::Outputs;
+use super::plots::{self, Plots};
 use super::tables;
-use crate::study::merge::{self, MergeError, Part};
-use std::path::PathBuf;
+use crate::store::progress::Progress;
+use crate::store::replace;
+use crate::study::merge::{MergeError, Part, Parts};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -13,29 +18,55 @@ Examples:
   cutlab score designs/ --shard 1/2 -o one.csv     on one machine
   cutlab score designs/ --shard 2/2 -o two.csv     on another
   cutlab merge one.csv two.csv -o all.csv          the bytes of: cutlab score designs/ -o all.csv
+  cutlab merge 'part*.csv' -o sweep.csv --plot wlr.svg    and a map, of the parts of a sweep
 
-Each part needs its companion beside it (one.meta.json), which says which part it is.")]
+Each part needs its companion beside it (one.csv.meta.json), which says which part it is. The whole is
+written as its own name says, whatever the parts are.")]
 pub struct Args {
-    /// The tables that --shard made
+    /// The tables that --shard made, and patterns of their names
     #[arg(required = true, value_name = "PART")]
-    parts: Vec<String>,
-    /// Where to write the whole table
+    parts: Vec<OsString>,
+    /// Where to write the whole table: .csv, .jsonl or .ndjson, .json; - is standard output
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
+    /// Draw the curves or the map of the whole table, .svg or .png; a file called METRIC.svg shows that
+    /// metric, of any other name one is drawn for each, NAME-METRIC.svg
+    #[arg(long, value_name = "FILE")]
+    plot: Vec<PathBuf>,
 }
 
 /// Joins the parts.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let parts = folders::matched(&args.parts)?;
-    let parts: Vec<Part> = parts.iter().map(|p| Part::open(p)).collect::<Result<_, _>>()?;
-    let meta = merge::merge(&parts, &args.output)?;
-    console.note(&format!(
-        "wrote {}: {} rows of {} parts",
-        args.output.display(),
-        meta.summary.rows,
-        parts.len()
-    ));
-    Ok(tables::code(&meta.summary))
+    let form = tables::form_of(&args.output, console)?;
+    let tables = folders::parts(&args.parts)?;
+    let mut outputs = Outputs::of(console);
+    tables.iter().for_each(|table| outputs.reads(table));
+    let parts: Vec<Part> = tables.iter().map(|p| Part::open(p)).collect::<Result<_, _>>()?;
+    let count = parts.len();
+    let mut parts = Parts::of(parts)?;
+    let command = parts.meta.command.clone();
+    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta))?;
+    let layout = match plots.is_empty() {
+        true => Default::default(),
+        false => plots::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
+    };
+    plots.claim(&command, &mut outputs)?;
+    let drawn = |parts: &Parts| match plots.is_empty() {
+        true => Ok(Vec::new()),
+        false => plots.draw(&parts.bytes(form)?, form, &layout, &command),
+    };
+    if replace::is_stream(&args.output) {
+        parts.write(form, &args.output)?;
+        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+        return Ok(tables::code(&parts.meta.summary));
+    }
+    let begun = Progress::is_of(&Progress::beside(&args.output), &parts.identity());
+    tables::claim_table(&args.output, &command, None, begun, &mut outputs)?;
+    let mut files = drawn(&parts)?;
+    parts.publish(form, &args.output)?;
+    files.insert(0, args.output.clone());
+    tables::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
+    Ok(tables::code(&parts.meta.summary))
 }
 
 impl From<MergeError> for Failure {

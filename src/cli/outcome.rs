@@ -10,7 +10,7 @@ use crate::solid::recover::RecoverError;
 use crate::store::replace::WriteError;
 pub use crate::store::terminal::printable;
 use std::ffi::OsString;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -90,13 +90,24 @@ impl Failure {
 
     /// A file or folder that could not be read.
     pub fn reading(path: &str, cause: &std::io::Error) -> Failure {
-        Failure::new(Code::Io, format!("cannot read {path}: {cause}"))
+        Failure::new(code_of(cause), format!("cannot read {path}: {cause}"))
     }
 
     /// A file that is there already and was not to be replaced.
     pub fn exists(stone: &str, target: &Path) -> Failure {
         let target = target.display();
         Failure::new(Code::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
+    }
+
+    /// A file that is there already and that another command made.
+    pub fn other_is_there(target: &Path) -> Failure {
+        let target = target.display();
+        Failure::new(
+            Code::Io,
+            format!(
+                "{target} exists and this command did not make it: --force replaces it, -o names another"
+            ),
+        )
     }
 
     /// Standard output could not be written; a reader that went away is no error.
@@ -146,9 +157,17 @@ impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Failure {
         match error {
             FormatError::Write(error) => error.into(),
-            FormatError::Read { .. } => Failure::new(Code::Io, error.to_string()),
+            FormatError::Read { ref cause, .. } => Failure::new(code_of(cause), error.to_string()),
             _ => Failure { shape: shape_of(&error).map(Box::new), ..Failure::input(error.to_string()) },
         }
+    }
+}
+
+/// A name that leads to no file is a wrong argument; a file that is there and cannot be read is not.
+fn code_of(cause: &std::io::Error) -> Code {
+    match cause.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => Code::NoGoodInput,
+        _ => Code::Io,
     }
 }
 
@@ -171,7 +190,7 @@ impl From<MapFileError> for Failure {
     fn from(error: MapFileError) -> Failure {
         match error {
             MapFileError::Write(cause) => cause.into(),
-            MapFileError::Read { .. } => Failure::new(Code::Io, error.to_string()),
+            MapFileError::Read { ref cause, .. } => Failure::new(code_of(cause), error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }
@@ -180,7 +199,7 @@ impl From<MapFileError> for Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Failure {
         match error {
-            SceneError::Read { .. } => Failure::new(Code::Io, error.to_string()),
+            SceneError::Read { ref cause, .. } => Failure::new(code_of(cause), error.to_string()),
             _ => Failure::input(error.to_string()),
         }
     }

@@ -12,6 +12,7 @@ mod target;
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::outputs::Outputs;
 use super::{stones, values};
 use crate::math::typed;
 use crate::photons;
@@ -20,6 +21,7 @@ use crate::render::{self, Curve, Tone};
 use crate::scene::{self, Cast, Pose, SCENES, SceneFile};
 use background::Background;
 use choices::Exposure;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -38,7 +40,7 @@ Examples:
 pub struct Args {
     /// The stones, for the scene's places in order; without them the scene's own
     #[arg(value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     /// What is around it: a name of `cutlab list scenes`, or a TOML file
     #[arg(long, default_value = "table", value_name = "NAME|FILE")]
     scene: String,
@@ -143,6 +145,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(problem) = conflicts::first(args, &target, &file) {
         return Err(Failure::input(problem));
     }
+    let mut outputs = Outputs::beside(&args.stones, console);
+    outputs.reads(Path::new(&args.scene));
+    target.claim(args, &mut outputs)?;
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
     let curve = args.tone.unwrap_or(if scene.camera.flat { Curve::Linear } else { Curve::Filmic });
     let tone = Tone { curve, ..Tone::default() };
@@ -163,7 +168,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 /// pictures of different things have different names.
 fn default_name(args: &Args, file: &SceneFile) -> String {
     let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
-    let stones = args.stones.iter().map(String::as_str).chain(first);
+    let stones = args.stones.iter().map(OsString::as_os_str).chain(first.map(OsStr::new));
     let mut parts: Vec<String> = stones.map(stone_name).collect();
     parts.extend(args.substance.material.map(|m| m.name.to_string()));
     parts.extend(args.substance.ri.map(|n| format!("n{n}")));
@@ -175,12 +180,13 @@ fn default_name(args: &Args, file: &SceneFile) -> String {
 }
 
 /// `round-brilliant:table=60` as `round-brilliant-table60`.
-fn stone_name(spec: &str) -> String {
-    let parameters = if stones::is_cut(spec) { spec.split_once(':').map(|(_, rest)| rest) } else { None };
+fn stone_name(spec: &OsStr) -> String {
+    let text = spec.to_str().filter(|_| stones::is_cut(spec));
+    let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest);
     let given = parameters.unwrap_or_default().split(',').map(str::trim).filter(|p| !p.is_empty());
     let fit = |c: char| if c.is_alphanumeric() || c == '.' || c == '-' { Some(c) } else { None };
     let told = given.map(|p| p.chars().filter_map(fit).collect::<String>());
-    std::iter::once(stones::file_stem(spec)).chain(told).collect::<Vec<_>>().join("-")
+    std::iter::once(stones::shown(stones::file_stem(spec))).chain(told).collect::<Vec<_>>().join("-")
 }
 
 /// A scene of the catalogue, or a file.
@@ -199,15 +205,18 @@ fn scene_file(name: &str) -> Result<SceneFile, Failure> {
 }
 
 fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
-    let mut designs = Vec::new();
+    let (mut designs, mut materials) = (Vec::new(), Vec::new());
     for spec in &args.stones {
         let imported = stones::open(spec)?;
         imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-        let material = args.substance.of(&imported.design);
+        let substance = args.substance.within(spec)?;
+        let material = substance.of(&imported.design);
+        materials.push(substance.asked());
         designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
     }
     Ok(Cast {
         designs,
+        materials,
         material: args.substance.asked(),
         size_mm: args.size,
         pose: args.pose,
@@ -224,11 +233,11 @@ mod tests {
 
     #[test]
     fn names_tell_parameters() {
-        assert_eq!(stone_name("round-brilliant"), "round-brilliant");
+        assert_eq!(stone_name(OsStr::new("round-brilliant")), "round-brilliant");
         assert_eq!(
-            stone_name("round-brilliant:table=60, crown-angle=34.5"),
+            stone_name(OsStr::new("round-brilliant:table=60, crown-angle=34.5")),
             "round-brilliant-table60-crown-angle34.5"
         );
-        assert_eq!(stone_name("designs/my:stone=1.asc"), "my");
+        assert_eq!(stone_name(OsStr::new("designs/my:stone=1.asc")), "my");
     }
 }

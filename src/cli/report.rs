@@ -1,32 +1,40 @@
 //! `cutlab report`: everything about one stone, on one page.
 
 use super::console::Console;
+use super::folders;
+use super::import::plan;
 use super::outcome::{Code, Failure};
+use super::outputs::{Outputs, record};
 use super::stones::{self, DEFAULT_STONE};
 use super::{values, words};
 use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::optics::dispersion::VISIBLE_UM;
-use crate::report::bundle::STEPS;
+use crate::report::bundle::{self, Bundle, STEPS};
 use crate::report::page::number;
 use crate::report::{self, ReportError, Request};
+use crate::store::progress::Progress;
+use crate::study::identity::BUILD;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Example:
+Examples:
   cutlab report tolkowsky -o out       writes into out/
+  cutlab report designs/ -o out        every design of a folder, each into a folder of its own in out/
 
 index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
 the cutting diagram, every score beside five reference stones, scores against the tilt, and for round
 brilliants their place on the map of light return. Beside it stand the pictures (table.png, aset.png,
 ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml.")]
 pub struct Args {
-    /// The stone: a name from `cutlab list cuts`, with parameters or not, or a file
-    #[arg(default_value = DEFAULT_STONE)]
-    stone: String,
+    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
+    /// of several, each has a folder of its own in -o
+    #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
+    stones: Vec<OsString>,
     /// The folder to write into; it is made
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
@@ -50,41 +58,98 @@ struct Summary {
     left_out: BTreeMap<String, &'static str>,
 }
 
-/// Makes the report and writes it.
+/// Makes the reports and writes them.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let imported = stones::open(&args.stone)?;
-    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = args.substance.of(&imported.design);
+    let specs = folders::expanded(&args.stones)?;
+    let folders: Vec<PathBuf> = match &args.stones[..] {
+        [stone] if specs.len() == 1 && specs[0] == *stone => vec![args.output.clone()],
+        _ => plan::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
+    };
+    let mut outputs = Outputs::beside(&specs, console);
     args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
+    // every place is tried before the first report, which takes half a minute
+    for folder in &folders {
+        claim(folder, &mut outputs)?;
+    }
+    let mut results: Vec<Result<Summary, Failure>> = Vec::new();
+    for (stone, folder) in specs.iter().zip(&folders) {
+        let result = one(stone, folder, args, console);
+        if let (Err(failure), true) = (&result, specs.len() > 1) {
+            console.complain(&failure.message());
+        }
+        results.push(result);
+    }
+    if results.len() == 1 {
+        let summary = results.pop().unwrap_or_else(|| Err(Failure::input("no stone")))?;
+        if console.json {
+            console.print_json(&summary)?;
+        }
+        return Ok(Code::Done);
+    }
+    if console.json {
+        console.print_json(&results.iter().flatten().collect::<Vec<_>>())?;
+    }
+    Ok(stones::code(&results))
+}
+
+/// What is kept of a report while its files are written.
+fn identity() -> String {
+    format!("report {} {BUILD}", record::own_command())
+}
+
+/// Takes the places of all files of the report in a folder.
+fn claim(folder: &Path, outputs: &mut Outputs) -> Result<(), Failure> {
+    let page = folder.join("index.html");
+    let begun = Progress::is_of(&Progress::beside(&page), &identity());
+    let is_own = begun || record::is_of(&page, &record::own_command());
+    bundle::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
+}
+
+/// Makes the report of one stone.
+fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<Summary, Failure> {
+    let imported = stones::open(stone)?;
+    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+    let material = args.substance.within(stone)?.of(&imported.design);
     let size = args.size.or((imported.design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
     let design = stones::sized(imported.design, size)?;
     let request =
-        Request { stone: args.stone.clone(), design, material, seed: args.seed, command: words::typed() };
-
+        Request { stone: stones::shown(stone), design, material, seed: args.seed, command: words::typed() };
     let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {
         bar.set_message(what);
         bar.inc(1);
     });
     bar.finish_and_clear();
-    let bundle = bundle?;
-    bundle.write(&args.output)?;
-
-    if console.json {
-        let scores = bundle
-            .sections
-            .iter()
-            .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
-        let every = bundle.sections.iter().flat_map(|s| &s.scores);
-        let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out?)));
-        console.print_json(&Summary {
-            folder: args.output.clone(),
-            files: bundle.files.iter().map(|(name, _)| args.output.join(name)).collect(),
-            scores: scores.collect(),
-            left_out: left_out.collect(),
-        })?;
-        return Ok(Code::Done);
+    let mut bundle = bundle?;
+    for (name, bytes) in &mut bundle.files {
+        if *name == "index.html" {
+            bytes.extend(record::behind(&record::own_command()).bytes());
+        }
     }
+    // what a kill leaves of the files is known as this command's
+    let progress = Progress::beside(&folder.join("index.html"));
+    let progress = Progress::open(&progress, &identity(), &|_| ())?;
+    bundle.write(folder)?;
+    progress.finish()?;
+    if !console.json {
+        console.print(&text(&bundle, folder))?;
+    }
+    let scores = bundle
+        .sections
+        .iter()
+        .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
+    let every = bundle.sections.iter().flat_map(|s| &s.scores);
+    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out?)));
+    Ok(Summary {
+        left_out: left_out.collect(),
+        folder: folder.to_owned(),
+        files: bundle.files.iter().map(|(name, _)| folder.join(name)).collect(),
+        scores: scores.collect(),
+    })
+}
+
+/// The numbers that matter, and the files.
+fn text(bundle: &Bundle, folder: &Path) -> String {
     let mut text = String::new();
     for section in bundle.sections.iter().filter(|s| s.large > 0) {
         text += &format!("{}\n", section.head);
@@ -99,9 +164,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text += &format!("{}: {}", args.output.display(), names.join(", "));
-    console.print(&text)?;
-    Ok(Code::Done)
+    text + &format!("{}: {}", folder.display(), names.join(", "))
 }
 
 impl From<ReportError> for Failure {

@@ -3,97 +3,196 @@
 use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
+use super::outputs::Outputs;
+use super::plots::Plots;
+use super::proportion_columns as proportions;
 use super::scoring::{self, Inputs, Scoring};
-use super::stones::DEFAULT_STONE;
+use super::stones::{self, DEFAULT_STONE};
 use super::tables::{self, Study, Table};
-use super::values;
 use super::words::quoted;
-use crate::math::typed::Unit;
-use crate::study::batch::Line;
+use crate::math::typed::{self, Unit};
+use crate::metrics::Metric;
+use crate::report::plot::{TILT, TILT_AXIS};
+use crate::study::batch::{Line, Order};
+use crate::study::meta::Layout;
 use crate::study::score::Tilt;
 use crate::study::sweep::Steps;
 use crate::study::table::{self, Cell};
+use std::ffi::OsString;
+use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  cutlab score                                       the reference brilliant, CSV to standard output
+  cutlab score                                       the reference brilliant, to be read, or CSV in a pipe
   cutlab score designs/ '*.gem' -o scores.csv        every design of a folder, and what matches
+  cutlab score designs/ --metrics iso,cos --sort iso --top 10 --proportions -o best.csv
   cutlab score tolkowsky --metrics wlr,fire_streak --error 0.001
-  cutlab score tolkowsky --tilt -20:20:5 --tilt-axis 90 -o tilts.jsonl
+  cutlab score D.asc:material=quartz D.asc:material=topaz
+  cutlab score tolkowsky --metrics wlr --tilt -30:30:5 --plot tilt.svg    curves about both axes
   cutlab score designs/ --shard 2/8 -o part2.csv     the second of eight machines; cutlab merge")]
 pub struct Args {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files,
-    /// patterns as 'designs/*.asc'
+    /// patterns as 'designs/*.asc'; each may say its material, as designs/:material=topaz
     #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     #[command(flatten)]
     table: Table,
     #[command(flatten)]
     scoring: Scoring,
+    /// Add columns of each stone's name, proportions and weight
+    #[arg(long)]
+    proportions: bool,
+    /// Sort the rows by a metric, the greatest first; -METRIC the least first
+    #[arg(long, value_name = "METRIC", value_parser = sorted, allow_hyphen_values = true)]
+    sort: Option<Sort>,
+    /// Keep the first N rows of the sorted table
+    #[arg(long, value_name = "N", requires = "sort", value_parser = clap::value_parser!(u64).range(1..))]
+    top: Option<u64>,
     /// Turn the stone before viewer and light, one row a tilt, in degrees
     #[arg(long, value_name = "FROM:TO:STEP", value_parser = tilt, allow_hyphen_values = true)]
     tilt: Option<Steps>,
-    /// Azimuth of the horizontal axis to tilt about, in degrees from +x
+    /// Azimuth of the horizontal axis to tilt about, in degrees from +x; several with commas [0; with
+    /// --plot 0,90]
     #[arg(
         long,
-        value_name = "AZIMUTH",
-        default_value_t = 0.0,
+        value_name = "AZIMUTH,…",
+        value_delimiter = ',',
+        value_parser = azimuth,
         allow_hyphen_values = true,
-        value_parser = values::number(Unit::Degrees),
         requires = "tilt"
     )]
-    tilt_axis: f64,
+    tilt_axis: Vec<f64>,
+    /// Draw the scores against the tilt, a curve for each stone and axis, .svg or .png; a file called
+    /// METRIC.svg shows that metric, of any other name one is drawn for each, NAME-METRIC.svg
+    #[arg(long, value_name = "FILE", requires = "tilt", conflicts_with_all = ["shard", "sort"])]
+    plot: Vec<PathBuf>,
+}
+
+/// What `--sort` asks for.
+#[derive(Debug, Clone, Copy)]
+struct Sort {
+    metric: &'static Metric,
+    ascending: bool,
 }
 
 /// Scores every stone and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
+    args.scoring.notes(false, console);
+    let order = order(args, &plan.metrics)?;
     let specs = folders::expanded(&args.stones)?;
-    scoring::check_output(&args.table.output, specs.iter().map(String::as_str))?;
+    let mut outputs = Outputs::beside(&specs, console);
     let mut command = "cutlab score".to_string();
-    args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(stone)));
+    args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(&stones::shown(stone))));
     command += &args.scoring.words();
     let mut leading = table::STONE_COLUMNS.to_vec();
-    if let Some(tilt) = &args.tilt {
-        command += &format!(" --tilt {tilt} --tilt-axis {}", args.tilt_axis);
-        leading.push("tilt_deg");
+    if args.proportions {
+        command += " --proportions";
+        leading.extend(proportions::COLUMNS);
+    }
+    if let Some(sort) = &args.sort {
+        command += &format!(" --sort {}{}", if sort.ascending { "-" } else { "" }, sort.metric.name);
+        command += &args.top.map_or(String::new(), |n| format!(" --top {n}"));
+    }
+    let axes = match (&args.tilt_axis[..], args.plot.is_empty()) {
+        ([], true) => vec![0.0],
+        ([], false) => vec![0.0, 90.0],
+        (given, _) => given.to_vec(),
+    };
+    let tilts: Vec<Tilt> = args.tilt.map_or_else(Vec::new, |steps| {
+        axes.iter()
+            .flat_map(|&azimuth| steps.values().map(move |degrees| Tilt { degrees, azimuth }))
+            .collect()
+    });
+    if let Some(steps) = &args.tilt {
+        let names: Vec<String> = axes.iter().map(f64::to_string).collect();
+        command += &format!(" --tilt {steps} --tilt-axis {}", names.join(","));
+        leading.push(TILT);
+        leading.extend((axes.len() > 1).then_some(TILT_AXIS));
     }
     let columns = table::columns(&leading, &plan.metrics);
-    let tilts = args.tilt.map_or(1, |t| t.count);
-    let inputs = Inputs::of(&command, specs.iter().map(String::as_str));
+    let each = tilts.len().max(1) as u64;
+    let inputs = Inputs::of(&command, specs.iter().map(OsString::as_os_str));
+    let plots = Plots::of(&args.plot, &plan.metrics)?;
     let study = Study {
         identity: inputs.identity.clone(),
         command,
         plan: &plan,
-        total: specs.len() as u64 * tilts,
+        total: specs.len() as u64 * each,
+        layout: args.tilt.map(|_| layout(&specs, &axes)),
+        order,
         what: "scoring",
         line: &|i, form| {
-            let spec = &specs[(i / tilts) as usize];
-            let tilt = args.tilt.map(|t| Tilt { degrees: t.value(i % tilts), azimuth: args.tilt_axis });
+            let spec = &specs[(i / each) as usize];
+            let tilt = tilts.get((i % each) as usize).copied();
             let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan));
-            scoring::tell(spec, &row, console);
+            scoring::tell(&stones::shown(spec), &row, console);
             let mut leading = table::stone_cells(&row);
+            if args.proportions {
+                leading.extend(proportions::cells(spec, &args.scoring));
+            }
             leading.extend(tilt.map(|t| Cell::number(t.degrees)));
+            leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| Cell::number(t.azimuth)));
+            let sorts = |m: &&'static Metric| args.sort.is_some_and(|s| s.metric.name == m.name);
+            let key = plan.metrics.iter().position(sorts).and_then(|m| row.scores[m]);
             Ok(Line {
                 outcome,
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
+                key: key.map(|e| e.value),
                 text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: tables::complaint(spec, &row),
+                complaint: tables::complaint(&stones::shown(spec), &row),
                 note: row.omissions(),
             })
         },
         columns: columns.clone(),
     };
-    study.run(&args.table, console, None)
+    study.run(&args.table, &plots, &mut outputs, console)
+}
+
+/// The order of the rows, if they are to be sorted.
+fn order(args: &Args, metrics: &[&'static Metric]) -> Result<Option<Order>, Failure> {
+    let Some(sort) = args.sort else { return Ok(None) };
+    let name = sort.metric.name;
+    if !metrics.iter().any(|m| m.name == name) {
+        return Err(Failure::input(format!("--sort {name}: it is not among the --metrics")));
+    }
+    if args.table.shard.of > 1 {
+        return Err(Failure::input("--sort needs the whole table: leave out --shard"));
+    }
+    Ok(Some(Order { ascending: sort.ascending, top: args.top }))
+}
+
+/// What a plot of the tilted stones shows: a curve for each stone and axis.
+fn layout(specs: &[OsString], axes: &[f64]) -> Layout {
+    let alone = match specs {
+        [spec] => stones::shown(spec),
+        _ => String::new(),
+    };
+    let several = [(specs.len() > 1, table::STONE_COLUMNS[0]), (axes.len() > 1, TILT_AXIS)];
+    let curves = several.iter().filter(|(is, _)| *is).map(|(_, column)| column.to_string()).collect();
+    Layout { stone: alone, axes: vec![TILT.into()], curves, scattered: false }
+}
+
+/// Value parser of `--sort`.
+fn sorted(text: &str) -> Result<Sort, String> {
+    let name = text.strip_prefix('-').unwrap_or(text);
+    Ok(Sort { metric: super::scoring::metric(name)?, ascending: text.starts_with('-') })
+}
+
+/// Value parser of `--tilt-axis`.
+fn azimuth(text: &str) -> Result<f64, String> {
+    typed::within(text, Unit::Degrees, -360.0..=360.0, "an azimuth is a number of degrees")
 }
 
 /// Value parser of `--tilt`.
 fn tilt(text: &str) -> Result<Steps, String> {
     let steps = Steps::read(text, Unit::Degrees)?;
-    match steps.from.abs().max(steps.to.abs()) < 90.0 {
+    match steps.from.abs().max(steps.to.abs()) <= MOST_TILT {
         true => Ok(steps),
-        false => Err("a stone can be tilted by less than 90°".into()),
+        false => Err(format!("a stone can be tilted by up to {MOST_TILT}°")),
     }
 }
+
+/// Steeper than this the silhouette of a flat stone has hardly any width left.
+const MOST_TILT: f64 = 89.9;

@@ -13,7 +13,8 @@ use crate::study::batch::Outcome;
 use crate::study::identity::{Held, Identity};
 use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
 use std::sync::Mutex;
 
 #[derive(Debug, Clone, clap::Args)]
@@ -65,11 +66,13 @@ impl Scoring {
 
     /// Says once what of the material asked for is a guess: its index, or the size of stones that
     /// have none.
-    pub fn notes(&self, console: &Console) {
+    ///
+    /// - `sized`: whether all stones have a size
+    pub fn notes(&self, sized: bool, console: &Console) {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
         let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
         self.substance.note_range(from, to, console);
-        if self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
+        if !sized && self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
             let mm = stones::USUAL_SIZE;
             console
                 .note(&format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it"));
@@ -80,7 +83,7 @@ impl Scoring {
     pub fn plan(&self) -> Plan {
         let default = Plan::default();
         Plan {
-            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.metrics.clone() },
+            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.once() },
             effort: self.error.map_or(default.effort, Effort::Error),
             polarised: self.polarisation,
             seed: self.seed,
@@ -88,6 +91,17 @@ impl Scoring {
             observer: self.observer,
             ..default
         }
+    }
+
+    /// The metrics asked for: one that is named again is meant once.
+    fn once(&self) -> Vec<&'static Metric> {
+        let mut metrics: Vec<&'static Metric> = Vec::new();
+        for metric in &self.metrics {
+            if !metrics.iter().any(|m| m.name == metric.name) {
+                metrics.push(metric);
+            }
+        }
+        metrics
     }
 
     /// The options with every setting spelled out, as they could be typed again.
@@ -113,11 +127,12 @@ impl Scoring {
     }
 
     /// What the STONE `spec` is made of, and its shape as large as it is to be.
-    fn shape(&self, spec: &str) -> Result<(Material, Shape), Failure> {
+    fn shape(&self, spec: &OsStr) -> Result<(Material, Shape), Failure> {
+        let substance = self.substance.within(spec)?;
         let failure = match stones::open(spec) {
             Ok(imported) => {
-                standing::note(spec, &imported);
-                let material = self.substance.of(&imported.design);
+                standing::note(&stones::shown(spec), &imported);
+                let material = substance.of(&imported.design);
                 let size = self.size.or(stones::usual_size(&imported.design, &material));
                 let design = stones::sized(imported.design, size)?;
                 return Ok((material, design.solid()?.into()));
@@ -126,25 +141,26 @@ impl Scoring {
         };
         let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
         let body = body.ok_or(failure)?;
-        let material = self.substance.drawn_for(None);
+        let material = substance.drawn_for(None);
         let size = self.size.or((!material.is_clear()).then_some(stones::USUAL_SIZE));
         let scale = size.map_or(1.0, |mm| mm / body.width());
         Ok((material, Shape::Dented(Box::new(body.scaled(scale)))))
     }
 
     /// Scores the STONE `spec`.
-    pub fn score(&self, spec: &str, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
+    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &Plan) -> (Row, Outcome) {
         let opened = self.shape(spec);
-        let known = opened.is_ok() || self.substance.material.is_some() || self.substance.ri.is_some();
+        let substance = self.substance.within(spec).unwrap_or(self.substance);
+        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
         let (material, shape, code) = match opened {
             Ok((material, shape)) => (material, Ok(shape), None),
             Err(failure) => {
-                let of_index = || Material::of_index(self.substance.ri.unwrap_or(1.0));
-                let material = self.substance.material.cloned().unwrap_or_else(of_index);
+                let of_index = || Material::of_index(substance.ri.unwrap_or(1.0));
+                let material = substance.material.cloned().unwrap_or_else(of_index);
                 (material, Err(failure.message()), Some(failure.code()))
             }
         };
-        let mut row = score(&Subject { stone: spec.into(), material, shape, tilt }, plan);
+        let mut row = score(&Subject { stone: stones::shown(spec), material, shape, tilt }, plan);
         if !known {
             row.material.clear();
         }
@@ -173,24 +189,24 @@ pub struct Inputs {
     /// In one word.
     pub identity: String,
     /// The stones that are files, with what they held when the table was begun.
-    files: BTreeMap<String, Held>,
+    files: BTreeMap<OsString, (PathBuf, Held)>,
 }
 
 impl Inputs {
     /// Those of a table of these stones.
     ///
     /// - `command`: with every setting spelled out
-    pub fn of<'a>(command: &str, stones: impl Iterator<Item = &'a str>) -> Inputs {
+    pub fn of<'a>(command: &str, stones: impl Iterator<Item = &'a OsStr>) -> Inputs {
         let (mut identity, mut files) = (Identity::of(command), BTreeMap::new());
         for stone in stones {
-            identity.add(stone);
+            identity.add(stone.as_encoded_bytes());
             if stone == STANDARD_INPUT {
                 identity.add_file(&Held::by_standard_input());
             }
             if let Some(file) = folders::file_of(stone) {
-                let held = Held::by(file);
+                let held = Held::by(&file);
                 identity.add_file(&held);
-                files.insert(stone.to_owned(), held);
+                files.insert(stone.to_owned(), (file, held));
             }
         }
         Inputs { identity: identity.hex(), files }
@@ -198,10 +214,10 @@ impl Inputs {
 
     /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
     /// one of this table.
-    pub fn checked(&self, stone: &str, scored: (Row, Outcome)) -> (Row, Outcome) {
+    pub fn checked(&self, stone: &OsStr, scored: (Row, Outcome)) -> (Row, Outcome) {
         let (mut row, outcome) = scored;
-        let Some(held) = self.files.get(stone) else { return (row, outcome) };
-        let now = Held::by(Path::new(stone));
+        let Some((file, held)) = self.files.get(stone) else { return (row, outcome) };
+        let now = Held::by(file);
         let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
         if now == *held || read_in_time {
             return (row, outcome);
@@ -217,17 +233,8 @@ impl Inputs {
     }
 }
 
-/// Refuses an output that is one of the inputs.
-pub fn check_output<'a>(output: &Path, mut stones: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
-    let same = |stone: &str| stone != STANDARD_INPUT && Path::new(stone) == output;
-    match stones.find(|s| same(s)) {
-        Some(stone) => Err(Failure::input(format!("{stone} is an input: write to another file"))),
-        None => Ok(()),
-    }
-}
-
 /// Value parser of `--metrics`.
-fn metric(name: &str) -> Result<&'static Metric, String> {
+pub fn metric(name: &str) -> Result<&'static Metric, String> {
     Metric::named(name).ok_or_else(|| {
         let near = typed::nearest(name, METRICS.iter().map(|m| m.name));
         let name = name.trim();
@@ -235,12 +242,15 @@ fn metric(name: &str) -> Result<&'static Metric, String> {
     })
 }
 
+/// Tables have nine decimals.
+const LEAST_ERROR: f64 = 1e-9;
+
 /// Value parser of `--error`.
 fn error(text: &str) -> Result<f64, String> {
     match typed::number(text, Unit::None) {
-        Ok(e) if e > 0.0 => Ok(e),
+        Ok(e) if (LEAST_ERROR..=1e3).contains(&e) => Ok(e),
         Ok(_) | Err(NumberError::No | NumberError::Infinite) => {
-            Err("a standard error is a number above 0".into())
+            Err(format!("a standard error is a number from {LEAST_ERROR} to 1000"))
         }
         Err(error) => Err(error.to_string()),
     }

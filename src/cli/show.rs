@@ -6,7 +6,9 @@ mod tiers;
 
 use super::console::Console;
 use super::drawing::{self, Drawing};
+use super::folders;
 use super::outcome::{Code, Failure, Shape};
+use super::outputs::Outputs;
 use super::stones;
 use super::weight::{self, Weight};
 use crate::cut::Unit;
@@ -23,15 +25,16 @@ use measured::Measured;
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tiers::TierRow;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Stones: names from `cutlab list cuts`, with parameters or not, or files
+    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns
     #[arg(required = true, value_name = "STONE")]
-    stones: Vec<String>,
+    stones: Vec<OsString>,
     /// Girdle width in millimetres, for volume in mm³ and weight
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
@@ -142,23 +145,32 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let is_stdout = |path: &&PathBuf| replace::is_stdout(path);
+    if [&args.beams, &args.diagram].into_iter().flatten().filter(is_stdout).count() > 1 {
+        return Err(Failure::input(
+            "one drawing at a time goes to standard output: name a file for the other",
+        ));
+    }
+    let stones = folders::expanded(&args.stones)?;
+    let mut outputs = Outputs::beside(&stones, console);
     for (path, draw) in [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)] {
         let Some(path) = path else { continue };
-        draw(args, path, console)?;
-        if path == Path::new("-") {
+        draw(args, path, &mut outputs, console)?;
+        if replace::is_stdout(path) {
             return Ok(Code::Done); // standard output is the drawing
         }
     }
-    let results = stones::each(&args.stones, console, "reading", |spec| match sheet(spec, args) {
+    let results = stones::each(&stones, console, "reading", |spec| match sheet(spec, args) {
         Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
-        Err(failure) => MeshSheet::of(spec, &failure).map(Shown::Mesh).ok_or(failure),
+        Err(failure) => MeshSheet::of(&stones::shown(spec), &failure).map(Shown::Mesh).ok_or(failure),
     });
-    let pairs = args.stones.iter().zip(&results);
+    let names = stones.iter().map(stones::shown);
+    let pairs = names.zip(&results);
     if console.json {
         let entries: Vec<Entry> = pairs
             .map(|(file, result)| match result {
                 Ok(sheet) => Entry::Good(sheet),
-                Err(failure) => Entry::Bad(Bad::of(file, failure)),
+                Err(failure) => Entry::Bad(Bad::of(&file, failure)),
             })
             .collect();
         console.print_json(&entries)?;
@@ -182,10 +194,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// Draws something of the only stone into a file.
-type Draw = fn(&Args, &Path, &Console) -> Result<(), Failure>;
+type Draw = fn(&Args, &Path, &mut Outputs, &Console) -> Result<(), Failure>;
 
 /// The only stone, for what draws one.
-fn only<'a>(args: &'a Args, option: &str) -> Result<&'a str, Failure> {
+fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
     match &args.stones[..] {
         [spec] => Ok(spec),
         _ => Err(Failure::input(format!("{option} draws one stone: name one"))),
@@ -193,52 +205,53 @@ fn only<'a>(args: &'a Args, option: &str) -> Result<&'a str, Failure> {
 }
 
 /// Draws the cutting diagram of the only stone.
-fn draw_diagram(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+fn draw_diagram(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
     let spec = only(args, "--diagram")?;
-    let drawing = match path == Path::new("-") {
+    let drawing = match replace::is_stream(path) {
         true => Drawing::Svg,
         false => Drawing::of(path).ok_or_else(|| {
             Failure::input(format!("{}: --diagram draws .svg, .pdf or .png", path.display()))
         })?,
     };
     let design = stones::open(spec)?.design;
-    let substance = &args.substance;
+    let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    replace::write(path, &drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?)?;
+    outputs.write(path, &drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?)?;
     console.note(&format!("wrote {}", path.display()));
     Ok(())
 }
 
 /// Draws the virtual facets of the only stone.
-fn draw_beams(args: &Args, path: &Path, console: &Console) -> Result<(), Failure> {
+fn draw_beams(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
     let spec = only(args, "--beams")?;
-    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && path != Path::new("-") {
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !replace::is_stream(path) {
         return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
     }
     let design = stones::open(spec)?.design;
-    let index = args.substance.of(&design).index_d();
-    let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let index = args.substance.within(spec)?.of(&design).index_d();
+    let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
-    replace::write(path, pattern.svg.as_bytes())?;
+    outputs.write(path, pattern.svg.as_bytes())?;
     console.note(&format!("{}: {} virtual facets", path.display(), pattern.polygons));
     Ok(())
 }
 
-fn sheet(spec: &str, args: &Args) -> Result<Sheet, Failure> {
+fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
     let imported = stones::open(spec)?;
     let design = imported.design;
-    let material = args.substance.of(&design);
+    let substance = args.substance.within(spec)?;
+    let material = substance.of(&design);
     let index = material.index_d();
-    let solid = design.solid().map_err(|e| Failure::input(format!("{spec}: {e}")))?;
+    let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let p = proportions::measure(&solid);
     let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
-    let weight = Weight::of(&args.substance, &design);
+    let weight = Weight::of(&substance, &design);
     let size = match args.carat {
         Some(carats) => Some(weight.width_mm(&design, carats)?),
         None => args.size,
     };
     Ok(Sheet {
-        file: spec.into(),
+        file: stones::shown(spec),
         format: imported.format.to_string(),
         name: design.name.clone(),
         facets: p.facets,

@@ -10,13 +10,123 @@ use crate::math::typed;
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
 use rayon::prelude::*;
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
 
 /// The stone that every command takes when none is named.
 pub const DEFAULT_STONE: &str = "round-brilliant";
 
-/// Opens one STONE; that of a file stands as `--up` or `--align` has it.
-pub fn open(spec: &str) -> Result<Imported, Failure> {
-    standing::stood(stone::open(spec)?)
+/// A STONE as it is named: a cut or a file, and what it is of, if it says so itself
+/// (`D.asc:material=topaz`, `oval:table=57,ri=2.2`).
+#[derive(Debug, Clone)]
+pub struct Spec {
+    base: OsString,
+    /// The items that say what it is of, as written.
+    own: Vec<String>,
+    substance: Substance,
+}
+
+impl Spec {
+    /// The parts of a STONE. The name of a file that is there is taken as it is, whatever it holds.
+    pub fn of(argument: impl AsRef<OsStr>) -> Result<Spec, Failure> {
+        let argument = argument.as_ref();
+        let mut spec = Spec { base: argument.into(), own: Vec::new(), substance: Substance::default() };
+        if Path::new(argument).symlink_metadata().is_ok() {
+            return Ok(spec);
+        }
+        let is_own = |item: &&str| {
+            let key = item.split('=').next().unwrap_or_default().trim();
+            item.contains('=') && (key == MATERIAL || key == INDEX)
+        };
+        let Some((name, items)) = parted(argument) else { return Ok(spec) };
+        let (own, rest): (Vec<&str>, Vec<&str>) = items.split(',').partition(is_own);
+        if own.is_empty() || (!rest.is_empty() && !is_cut(&name)) {
+            return Ok(spec);
+        }
+        for item in &own {
+            let (key, value) = item.split_once('=').unwrap_or_default();
+            let given_twice = || Failure::input(format!("{}: one material or index", shown(argument)));
+            if spec.substance.material.is_some() || spec.substance.ri.is_some() {
+                return Err(given_twice());
+            }
+            let wrong = |why: String| Failure::input(format!("{}: {why}", shown(argument)));
+            match key.trim() {
+                MATERIAL => spec.substance.material = Some(material(value.trim()).map_err(wrong)?),
+                _ => spec.substance.ri = Some(refractive_index(value.trim()).map_err(wrong)?),
+            }
+        }
+        spec.own = own.iter().map(|item| item.trim().to_owned()).collect();
+        spec.base = name;
+        if !rest.is_empty() {
+            spec.base.push(":");
+            spec.base.push(rest.join(","));
+        }
+        Ok(spec)
+    }
+
+    /// The cut or file, without what it is of.
+    pub fn base(&self) -> &OsStr {
+        &self.base
+    }
+
+    /// Another file of the same.
+    pub fn applied_to(&self, mut file: OsString) -> OsString {
+        if !self.own.is_empty() {
+            file.push(":");
+            file.push(self.own.join(","));
+        }
+        file
+    }
+}
+
+const MATERIAL: &str = "material";
+const INDEX: &str = "ri";
+
+/// What stands before and after the colon of a STONE: the first of a cut's, the last of a file's.
+fn parted(argument: &OsStr) -> Option<(OsString, &str)> {
+    if let Some(text) = argument.to_str() {
+        let at = if is_cut(text) { text.find(':') } else { text.rfind(':') }?;
+        return Some((text[..at].into(), &text[at + 1..]));
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        let bytes = argument.as_bytes();
+        let at = bytes.iter().rposition(|b| *b == b':')?;
+        Some((OsStr::from_bytes(&bytes[..at]).into(), std::str::from_utf8(&bytes[at + 1..]).ok()?))
+    }
+    #[cfg(not(unix))]
+    None
+}
+
+/// A STONE, or another file name, as tables and messages show it: bytes that are not UTF-8 are
+/// written `\xff`, so that two names never look alike.
+pub fn shown(name: impl AsRef<OsStr>) -> String {
+    let mut text = String::new();
+    for chunk in name.as_ref().as_encoded_bytes().utf8_chunks() {
+        text += chunk.valid();
+        chunk.invalid().iter().for_each(|byte| text += &format!("\\x{byte:02x}"));
+    }
+    text
+}
+
+/// Opens one STONE; that of a file stands as `--up` or `--align` has it. A material or index that it names
+/// itself is what its design is drawn for.
+pub fn open(argument: impl AsRef<OsStr>) -> Result<Imported, Failure> {
+    let spec = Spec::of(argument)?;
+    let path = Path::new(spec.base());
+    if !is_cut(spec.base()) && path.is_dir() {
+        let name = shown(path);
+        std::fs::read_dir(path).map_err(|cause| Failure::reading(&name, &cause))?;
+        return Err(Failure::input(format!(
+            "{name} is a folder, and here one stone is named: name a file in it"
+        )));
+    }
+    let mut imported = standing::stood(stone::open(spec.base())?)?;
+    if let Some(material) = spec.substance.asked() {
+        imported.design.refractive_index = Some(material.index_d());
+    }
+    Ok(imported)
 }
 
 /// Does `work` for every stone, in parallel; results in the order of `specs`. A stone that fails
@@ -52,8 +162,8 @@ pub fn code<T>(results: &[Result<T, Failure>]) -> Code {
 }
 
 /// Whether STONE names a cut of the library or a family, with parameters or not.
-pub fn is_cut(spec: &str) -> bool {
-    stone::cut_name(spec).is_some()
+pub fn is_cut(spec: impl AsRef<OsStr>) -> bool {
+    spec.as_ref().to_str().is_some_and(|spec| stone::cut_name(spec).is_some())
 }
 
 /// The family that STONE is made by; none for a file and for a cut of fixed tiers.
@@ -91,7 +201,7 @@ pub fn refractive_index(text: &str) -> Result<f64, String> {
 }
 
 /// What a stone is made of, as asked for on the command line.
-#[derive(Debug, Clone, Copy, clap::Args)]
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct Substance {
     /// Material, see `cutlab list materials` [the file's own index, or diamond]
     #[arg(long, value_name = "NAME", value_parser = material)]
@@ -102,6 +212,12 @@ pub struct Substance {
 }
 
 impl Substance {
+    /// What the STONE `argument` is made of: by its own words, else as asked for here.
+    pub fn within(&self, argument: impl AsRef<OsStr>) -> Result<Substance, Failure> {
+        let own = Spec::of(argument)?.substance;
+        Ok(if own.material.is_some() || own.ri.is_some() { own } else { *self })
+    }
+
     /// Says once if the index of the material asked for is a guess within `from`..=`to` (µm).
     pub fn note_range(&self, from: f64, to: f64, console: &Console) {
         if let Some(guess) = self.material.and_then(|m| m.extrapolated(from, to)) {
@@ -163,8 +279,58 @@ pub fn sized(design: Design, size: Option<f64>) -> Result<Design, Failure> {
 }
 
 /// A file name for a stone: the cut's name, or the file's without folder and ending.
-pub fn file_stem(spec: &str) -> String {
-    let name = spec.split(':').next().unwrap_or(spec);
-    let stem = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    if stem.is_empty() || spec == stone::STANDARD_INPUT { "stone".into() } else { stem.into_owned() }
+pub fn file_stem(argument: impl AsRef<OsStr>) -> OsString {
+    let argument = argument.as_ref();
+    let base = Spec::of(argument).map_or_else(|_| argument.to_owned(), |spec| spec.base);
+    let name = match base.to_str() {
+        Some(text) if is_cut(text) => text.split(':').next().unwrap_or_default().into(),
+        _ => base,
+    };
+    let stem = Path::new(&name).file_stem().unwrap_or_default();
+    let none = stem.is_empty() || argument == stone::STANDARD_INPUT;
+    if none { "stone".into() } else { stem.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parts(argument: &str) -> (String, Option<&'static str>, Option<f64>) {
+        let spec = Spec::of(argument).expect("a stone");
+        (shown(spec.base()), spec.substance.material.map(|m| m.name.as_ref()), spec.substance.ri)
+    }
+
+    #[test]
+    fn a_stone_says_what_it_is_of() {
+        for (argument, base, material, ri) in [
+            ("D.asc:material=topaz", "D.asc", Some("topaz"), None),
+            ("C:/x y/D.asc: material = topaz ", "C:/x y/D.asc", Some("topaz"), None),
+            ("D.asc:ri=1.62", "D.asc", None, Some(1.62)),
+            ("oval:material=ruby", "oval", Some("ruby"), None),
+            ("oval:table=57,ri=2,star=50", "oval:table=57,star=50", None, Some(2.0)),
+            ("oval:table=57", "oval:table=57", None, None),
+            ("D.asc:table=57", "D.asc:table=57", None, None),
+            ("D.asc:table=57,material=ruby", "D.asc:table=57,material=ruby", None, None),
+            ("D.asc", "D.asc", None, None),
+        ] {
+            assert_eq!(parts(argument), (base.into(), material, ri), "{argument}");
+        }
+        for wrong in ["D.asc:material=kryptonite", "D.asc:ri=0.5", "oval:material=ruby,ri=2"] {
+            assert!(Spec::of(wrong).is_err_and(|e| e.message().starts_with(wrong)), "{wrong}");
+        }
+        assert_eq!(file_stem("x/D.v2.asc:material=topaz"), "D.v2");
+        assert_eq!(file_stem("oval:table=57,material=topaz"), "oval");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_not_utf8_stay_apart() {
+        use std::os::unix::ffi::OsStrExt;
+        let [a, b] = [&b"a\xff.asc:material=topaz"[..], b"a\xfe.asc:material=topaz"].map(OsStr::from_bytes);
+        let spec = Spec::of(a).expect("a stone");
+        assert_eq!(spec.base().as_bytes(), b"a\xff.asc");
+        assert_eq!(spec.applied_to(spec.base().to_owned()), a);
+        assert_eq!(shown(a), "a\\xff.asc:material=topaz");
+        assert_ne!(shown(a), shown(b));
+    }
 }

@@ -2,19 +2,21 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::outputs::Outputs;
 use super::parameters::Parameters;
+use super::plots::Plots;
 use super::scoring::{self, Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
 use crate::math::typed;
-use crate::report::plot::{self, Axis};
-use crate::report::raster;
 use crate::store::replace;
 use crate::study::batch::Line;
+use crate::study::meta::Layout;
 use crate::study::sweep::{MOST_SCATTERED, Sweep, Varied};
-use crate::study::table::{self, Cell, Form};
-use std::path::{Path, PathBuf};
+use crate::study::table::{self, Cell};
+use std::ffi::OsStr;
+use std::path::PathBuf;
 
 /// Keys that every stone has.
 const SIZE: &str = "size";
@@ -58,7 +60,7 @@ fn scattered(text: &str) -> Result<u64, String> {
 /// Scores every point and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
+    args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE), console);
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
     let mut command = format!("cutlab sweep {}", quoted(&args.stone));
@@ -73,23 +75,34 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
     let total = sweep.count().ok_or_else(|| Failure::input("the grid has too many points to count"))?;
-    let inputs = Inputs::of(&command, [args.stone.as_str()].into_iter());
+    let plots = Plots::of(&args.plot, &plan.metrics)?;
+    let layout = Layout {
+        stone: args.stone.clone(),
+        axes: sweep.varied.iter().map(|v| v.key.clone()).collect(),
+        curves: Vec::new(),
+        scattered: sweep.scatter.is_some(),
+    };
+    let inputs = Inputs::of(&command, [OsStr::new(&args.stone)].into_iter());
     let study = Study {
         identity: inputs.identity.clone(),
         command,
         plan: &plan,
         total,
+        layout: Some(layout),
+        order: None,
         what: "sweeping",
         line: &|i, form| {
             let point = sweep.point(i);
             let (spec, scoring) = at(args, &point);
-            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
+            let (row, outcome) =
+                inputs.checked(args.stone.as_ref(), scoring.score(spec.as_ref(), None, &plan));
             scoring::tell(&spec, &row, console);
             let mut leading: Vec<Cell> = point.iter().map(|x| Cell::number(*x)).collect();
             leading.push(row.facets.into());
             Ok(Line {
                 outcome,
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
+                key: None,
                 text: form.row(&columns, &table::cells(leading, &row))?,
                 complaint: tables::complaint(&spec, &row),
                 note: row.omissions(),
@@ -97,8 +110,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         },
         columns: columns.clone(),
     };
-    let draw = |bytes: &[u8], form: Form| plots(args, &sweep, &plan.metrics, bytes, form);
-    study.run(&args.table, console, if args.plot.is_empty() { None } else { Some(&draw) })
+    study.run(&args.table, &plots, &mut Outputs::beside([&args.stone], console), console)
 }
 
 /// The stone at a point, and how to score it.
@@ -146,8 +158,13 @@ fn check(args: &Args) -> Result<(), Failure> {
         {
             return Err(Failure::input("--vary ri does not go with --material and --ri"));
         }
-        if key == INDEX && !(1.0..=10.0).contains(&from.min(to)) {
-            return Err(Failure::input("a refractive index is a number from 1 to 10"));
+        let (low, high, what) = match key {
+            INDEX => (1.0, 10.0, "a refractive index is a number from 1 to 10"),
+            SIZE => (1e-3, 1e3, "a girdle width is a number of millimetres from 0.001 to 1000"),
+            _ => continue,
+        };
+        if !(low..=high).contains(&from.min(to)) || from.max(to) > high {
+            return Err(Failure::input(format!("--vary {key}={}: {what}", varied.steps)));
         }
     }
     if args.scatter.is_some() && args.vary.len() > MOST_SCATTERED {
@@ -163,51 +180,5 @@ fn check(args: &Args) -> Result<(), Failure> {
     if args.table.shard.of > 1 || replace::is_stream(&args.table.output) {
         return Err(Failure::input("--plot needs the whole table in a file: give -o FILE, without --shard"));
     }
-    match args.plot.iter().find(|p| picture(p).is_none()) {
-        Some(p) => Err(Failure::input(format!("{}: plots are .svg or .png", p.display()))),
-        None => Ok(()),
-    }
-}
-
-/// `svg` or `png`, by the file's ending.
-fn picture(path: &Path) -> Option<&'static str> {
-    let ending = path.extension()?.to_string_lossy().to_lowercase();
-    ["svg", "png"].into_iter().find(|e| *e == ending)
-}
-
-/// Draws the plots asked for; their files.
-fn plots(
-    args: &Args,
-    sweep: &Sweep,
-    metrics: &[&'static crate::metrics::Metric],
-    bytes: &[u8],
-    form: Form,
-) -> Result<Vec<PathBuf>, Failure> {
-    let family = stones::family(&args.stone);
-    let axes: Vec<Axis> = sweep.varied.iter().map(|v| Axis::of(&v.key, family)).collect();
-    let mut written = Vec::new();
-    for path in &args.plot {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let own: Vec<_> = metrics.iter().filter(|m| m.name == stem).collect();
-        let all = own.is_empty() && metrics.len() > 1;
-        let wanted = if own.is_empty() { metrics.iter().collect() } else { own };
-        for metric in wanted {
-            let drawing = plot::Drawing { metric, axes: &axes, stone: &args.stone, family, own: None };
-            let svg = drawing.svg(&table::Numbers::read(bytes, form)?, sweep.scatter.is_some());
-            let ending = picture(path).unwrap_or("svg");
-            let target = if all {
-                path.with_file_name(format!("{stem}-{}.{ending}", metric.name))
-            } else {
-                path.clone()
-            };
-            if ending == "svg" {
-                replace::write(&target, svg.as_bytes())?;
-            } else {
-                let png = raster::png(&svg, plot::PIXELS).map_err(|e| Failure::input(e.to_string()))?;
-                replace::write(&target, &png)?;
-            }
-            written.push(target);
-        }
-    }
-    Ok(written)
+    Ok(())
 }

@@ -2,28 +2,54 @@
 
 use super::console::Console;
 use super::outcome::{self, Code, Failure};
+use super::outputs::Outputs;
+use super::plots::Plots;
+use super::readable;
 use crate::store::progress::Remark;
 use crate::store::replace;
-use crate::study::batch::{Batch, BatchError, Event, Line, Summary};
-use crate::study::meta::Meta;
+use crate::study::batch::{Batch, BatchError, Event, Line, Order, Summary};
+use crate::study::identity::BUILD;
+use crate::study::merge::Part;
+use crate::study::meta::{Layout, Meta};
 use crate::study::score::{Plan, Row};
 use crate::study::shard::Shard;
-use crate::study::table::{Form, TableError};
+use crate::study::table::{Form, Numbers, TableError};
+use indicatif::ProgressBar;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// The options of a table.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Table {
     /// Where to write the table: .csv, .jsonl or .ndjson, .json; - is standard output. Beside
-    /// NAME.csv goes NAME.meta.json with what the columns mean. Interrupted and started again with
+    /// NAME.csv goes NAME.csv.meta.json with what the columns mean. Interrupted and started again with
     /// the same command it goes on where it was
     #[arg(long, short, value_name = "FILE", default_value = "-")]
     pub output: PathBuf,
     /// Make the I-th of N interleaved parts; `cutlab merge` joins them
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub shard: Shard,
+}
+
+impl Table {
+    /// How the table is written: by its name's ending; on a stream as CSV, or JSON if that is asked for.
+    pub fn form(&self, console: &Console) -> Result<Form, Failure> {
+        form_of(&self.output, console)
+    }
+}
+
+/// How a table at `output` is written.
+pub fn form_of(output: &Path, console: &Console) -> Result<Form, Failure> {
+    let stream = replace::is_stream(output);
+    match stream && console.json {
+        true => Ok(Form::Json),
+        // a device's or an open file's name has no ending that means anything
+        false if stream => Ok(Form::of(output).unwrap_or(Form::Csv)),
+        false => Ok(Form::of(output)?),
+    }
 }
 
 /// A table to be made.
@@ -38,31 +64,40 @@ pub struct Study<'a> {
     pub columns: Vec<String>,
     /// Rows of the whole table.
     pub total: u64,
+    /// What its scores can be drawn against.
+    pub layout: Option<Layout>,
+    /// How its rows are sorted, if they are.
+    pub order: Option<Order>,
     /// Word for the progress bar.
     pub what: &'static str,
     /// Makes a row.
     pub line: &'a (dyn Fn(u64, Form) -> Result<Line, TableError> + Sync),
 }
 
-/// Draws what belongs to a finished table, of the bytes given, and names the files it wrote.
-pub type Plot<'a> = &'a dyn Fn(&[u8], Form) -> Result<Vec<PathBuf>, Failure>;
-
 impl Study<'_> {
-    /// Makes the table and writes it.
+    /// Makes the table and writes it, with its plots.
     ///
-    /// - `plot`: called with the table's bytes when all rows are there, before it is put in place;
-    ///   it may write more files and give their names
-    pub fn run(&self, table: &Table, console: &Console, plot: Option<Plot>) -> Result<Code, Failure> {
-        let stream = replace::is_stream(&table.output);
-        let form = if stream && console.json { Form::Json } else { Form::of(&table.output)? };
+    /// - `outputs`: of the command
+    ///
+    /// A table that is there already, whole and of just this study, is not made again.
+    pub fn run(
+        &self,
+        table: &Table,
+        plots: &Plots,
+        outputs: &mut Outputs,
+        console: &Console,
+    ) -> Result<Code, Failure> {
+        let output = &table.output;
+        let form = table.form(console)?;
+        plots.claim(&self.command, outputs)?;
         let bar = console.progress(0, self.what);
         let noted = Mutex::new(BTreeSet::new());
+        let waited = AtomicBool::new(false);
         let tell = |event: Event| match event {
             Event::Remark(Remark::Waiting) => bar.suspend(|| {
-                console.note(&format!(
-                    "another cutlab is making {}: waiting for it to end",
-                    table.output.display()
-                ));
+                waited.store(true, Ordering::Relaxed);
+                let output = output.display();
+                console.note(&format!("another cutlab is making {output}: waiting for it to end"));
             }),
             Event::Remark(Remark::SetAside(path, why)) => bar.suspend(|| {
                 console.note(&format!("progress not used, {why}; it is now {}", path.display()));
@@ -93,41 +128,116 @@ impl Study<'_> {
             shard: table.shard,
             form,
             columns: &self.columns,
+            order: self.order,
             line: &|i| (self.line)(i, form),
             tell: &tell,
         };
-        if stream {
-            let summary = batch.write(&table.output)?;
-            bar.finish_and_clear();
-            return Ok(code(&summary));
+        if replace::is_stream(output) {
+            return self.stream(&batch, output, plots, console, &bar);
+        }
+        let begun = batch.is_begun(output);
+        self.claim(table, begun, outputs)?;
+        if let Some(part) = self.already(table, begun, console) {
+            return self.reused(&part, plots, console);
         }
         outcome::goes_on();
-        let mut finished = batch.finish(&table.output)?;
+        let progress = batch.begin(output)?;
+        if waited.load(Ordering::Relaxed) {
+            // the other process may have put a table there, its own or this one
+            let claimed = self.claim(table, false, &mut Outputs::of(console));
+            let part = self.already(table, false, console);
+            if claimed.is_err() || part.is_some() {
+                progress.finish()?;
+                claimed?;
+                return part.map_or(Ok(Code::Done), |part| self.reused(&part, plots, console));
+            }
+        }
+        let mut finished = batch.finish(progress, output)?;
         bar.finish_and_clear();
-        let mut written = match plot {
-            Some(plot) => plot(&finished.bytes()?, form)?,
-            None => Vec::new(),
-        };
+        let mut written = self.draw(plots, || Ok(finished.bytes()?), form)?;
         let meta = self.meta(table.shard, &finished.summary, finished.crc32);
         let bytes = meta.bytes().map_err(|e| Failure::input(e.to_string()))?;
-        replace::write(&Meta::beside(&table.output), &bytes)?;
+        replace::write(&Meta::beside(output), &bytes)?;
         let summary = finished.summary.clone();
-        finished.publish(&table.output)?; // last: where the table is, all is
-        written.insert(0, table.output.clone());
-        let names: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
-        let failed = if summary.failed > 0 { format!(", {} failed", summary.failed) } else { String::new() };
-        console.note(&format!("wrote {}: {} rows{failed}", names.join(", "), summary.rows));
+        finished.publish(output)?; // last: where the table is, all is
+        written.insert(0, output.clone());
+        tell_written(&written, &summary, "", console)?;
         Ok(code(&summary))
+    }
+
+    /// Writes the table to a stream; to a terminal so that it can be read.
+    fn stream(
+        &self,
+        batch: &Batch,
+        output: &Path,
+        plots: &Plots,
+        console: &Console,
+        bar: &ProgressBar,
+    ) -> Result<Code, Failure> {
+        let to_read = replace::is_stdout(output) && std::io::stdout().is_terminal() && !console.json;
+        let out = if to_read { Box::new(std::io::sink()) } else { replace::open_stream(output)? };
+        let mut copied = Copied { out, copy: (to_read || !plots.is_empty()).then(Vec::new) };
+        let summary = batch.write(&mut copied, output)?;
+        bar.finish_and_clear();
+        let bytes = copied.copy.unwrap_or_default();
+        if to_read {
+            let table = Numbers::read(&bytes, batch.form)?;
+            console.print(&readable::text(&self.columns, &table, &self.plan.metrics))?;
+        }
+        let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
+        drawn.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+        Ok(code(&summary))
+    }
+
+    fn draw(
+        &self,
+        plots: &Plots,
+        bytes: impl FnOnce() -> Result<Vec<u8>, Failure>,
+        form: Form,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        match &self.layout {
+            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, layout, &self.command),
+            _ => Ok(Vec::new()),
+        }
+    }
+
+    /// The table that is there already, if it is whole and of just this study.
+    fn already(&self, table: &Table, begun: bool, console: &Console) -> Option<Part> {
+        let part = Part::open(&table.output).ok().filter(|_| !begun && !console.force)?;
+        let is_same = part.meta.study == self.identity && part.meta.shard == self.shard_of(table);
+        is_same.then_some(part)
+    }
+
+    /// What is still to be done for a table that is there already.
+    fn reused(&self, part: &Part, plots: &Plots, console: &Console) -> Result<Code, Failure> {
+        let mut files = self.draw(plots, || Ok(part.bytes()?), part.form)?;
+        console.note(&format!("{} is there already: its rows are used again", part.table.display()));
+        files.insert(0, part.table.clone());
+        tell_written(&files, &part.meta.summary, "", console)?;
+        Ok(code(&part.meta.summary))
+    }
+
+    fn shard_of(&self, table: &Table) -> Option<Shard> {
+        (table.shard != Shard::WHOLE).then_some(table.shard)
+    }
+
+    /// Takes the places of the table and its companion.
+    ///
+    /// - `begun`: whether an earlier start of the same command left its progress there
+    fn claim(&self, table: &Table, begun: bool, outputs: &mut Outputs) -> Result<(), Failure> {
+        claim_table(&table.output, &self.command, self.shard_of(table), begun, outputs)
     }
 
     fn meta(&self, shard: Shard, summary: &Summary, crc32: u32) -> Meta {
         Meta {
             program: "cutlab".into(),
             version: env!("CARGO_PKG_VERSION").into(),
+            build: BUILD.into(),
             command: self.command.clone(),
             seed: self.plan.seed,
             study: self.identity.clone(),
             columns: self.columns.clone(),
+            layout: self.layout.clone(),
             total: self.total,
             shard: (shard != Shard::WHOLE).then_some(shard),
             summary: summary.clone(),
@@ -135,6 +245,74 @@ impl Study<'_> {
             metrics: Meta::definitions(self.plan),
         }
     }
+}
+
+/// A stream, and a copy of what went there.
+struct Copied {
+    out: Box<dyn Write + Send>,
+    copy: Option<Vec<u8>>,
+}
+
+impl Write for Copied {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let n = self.out.write(bytes)?;
+        if let Some(copy) = &mut self.copy {
+            copy.extend_from_slice(&bytes[..n]);
+        }
+        Ok(n)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// Takes the places of a table that `command` makes and of its companion.
+///
+/// - `begun`: whether an earlier start of the same command left its progress there
+pub fn claim_table(
+    output: &Path,
+    command: &str,
+    shard: Option<Shard>,
+    begun: bool,
+    outputs: &mut Outputs,
+) -> Result<(), Failure> {
+    // a kill may have come between the new companion and the new table
+    let says_so = |companion: &Path| Meta::read(companion).is_ok_and(|meta| meta.command == command);
+    let is_own =
+        |there: &Path| Meta::is_of(there, command, shard) || (begun && says_so(&Meta::found_beside(there)));
+    outputs.claim(output, is_own)?;
+    outputs.claim(&Meta::beside(output), says_so)
+}
+
+/// What was written, for `--json`.
+#[derive(serde::Serialize)]
+struct Written<'a> {
+    files: &'a [PathBuf],
+    #[serde(flatten)]
+    summary: &'a Summary,
+}
+
+/// Says which files a table was written to and what it comes to.
+///
+/// - `of`: more about its rows, as ` of 3 parts`
+pub fn tell_written(
+    files: &[PathBuf],
+    summary: &Summary,
+    of: &str,
+    console: &Console,
+) -> Result<(), Failure> {
+    if console.json {
+        return console.print_json(&Written { files, summary });
+    }
+    let names: Vec<String> = files.iter().map(|p| p.display().to_string()).collect();
+    let failed = if summary.failed > 0 { format!(", {} failed", summary.failed) } else { String::new() };
+    let short = match summary.short {
+        0 => String::new(),
+        n => format!(", {n} with scores missing or less exact than asked for"),
+    };
+    console.note(&format!("wrote {}: {} rows{of}{failed}{short}", names.join(", "), summary.rows));
+    Ok(())
 }
 
 /// What to say of a row with an error.

@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::outcome::{Code, Failure};
+use super::outputs::{Outputs, record};
 use super::{values, words};
 use crate::report::validation::{self, count, expectation, written};
 use crate::store::replace;
@@ -62,6 +63,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             )));
         }
     }
+    let folder = args.output.clone().or_else(|| args.only.is_none().then(|| FOLDER.into()));
+    let command = record::own_command();
+    if let Some(folder) = &folder {
+        let is_own = record::is_of(&folder.join("validation.html"), &command);
+        let mut outputs = Outputs::of(console);
+        ["validation.csv", "validation.html"]
+            .iter()
+            .try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))?;
+    }
     let lab = Lab { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
     let bar = console.progress(trials.len(), "validating");
     let run = |trial: validate::Trial| {
@@ -77,9 +87,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     } else {
         console.print(&text(&reports))?;
     }
-    let folder = args.output.clone().or_else(|| args.only.is_none().then(|| FOLDER.into()));
     if let Some(folder) = folder {
-        let page = validation::html(&reports, args.seed, &words::typed());
+        let page = record::recorded(validation::html(&reports, args.seed, &words::typed()), &command);
         let table = validate::csv(outcomes()).map_err(|e| Failure::input(e.to_string()))?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);

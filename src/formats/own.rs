@@ -32,6 +32,20 @@ fn sniff(source: &Source) -> u8 {
     }
 }
 
+/// Whether TOML is meant as a design, whatever is wrong with it: it has tiers or a family. A scene, or
+/// another program's settings, has neither.
+pub fn is_meant(source: &Source) -> bool {
+    const KEYS: [&str; 2] = ["tier", "family"];
+    let text = source.text();
+    match toml::from_str::<toml::Table>(&text) {
+        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
+        Err(_) => lines(&text).any(|(_, line)| {
+            let word = line.trim().trim_start_matches('[');
+            KEYS.iter().any(|key| word.split([']', '=', ' ']).next() == Some(key))
+        }),
+    }
+}
+
 fn read(source: &Source) -> Result<Reading, FormatError> {
     source.of_at_most(&limits::TOML_DESIGN)?;
     let text = source.text();

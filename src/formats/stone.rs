@@ -7,6 +7,7 @@ use crate::cut::document::DocumentError;
 use crate::cut::{Design, families, library};
 use crate::math::typed;
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -17,23 +18,29 @@ pub const STANDARD_INPUT: &str = "-";
 ///
 /// A library name wins over a file of that name, which `./name` reaches. Errors are one line and
 /// suggest a cut whose name is near where there is neither. Checked in `tests/formats.rs`.
-pub fn open(spec: &str) -> Result<Imported, FormatError> {
+pub fn open(spec: impl AsRef<OsStr>) -> Result<Imported, FormatError> {
+    let spec = spec.as_ref();
     if spec == STANDARD_INPUT { read_standard_input() } else { open_by(spec, read) }
 }
 
 /// As [`open`], for a stone that a file names: only a regular file is read.
-pub fn open_regular(spec: &str) -> Result<Imported, FormatError> {
-    open_by(spec, read_regular)
+pub fn open_regular(spec: impl AsRef<OsStr>) -> Result<Imported, FormatError> {
+    open_by(spec.as_ref(), read_regular)
 }
 
-fn open_by(spec: &str, read: fn(&Path) -> Result<Imported, FormatError>) -> Result<Imported, FormatError> {
+fn open_by(
+    argument: &OsStr,
+    read: fn(&Path) -> Result<Imported, FormatError>,
+) -> Result<Imported, FormatError> {
+    let path = Path::new(argument);
+    // a name that is not UTF-8 is a file's
+    let Some(spec) = argument.to_str() else { return read(path) };
     let (name, rest) = spec.split_once(':').map_or((spec, None), |(name, rest)| (name, Some(rest)));
     if let Some(name) = cut_name(spec) {
         let design = cut(name, &parameters(spec, rest)?)
             .map_err(|cause| FormatError::Cut { file: spec.into(), cause })?;
         return Ok(Imported { design, format: "library", warnings: Vec::new() });
     }
-    let path = Path::new(spec);
     let missing = match std::fs::symlink_metadata(path) {
         Ok(_) => false,
         // what there is no right to look at may be there
@@ -63,6 +70,11 @@ pub fn cut_name(spec: &str) -> Option<&'static str> {
 
 fn cut(name: &str, values: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
     library::design(name, values).unwrap_or_else(|| Ok(families::build(name, values)?))
+}
+
+/// The parameters in what stands behind the colon of a STONE.
+pub fn parameters_of(items: &str) -> Result<BTreeMap<String, f64>, FormatError> {
+    parameters(items, Some(items))
 }
 
 /// `key=value,key=value`; nothing after the colon is no parameter.

@@ -187,6 +187,12 @@ pub(super) fn table_picture(request: &Request, step: &dyn Fn(&'static str)) -> R
     Ok(write::png(&write::shown(&film, None, &tone), width, height, write::Bits::Eight, None)?)
 }
 
+/// The names of all files of a report, the page last.
+pub fn files() -> Vec<&'static str> {
+    let fixed = ["stone.obj", "stone.toml", "table.png", "diagram.svg", "scores.csv"];
+    fixed.into_iter().chain(scopes::SCOPES.iter().map(|scope| scope.file)).chain(["index.html"]).collect()
+}
+
 impl Bundle {
     /// Writes every file into `folder`, which is made; the page last, so that it never shows what
     /// is not there.

@@ -36,7 +36,7 @@ pub fn of(proportions: &Proportions, material: &Material) -> Result<Option<(Stri
         family: Some(family),
         own: Some(("this stone", &at)),
     };
-    let svg = drawing.svg(&Numbers::read(TABLE.as_bytes(), Form::Csv)?, false);
+    let svg = drawing.svg(&Numbers::read(TABLE.as_bytes(), Form::Csv)?, false, &[]);
     let mut caption = String::from(
         "Map of the reference brilliant in diamond: table 56, star 50, lower half 75, girdle 3; the stone’s own \
          table, halves and girdle may differ.",

@@ -11,6 +11,7 @@ use super::page::escaped;
 use crate::cut::brilliant;
 use crate::cut::families::Family;
 use crate::cut::library;
+use crate::formats::stone;
 use crate::metrics::Metric;
 use crate::study::table::Numbers;
 
@@ -32,6 +33,9 @@ pub struct Axis {
 impl Axis {
     /// The axis of the parameter `key`, of a family or of every stone.
     pub fn of(key: &str, family: Option<&Family>) -> Axis {
+        if key == TILT {
+            return Axis { key: key.into(), title: "tilt (°)".into() };
+        }
         let parameter = family.and_then(|f| f.parameters.iter().find(|p| p.key == key));
         let name = if key == "ri" { "refractive index".into() } else { key.replace('-', " ") };
         let unit = match (parameter.map(|p| p.unit.trim()), key) {
@@ -58,48 +62,83 @@ pub struct Drawing<'a> {
     pub own: Option<(&'a str, &'a [f64])>,
 }
 
+/// Column of a stone's tilt.
+pub const TILT: &str = "tilt_deg";
+
+/// Column of the azimuth about which a stone is tilted.
+pub const TILT_AXIS: &str = "tilt_axis_deg";
+
 /// A point or a line to be named in a plot.
 struct Mark {
     name: String,
     at: Vec<f64>,
     /// Whether it is the stone that the plot is about.
     own: bool,
+    /// Parameters that are not on the axes and have another value in this stone than in the plot's.
+    other: Vec<&'static str>,
 }
+
+impl Mark {
+    /// Its name; with a star if it does not belong to the values beside it.
+    fn called(&self) -> String {
+        if self.other.is_empty() { self.name.clone() } else { format!("{} *", self.name) }
+    }
+}
+
+/// Parameters that say how large a stone is, or how many facets its girdle has: no score of a clear
+/// stone follows them by more than a hundredth.
+const MINOR: [&str; 3] = ["size", "facets", "girdle-facets"];
 
 impl Drawing<'_> {
     /// The plot of a sweep's table.
     ///
     /// - `scattered`: the points are no grid
+    /// - `curves`: columns that tell the curves of one parameter apart
     ///
     /// Points whose stone failed are left out. Looked at in `reports/sweeps/`.
-    pub fn svg(&self, numbers: &Numbers, scattered: bool) -> String {
+    pub fn svg(&self, numbers: &Numbers, scattered: bool, curves: &[String]) -> String {
         match self.axes {
             [x, y] => map::svg(self, x, y, numbers, scattered),
-            [x, ..] => self.curve(x, numbers),
+            [x, ..] => self.curve(x, numbers, curves),
             [] => String::new(),
         }
     }
 
-    fn curve(&self, x: &Axis, numbers: &Numbers) -> String {
+    fn curve(&self, x: &Axis, numbers: &Numbers, curves: &[String]) -> String {
         let se = format!("{}_se", self.metric.name);
+        let mut lines: Vec<Curve> = Vec::new();
         let columns = numbers.column(&x.key).iter().zip(numbers.column(self.metric.name));
-        let mut points: Vec<(f64, Option<(f64, f64)>)> = columns
-            .zip(numbers.column(&se))
-            .filter_map(|((x, value), error)| Some(((*x)?, value.zip(*error))))
-            .collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (row, ((at, value), error)) in columns.zip(numbers.column(&se)).enumerate() {
+            let Some(at) = *at else { continue };
+            let called = |column: &String| {
+                let cell = numbers.texts(column).get(row).map_or("", String::as_str);
+                if column == TILT_AXIS {
+                    format!("axis at {}°", cell.trim_end_matches(".0"))
+                } else {
+                    cell.into()
+                }
+            };
+            let name = curves.iter().map(called).collect::<Vec<_>>().join(", ");
+            let point = (at, value.zip(*error));
+            match lines.iter_mut().find(|line| line.name == name) {
+                Some(line) => line.points.push(point),
+                None => lines.push(Curve { name, points: vec![point] }),
+            }
+        }
+        lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        let of = if self.stone.is_empty() { String::new() } else { format!(" of {}", self.stone) };
         Curves {
-            title: format!("{} of {}", self.metric.name, self.stone),
-            note: format!("{}; band: 95 in 100", self.metric.about),
+            title: format!("{}{of}", self.metric.name),
+            note: format!("{}; band: 95 in 100{}", self.metric.about, self.other_note()),
             x: x.title.clone(),
             y: self.score_title(),
-            curves: vec![Curve { name: String::new(), points }],
+            curves: lines,
             spans: self
                 .envelopes(std::slice::from_ref(x))
                 .into_iter()
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
-            marks: self.marks().into_iter().map(|m| (m.name, m.at[0])).collect(),
+            marks: self.marks().into_iter().map(|m| (m.called(), m.at[0])).collect(),
             dots: Vec::new(),
             small: false,
         }
@@ -112,8 +151,27 @@ impl Drawing<'_> {
         if unit.is_empty() { self.metric.name.into() } else { format!("{} ({unit})", self.metric.name) }
     }
 
+    /// The value of a parameter in the stone that the plot is about.
+    fn held(&self, key: &str) -> Option<f64> {
+        let (name, items) = self.stone.split_once(':').unwrap_or((self.stone, ""));
+        let given = stone::parameters_of(items).ok()?.get(key).copied();
+        let document = library::document(name).and_then(Result::ok);
+        given.or_else(|| document?.parameters.get(key).copied()).or_else(|| self.default_of(key))
+    }
+
+    fn default_of(&self, key: &str) -> Option<f64> {
+        self.family?.parameters.iter().find(|p| p.key == key).map(|p| p.default)
+    }
+
+    /// What is said below the title of stones whose other parameters differ.
+    fn other_note(&self) -> String {
+        let mut keys: Vec<&str> = self.marks().iter().flat_map(|m| m.other.clone()).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        if keys.is_empty() { String::new() } else { format!("; * with another {}", keys.join(", ")) }
+    }
+
     /// Stones of the library that the swept stone's family makes, where their parameters put them.
-    /// Other parameters of theirs may differ from the swept stone's.
     fn marks(&self) -> Vec<Mark> {
         let Some(family) = self.family else { return Vec::new() };
         let mark = |name: &'static str| {
@@ -121,23 +179,32 @@ impl Drawing<'_> {
             if document.family.as_deref() != Some(family.name) {
                 return None;
             }
-            let value = |axis: &Axis| {
-                let default = || family.parameters.iter().find(|p| p.key == axis.key).map(|p| p.default);
-                document.parameters.get(&axis.key).copied().or_else(default)
-            };
-            let at = self.axes.iter().map(value).collect::<Option<_>>()?;
+            let value = |key: &str| document.parameters.get(key).copied().or_else(|| self.default_of(key));
+            let at = self.axes.iter().map(|axis| value(&axis.key)).collect::<Option<_>>()?;
+            let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
+            let differs =
+                |key: &str| value(key).zip(self.held(key)).is_some_and(|(a, b)| (a - b).abs() > 1e-6);
+            let other = family.parameters.iter().map(|p| p.key);
             Some(Mark {
                 name: if name == family.name { "reference".into() } else { name.into() },
                 at,
                 own: false,
+                other: other.filter(|key| !MINOR.contains(key) && !is_axis(key) && differs(key)).collect(),
             })
         };
-        let own = self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true });
-        let near = |a: &Mark, b: &Mark| a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);
+        let own =
+            self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true, other: vec![] });
+        let near = |a: &Mark, b: &Mark| {
+            let same_place = a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);
+            same_place && a.other.is_empty() == b.other.is_empty()
+        };
         let mut marks: Vec<Mark> = Vec::new();
         for mark in own.into_iter().chain(library::names().filter_map(mark)) {
             match marks.iter_mut().find(|m| near(m, &mark)) {
-                Some(same) => same.name += &format!(", {}", mark.name),
+                Some(same) => {
+                    same.name += &format!(", {}", mark.name);
+                    same.other.extend(mark.other);
+                }
                 None => marks.push(mark),
             }
         }

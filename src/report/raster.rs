@@ -68,6 +68,13 @@ static OPTIONS: LazyLock<usvg::Options<'static>> = LazyLock::new(|| {
 /// Text is drawn in the fonts of the binary whatever family it asks for; files that the SVG refers
 /// to are not opened. The same SVG gives the same bytes. Checked below.
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
+    png_of(svg, width, None)
+}
+
+/// As [`png`].
+///
+/// - `command`: what made it, for the picture's text `Command`
+pub fn png_of(svg: &str, width: u32, command: Option<&str>) -> Result<Vec<u8>, RasterError> {
     let tree = tree(svg)?;
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round() as u32;
@@ -78,7 +85,18 @@ pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
     let mut pixels = Pixmap::new(width, height).ok_or(too_large)?;
     pixels.fill(resvg::tiny_skia::Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|e| RasterError::Encode(e.to_string()))
+    let fail = |e: png::EncodingError| RasterError::Encode(e.to_string());
+    let mut out = Vec::new();
+    let mut encoder = png::Encoder::new(&mut out, width, height);
+    encoder.set_color(png::ColorType::Rgba); // on white: nothing is left to multiply
+    encoder.set_depth(png::BitDepth::Eight);
+    if let Some(command) = command {
+        encoder.add_itxt_chunk("Command".into(), command.into()).map_err(fail)?;
+    }
+    let mut writer = encoder.write_header().map_err(fail)?;
+    writer.write_image_data(pixels.data()).map_err(fail)?;
+    writer.finish().map_err(fail)?;
+    Ok(out)
 }
 
 /// Width of a line of text in the fonts of the binary, in units of the font size; without kerning,

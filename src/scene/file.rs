@@ -106,6 +106,8 @@ pub struct SceneFile {
 pub struct Cast {
     /// Stones, for the scene's places in order.
     pub designs: Vec<Design>,
+    /// What each of them is made of, where it is not what all are.
+    pub materials: Vec<Option<Material>>,
     /// What all are made of.
     pub material: Option<Material>,
     /// Girdle width of all, mm.
@@ -262,7 +264,10 @@ impl SceneFile {
                 Some(design) => design.clone(),
                 None => self.say(entry, entry.get_ref().design(&files))?,
             };
-            let (stone, material) = self.say(entry, entry.get_ref().stone(design, cast))?;
+            let own = cast.materials.get(i).cloned().flatten();
+            let of =
+                Cast { material: own.or(cast.material.clone()), size_mm: cast.size_mm, ..Cast::default() };
+            let (stone, material) = self.say(entry, entry.get_ref().stone(design, &of))?;
             if i == 0 && document.unit == Unit::Stone {
                 unit = stone.unit as f32;
             }

@@ -26,20 +26,30 @@ pub fn hidden(path: &Path, ending: &str) -> PathBuf {
 ///
 /// - `waiting`: called if another process has it, before this one waits
 ///
+/// A link in its place is taken away, never followed: it may lead to what is another's.
 /// A file system without locks has none to wait for. Checked in `tests/progress.rs`.
 pub fn take(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
     loop {
-        // a pipe in its place would be waited for without end
-        if std::fs::metadata(path).is_ok_and(|m| !m.is_file()) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("{} is not a regular file", path.display()),
-            ));
+        match std::fs::symlink_metadata(path) {
+            Ok(m) if m.is_symlink() => std::fs::remove_file(path)?,
+            // a pipe in its place would be waited for without end
+            Ok(m) if !m.is_file() => {
+                let problem = format!("{} is not a regular file", path.display());
+                return Err(Error::new(ErrorKind::InvalidInput, problem));
+            }
+            _ => (),
         }
-        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::OpenOptionsExt;
+            options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits().cast_signed());
+        }
+        let file = options.open(path)?;
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             waiting();
             file.lock()?;
@@ -57,7 +67,7 @@ fn still_at(file: &File, path: &Path) -> bool {
         use std::os::unix::fs::MetadataExt;
         let place = |m: std::io::Result<std::fs::Metadata>| m.ok().map(|m| (m.dev(), m.ino()));
         let here = place(file.metadata());
-        here.is_some() && here == place(std::fs::metadata(path))
+        here.is_some() && here == place(std::fs::symlink_metadata(path))
     }
     #[cfg(not(unix))]
     {

@@ -3,15 +3,15 @@
 //! The file is an append-only list of records, each with its checksum, headed by the identity of
 //! the work. One process at a time has it, by a lock that ends with the process.
 
-use super::lock;
 use super::replace::WriteError;
+use super::{limits, lock};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// First word of the file, with the version of its form.
-const MAGIC: &str = "cutlab-progress-1";
+const MAGIC: &str = "cutlab-progress-2";
 
 /// No record is longer: a length beyond it is no length.
 const LONGEST: u64 = 1 << 24;
@@ -64,6 +64,13 @@ impl Progress {
         lock::hidden(output, "progress")
     }
 
+    /// Whether there is progress of the work called `identity` at `path`.
+    pub fn is_of(path: &Path, identity: &str) -> bool {
+        let file = limits::regular(path).ok();
+        let first = file.and_then(|file| record(&mut BufReader::new(file)).ok());
+        matches!(first, Some(Record::Whole { key, .. }) if key == format!("{MAGIC} {identity}"))
+    }
+
     /// Opens the progress of the work called `identity`, or begins it; waits while another process
     /// has it.
     ///
@@ -84,7 +91,7 @@ impl Progress {
                     return Ok(progress);
                 }
                 Content::Useless(why) => {
-                    let aside = path.with_extension("progress-set-aside");
+                    let aside = free_place(path);
                     std::fs::rename(path, &aside).map_err(fail)?;
                     tell(Remark::SetAside(aside, why));
                 }
@@ -151,6 +158,14 @@ impl Progress {
     pub fn finish(self) -> Result<(), WriteError> {
         std::fs::remove_file(&self.path).map_err(|cause| WriteError { path: self.path, cause })
     }
+}
+
+/// Where a file of progress is set aside: beside it, over no other.
+fn free_place(path: &Path) -> PathBuf {
+    let first = path.with_extension("progress-set-aside");
+    let numbered = |n| path.with_extension(format!("progress-set-aside-{n}"));
+    let is_free = |place: &PathBuf| place.symlink_metadata().is_err();
+    std::iter::once(first.clone()).chain((2..1000).map(numbered)).find(is_free).unwrap_or(first)
 }
 
 fn checksum(key: &str, payload: &[u8]) -> u32 {

@@ -1,5 +1,6 @@
 //! Long tables: rows computed in parallel, kept as they come, put together at the end.
 
+pub use super::line::{Line, Outcome};
 use super::shard::Shard;
 use super::table::{Form, TableError};
 use crate::store::progress::{Progress, Remark};
@@ -14,64 +15,6 @@ use std::sync::{Mutex, PoisonError};
 /// Rows that are in the making together. No row is begun before all of the window before it are
 /// done, so memory does not grow with the table; long rows at its end share their threads.
 const WINDOW: u64 = 256;
-
-/// How a row came out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// As asked for.
-    Good,
-    /// It has scores, and an error that says what is short about them.
-    Short,
-    /// No scores: the stone is none, or cannot be lit.
-    Bad,
-    /// No scores: the file could not be read.
-    Unreadable,
-}
-
-const OUTCOMES: [(Outcome, &str); 4] = [
-    (Outcome::Good, "good"),
-    (Outcome::Short, "short"),
-    (Outcome::Bad, "bad"),
-    (Outcome::Unreadable, "unreadable"),
-];
-
-/// One finished row.
-#[derive(Debug, Clone)]
-pub struct Line {
-    /// How it came out.
-    pub outcome: Outcome,
-    /// Points traced for it, by experiment.
-    pub samples: Vec<(String, u64)>,
-    /// The row as it stands in the table, without the line's end.
-    pub text: Vec<u8>,
-    /// What to say when it is done, if something went wrong.
-    pub complaint: Option<String>,
-    /// What to say once, however many rows say it: scores that do not apply.
-    pub note: Option<String>,
-}
-
-impl Line {
-    /// As a record of progress: a line of what is to be summed up, then the text.
-    fn record(&self) -> Vec<u8> {
-        let name = OUTCOMES.iter().find(|(o, _)| *o == self.outcome).map_or("", |(_, name)| name);
-        let samples: String = self.samples.iter().map(|(of, n)| format!(" {of}={n}")).collect();
-        [format!("{name}{samples}\n").as_bytes(), &self.text].concat()
-    }
-
-    /// What [`Line::record`] made; none if it did not.
-    fn parsed(record: &[u8]) -> Option<Line> {
-        let cut = record.iter().position(|b| *b == b'\n')?;
-        let mut words = std::str::from_utf8(&record[..cut]).ok()?.split(' ');
-        let name = words.next()?;
-        let outcome = OUTCOMES.iter().find(|(_, n)| *n == name)?.0;
-        let sample = |word: &str| {
-            let (of, n) = word.split_once('=')?;
-            Some((of.to_owned(), n.parse().ok()?))
-        };
-        let samples = words.map(sample).collect::<Option<_>>()?;
-        Some(Line { outcome, samples, text: record[cut + 1..].to_vec(), complaint: None, note: None })
-    }
-}
 
 /// Points traced for the rows of a table, of one experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -157,6 +100,28 @@ pub enum Event<'a> {
     Row(&'a Line),
 }
 
+/// The order of a table's rows, and how many of them it has, where they are not all as they are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Order {
+    /// Whether the least key comes first.
+    pub ascending: bool,
+    /// So many rows at most.
+    pub top: Option<u64>,
+}
+
+impl Order {
+    /// The rows in this order: by their keys, equal ones as they were, those without a key last.
+    fn applied_to(self, mut lines: Vec<Line>) -> Vec<Line> {
+        lines.sort_by(|a, b| match (a.key, b.key) {
+            (Some(a), Some(b)) if self.ascending => a.total_cmp(&b),
+            (Some(a), Some(b)) => b.total_cmp(&a),
+            (a, b) => a.is_none().cmp(&b.is_none()),
+        });
+        lines.truncate(self.top.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX)));
+        lines
+    }
+}
+
 /// A table to be made.
 pub struct Batch<'a> {
     /// What the table is a function of: see [`super::identity`].
@@ -169,6 +134,8 @@ pub struct Batch<'a> {
     pub form: Form,
     /// Its columns.
     pub columns: &'a [String],
+    /// How its rows are sorted, if they are; then they are all held in memory at the end.
+    pub order: Option<Order>,
     /// Makes the row number `i` of the whole table, the same whenever and wherever it is called.
     pub line: &'a (dyn Fn(u64) -> Result<Line, TableError> + Sync),
     /// Hears how it goes on.
@@ -176,57 +143,88 @@ pub struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Writes the table to a stream ([`replace::is_stream`]), row after row as they are done, in their
-    /// order.
-    pub fn write(&self, output: &Path) -> Result<Summary, BatchError> {
+    /// Writes the table to a stream ([`replace::open_stream`]), row after row as they are done, in their
+    /// order; sorted rows all at the end.
+    ///
+    /// - `output`: the stream's name, for errors
+    pub fn write(&self, out: &mut (dyn Write + Send), output: &Path) -> Result<Summary, BatchError> {
         let fail = |cause| WriteError { path: output.to_owned(), cause };
-        let mut out = replace::open_stream(output)?;
         let rows = self.shard.rows(self.total);
         (self.tell)(Event::Begins { done: 0, rows });
         let mut put = |bytes: &[u8]| out.write_all(bytes).map_err(fail);
         put(&self.form.head(self.columns)?)?;
         let (mut next, mut early, mut summary) = (0, BTreeMap::new(), Summary::default());
+        let mut waiting = Vec::new();
         self.compute(
             |_| false,
             |position, line| {
                 early.insert(position, line);
                 while let Some(line) = early.remove(&next) {
-                    put(self.form.before(next))?;
-                    put(&line.text)?;
                     summary.add(&line);
+                    if self.order.is_some() {
+                        waiting.push(line);
+                    } else {
+                        put(self.form.before(next))?;
+                        put(&line.text)?;
+                    }
                     next += 1;
                 }
                 Ok(())
             },
         )?;
-        put(self.form.tail(rows))?;
+        let mut written = rows;
+        if let Some(order) = self.order {
+            let lines = order.applied_to(waiting);
+            written = lines.len() as u64;
+            for (i, line) in (0..).zip(&lines) {
+                put(self.form.before(i))?;
+                put(&line.text)?;
+            }
+        }
+        put(self.form.tail(written))?;
         out.flush().map_err(fail)?;
-        Ok(summary)
+        Ok(Summary { rows: written, ..summary })
+    }
+
+    /// What the progress of the table is kept under.
+    fn identity_of_part(&self) -> String {
+        format!("{} {} {:?}", self.identity, self.shard, self.form)
+    }
+
+    /// Whether an earlier start left progress of this table.
+    pub fn is_begun(&self, output: &Path) -> bool {
+        Progress::is_of(&Progress::beside(output), &self.identity_of_part())
+    }
+
+    /// Opens the progress of the table at `output`, to which this process then has the sole right.
+    pub fn begin(&self, output: &Path) -> Result<Progress, BatchError> {
+        let tell = |remark| (self.tell)(Event::Remark(remark));
+        Ok(Progress::open(&Progress::beside(output), &self.identity_of_part(), &tell)?)
     }
 
     /// Makes the rows of the table at `output` that are not made yet; each is kept beside it as
     /// soon as it is done. [`Finished::publish`] then puts the table in place.
-    pub fn finish(&self, output: &Path) -> Result<Finished, BatchError> {
-        let identity = format!("{} {} {:?}", self.identity, self.shard, self.form);
-        let tell = |remark| (self.tell)(Event::Remark(remark));
-        let mut progress = Progress::open(&Progress::beside(output), &identity, &tell)?;
+    ///
+    /// - `progress`: what [`Batch::begin`] gave
+    pub fn finish(&self, mut progress: Progress, output: &Path) -> Result<Finished, BatchError> {
         let rows = self.shard.rows(self.total);
         (self.tell)(Event::Begins { done: progress.count(), rows });
         let (from, had) = (progress.missing_from(), progress.beyond());
+        let fail = |cause| WriteError { path: output.to_owned(), cause };
         self.compute(
             |p| p < from || had.contains(&p),
-            |position, line| progress.append(position, &line.record()),
+            |position, line| progress.append(position, &line.record().map_err(fail)?),
         )?;
         let mut finished = Finished {
             progress,
             form: self.form,
             head: self.form.head(self.columns)?,
-            rows,
+            order: self.order,
             summary: Summary::default(),
             crc32: 0,
         };
         let (mut summary, mut sum) = (Summary::default(), crc32fast::Hasher::new());
-        finished.compose(
+        summary.rows = finished.compose(
             &mut |bytes| {
                 sum.update(bytes);
                 Ok(())
@@ -268,7 +266,7 @@ pub struct Finished {
     progress: Progress,
     form: Form,
     head: Vec<u8>,
-    rows: u64,
+    order: Option<Order>,
     /// What it comes to.
     pub summary: Summary,
     /// Checksum of its bytes.
@@ -276,25 +274,36 @@ pub struct Finished {
 }
 
 impl Finished {
-    /// Gives the table's bytes piece by piece, and its rows.
+    /// Gives the table's bytes piece by piece, and all rows that were made; how many the table has.
     fn compose(
         &mut self,
         put: &mut dyn FnMut(&[u8]) -> std::io::Result<()>,
         see: &mut dyn FnMut(&Line),
-    ) -> Result<(), WriteError> {
-        let (form, mut next) = (self.form, 0);
-        let mut all = |bytes: &[u8]| put(bytes);
-        let wrap = |cause| WriteError { path: "the table".into(), cause };
-        all(&self.head).map_err(wrap)?;
-        self.progress.each(|record| {
-            let line = Line::parsed(record).ok_or(std::io::ErrorKind::InvalidData)?;
-            all(form.before(next))?;
-            all(&line.text)?;
-            see(&line);
+    ) -> Result<u64, WriteError> {
+        let (form, order, mut next) = (self.form, self.order, 0);
+        let mut row = |line: &Line, put: &mut dyn FnMut(&[u8]) -> std::io::Result<()>| {
+            put(form.before(next))?;
+            put(&line.text)?;
             next += 1;
             Ok(())
+        };
+        let wrap = |cause| WriteError { path: "the table".into(), cause };
+        put(&self.head).map_err(wrap)?;
+        let mut waiting = Vec::new();
+        self.progress.each(|record| {
+            let line = Line::parsed(record)?;
+            see(&line);
+            if order.is_some() {
+                waiting.push(line);
+                return Ok(());
+            }
+            row(&line, put)
         })?;
-        all(form.tail(self.rows)).map_err(wrap)
+        if let Some(order) = order {
+            order.applied_to(waiting).iter().try_for_each(|line| row(line, put)).map_err(wrap)?;
+        }
+        put(form.tail(next)).map_err(wrap)?;
+        Ok(next)
     }
 
     /// The whole table, for plots.
@@ -306,7 +315,9 @@ impl Finished {
 
     /// Puts the table in its place, whole, and takes the file of progress away.
     pub fn publish(mut self, output: &Path) -> Result<(), WriteError> {
-        replace::stream(output, |out| self.compose(&mut |piece| out.write_all(piece), &mut |_| ()))?;
+        replace::stream(output, |out| {
+            self.compose(&mut |piece| out.write_all(piece), &mut |_| ()).map(|_| ())
+        })?;
         self.progress.finish()
     }
 }

@@ -7,7 +7,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// A digest of everything that a table depends on: program version, settings, inputs' contents.
+/// Identifier of the sources that this program was built from: the same for every build of them, on
+/// any machine; another for any other, also of the same version.
+pub const BUILD: &str = env!("CUTLAB_BUILD");
+
+/// A digest of everything that a table depends on: program, settings, inputs' contents.
 /// Two tables with one identity have the same bytes.
 #[derive(Clone)]
 pub struct Identity(Sha256);
@@ -40,17 +44,22 @@ impl Held {
 }
 
 impl Identity {
-    /// The identity of what `command`, with all its settings spelled out, makes with this version.
+    /// The identity of what `command`, with all its settings spelled out, makes with this build.
     pub fn of(command: &str) -> Identity {
+        Identity::by_build(command, BUILD)
+    }
+
+    fn by_build(command: &str, build: &str) -> Identity {
         let mut identity = Identity(Sha256::new());
         identity.add(env!("CARGO_PKG_VERSION"));
+        identity.add(build);
         identity.add(command);
         identity
     }
 
     /// Adds an input that is no file, or a file's name.
-    pub fn add(&mut self, text: &str) {
-        self.0.update((text.len() as u64).to_le_bytes());
+    pub fn add(&mut self, text: impl AsRef<[u8]>) {
+        self.0.update((text.as_ref().len() as u64).to_le_bytes());
         self.0.update(text);
     }
 
@@ -62,5 +71,18 @@ impl Identity {
     /// Thirty-two hexadecimal digits.
     pub fn hex(self) -> String {
         self.0.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_builds_never_share_an_identity() {
+        assert!(BUILD.len() == 12 && BUILD.bytes().all(|b| b.is_ascii_hexdigit()), "{BUILD}");
+        let of = |build| Identity::by_build("cutlab score", build).hex();
+        assert_eq!(of(BUILD), Identity::of("cutlab score").hex());
+        assert_ne!(of(BUILD), of("0123456789ab"));
     }
 }

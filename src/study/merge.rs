@@ -1,14 +1,14 @@
 //! The parts of a table, joined into the bytes that one machine would have written.
 
 use super::batch::Summary;
-use super::meta::Meta;
+use super::meta::{Meta, checksum};
 use super::shard::Shard;
 use super::table::{Form, RowReader, TableError};
 use crate::store::limits;
 use crate::store::progress::Progress;
 use crate::store::replace::{self, WriteError};
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// One part: a table and what its companion says of it.
@@ -18,7 +18,8 @@ pub struct Part {
     pub table: PathBuf,
     /// Its companion.
     pub meta: Meta,
-    form: Form,
+    /// How it is written.
+    pub form: Form,
 }
 
 /// Parts that cannot be joined.
@@ -50,6 +51,12 @@ pub enum MergeError {
     /// Parts that are not there.
     #[error("{}", missing(.0, *.1))]
     Missing(Vec<Shard>, u64),
+    /// A row that is none.
+    #[error("{0}: {1}")]
+    Row(PathBuf, String),
+    /// A part with fewer rows than its companion says.
+    #[error("{0} ends before its rows do")]
+    Short(PathBuf),
     /// The operating system refused.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -80,17 +87,22 @@ impl Part {
     /// The part in the file `table`, with its companion beside it.
     pub fn open(table: &Path) -> Result<Part, MergeError> {
         let form = Form::of(table)?;
-        let beside = Meta::beside(table);
+        let beside = Meta::found_beside(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
         let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
         let text = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
         let text = text.map_err(|e| wrong(e.to_string()))?;
         let meta: Meta = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
-        if meta.crc32 != format!("{sum:08x}") {
+        if meta.crc32 != sum {
             return Err(MergeError::Changed(table.to_owned(), beside));
         }
         Ok(Part { table: table.to_owned(), meta, form })
+    }
+
+    /// All bytes of the table.
+    pub fn bytes(&self) -> Result<Vec<u8>, MergeError> {
+        std::fs::read(&self.table).map_err(|cause| MergeError::Read { path: self.table.clone(), cause })
     }
 
     fn shard(&self) -> Shard {
@@ -98,90 +110,135 @@ impl Part {
     }
 }
 
-fn checksum(file: File) -> std::io::Result<u32> {
-    let (mut sum, mut piece) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
-    let mut file = file;
-    loop {
-        match file.read(&mut piece)? {
-            0 => return Ok(sum.finalize()),
-            n => sum.update(&piece[..n]),
-        }
-    }
+/// The parts of one table, all of them, in their order.
+#[derive(Debug)]
+pub struct Parts {
+    parts: Vec<Part>,
+    /// What the whole table comes to; its checksum is still to be set.
+    pub meta: Meta,
 }
 
-/// Joins the parts into `output` with its companion; what the whole table comes to.
-///
-/// Refuses parts of different tables, parts given twice and parts that changed, and names those that
-/// are missing. Checked in `tests/sweep.rs`.
-pub fn merge(parts: &[Part], output: &Path) -> Result<Meta, MergeError> {
-    let mut parts: Vec<&Part> = parts.iter().collect();
-    parts.sort_by_key(|p| p.shard());
-    let Some(first) = parts.first().copied() else { return Err(MergeError::Missing(Vec::new(), 0)) };
-    for part in &parts {
-        let strangers = |why: String| MergeError::Strangers(first.table.clone(), part.table.clone(), why);
-        if part.meta.shard.is_none() {
-            return Err(MergeError::Whole(part.table.clone()));
-        }
-        if (part.meta.study.as_str(), part.form) != (first.meta.study.as_str(), first.form) {
-            let why = match () {
-                () if part.meta.version != first.meta.version => "by different versions of cutlab".into(),
-                () if part.meta.command != first.meta.command => {
-                    format!("'{}' and '{}'", first.meta.command, part.meta.command)
-                }
-                () if part.form != first.form => "in different forms".into(),
-                () => "the command is the same, what it read is not".into(),
-            };
-            return Err(strangers(why));
-        }
-        if part.shard().of != first.shard().of {
-            return Err(strangers(format!("shards {} and {}", first.shard(), part.shard())));
-        }
-    }
-    for pair in parts.windows(2) {
-        if pair[0].shard() == pair[1].shard() {
-            return Err(MergeError::Twice(pair[0].table.clone(), pair[1].table.clone(), pair[0].shard()));
-        }
-    }
-    let (of, total) = (first.shard().of, first.meta.total);
-    let there = |s: &Shard| parts.iter().any(|p| p.shard() == *s);
-    let absent: Vec<Shard> =
-        (1..=of).map(|number| Shard { number, of }).filter(|s| !there(s) && s.rows(total) > 0).collect();
-    if !absent.is_empty() {
-        return Err(MergeError::Missing(absent, total));
-    }
-    let mut summary = Summary::default();
-    parts.iter().for_each(|p| summary.join(&p.meta.summary));
-    let mut meta = Meta { shard: None, summary, ..first.meta.clone() };
-    // the lock of everyone who makes a table here
-    let lock = Progress::open(&Progress::beside(output), &format!("merge {}", meta.study), &|_| ())?;
-    replace::stream(output, |out| {
-        let mut sum = crc32fast::Hasher::new();
-        let fail = |cause| WriteError { path: output.to_owned(), cause };
-        let mut put = |bytes: &[u8]| {
-            sum.update(bytes);
-            out.write_all(bytes).map_err(fail)
-        };
-        let broken = |e: String| fail(std::io::Error::other(e));
-        let mut readers = Vec::new();
+impl Parts {
+    /// Puts the parts in order.
+    ///
+    /// Refuses parts of different tables, parts given twice and parts that changed, and names those
+    /// that are missing. Checked in `tests/score_batches.rs`.
+    pub fn of(mut parts: Vec<Part>) -> Result<Parts, MergeError> {
+        parts.sort_by_key(Part::shard);
+        let Some(first) = parts.first() else { return Err(MergeError::Missing(Vec::new(), 0)) };
         for part in &parts {
-            let file = File::open(&part.table).map_err(fail)?;
-            let reader = RowReader::new(part.form, BufReader::new(file));
-            readers.push(reader.map_err(|e| broken(e.to_string()))?);
+            let strangers = |why: String| MergeError::Strangers(first.table.clone(), part.table.clone(), why);
+            if part.meta.shard.is_none() {
+                return Err(MergeError::Whole(part.table.clone()));
+            }
+            if part.meta.study != first.meta.study {
+                let why = match () {
+                    () if part.meta.version != first.meta.version => "by different versions of cutlab".into(),
+                    () if part.meta.build != first.meta.build => "by different builds of cutlab".into(),
+                    () if part.meta.command != first.meta.command => {
+                        format!("'{}' and '{}'", first.meta.command, part.meta.command)
+                    }
+                    () => "the command is the same, what it read is not".into(),
+                };
+                return Err(strangers(why));
+            }
+            if part.shard().of != first.shard().of {
+                return Err(strangers(format!("shards {} and {}", first.shard(), part.shard())));
+            }
         }
-        put(&first.form.head(&meta.columns).map_err(|e| broken(e.to_string()))?)?;
+        for pair in parts.windows(2) {
+            if pair[0].shard() == pair[1].shard() {
+                return Err(MergeError::Twice(pair[0].table.clone(), pair[1].table.clone(), pair[0].shard()));
+            }
+        }
+        let (of, total) = (first.shard().of, first.meta.total);
+        let there = |s: &Shard| parts.iter().any(|p| p.shard() == *s);
+        let absent: Vec<Shard> =
+            (1..=of).map(|number| Shard { number, of }).filter(|s| !there(s) && s.rows(total) > 0).collect();
+        if !absent.is_empty() {
+            return Err(MergeError::Missing(absent, total));
+        }
+        let mut summary = Summary::default();
+        parts.iter().for_each(|p| summary.join(&p.meta.summary));
+        let meta = Meta { shard: None, summary, ..first.meta.clone() };
+        Ok(Parts { parts, meta })
+    }
+
+    /// Gives the bytes of the whole table piece by piece.
+    fn compose(
+        &self,
+        form: Form,
+        put: &mut dyn FnMut(&[u8]) -> Result<(), WriteError>,
+    ) -> Result<(), MergeError> {
+        let (columns, total) = (&self.meta.columns, self.meta.total);
+        let mut readers = Vec::new();
+        for part in &self.parts {
+            let open = File::open(&part.table);
+            let file = open.map_err(|cause| MergeError::Read { path: part.table.clone(), cause })?;
+            readers.push((part, RowReader::new(part.form, BufReader::new(file))?));
+        }
+        put(&form.head(columns)?)?;
         for i in 0..total {
-            let reader = &mut readers[(i % of) as usize];
-            let row = reader.row().map_err(|e| broken(e.to_string()))?;
-            let part = &parts[(i % of) as usize].table;
-            put(first.form.before(i))?;
-            put(&row.ok_or_else(|| broken(format!("{} ends before its rows do", part.display())))?)?;
+            let of = readers.len() as u64;
+            let (part, reader) = &mut readers[(i % of) as usize];
+            let wrong = |e: TableError| MergeError::Row(part.table.clone(), e.to_string());
+            let row = reader.row().map_err(wrong)?.ok_or_else(|| MergeError::Short(part.table.clone()))?;
+            put(form.before(i))?;
+            if part.form == form {
+                put(&row)?;
+            } else {
+                put(&form.row(columns, &part.form.cells(columns, &row).map_err(wrong)?)?)?;
+            }
         }
-        put(first.form.tail(total))?;
-        meta.crc32 = format!("{:08x}", sum.finalize());
-        Ok(())
-    })?;
-    let bytes = meta.bytes().map_err(|e| TableError::Row(e.to_string()))?;
-    replace::write(&Meta::beside(output), &bytes)?;
-    lock.finish()?;
-    Ok(meta)
+        Ok(put(form.tail(total))?)
+    }
+
+    /// All bytes of the whole table.
+    pub fn bytes(&self, form: Form) -> Result<Vec<u8>, MergeError> {
+        let mut bytes = Vec::new();
+        self.compose(form, &mut |piece| {
+            bytes.extend_from_slice(piece);
+            Ok(())
+        })?;
+        Ok(bytes)
+    }
+
+    /// What the progress of a merge is kept under.
+    pub fn identity(&self) -> String {
+        format!("merge {}", self.meta.study)
+    }
+
+    /// Writes the whole table to a stream ([`replace::is_stream`]).
+    pub fn write(&self, form: Form, output: &Path) -> Result<(), MergeError> {
+        let fail = |cause| WriteError { path: output.to_owned(), cause };
+        let mut out = replace::open_stream(output)?;
+        self.compose(form, &mut |piece| out.write_all(piece).map_err(fail))?;
+        Ok(out.flush().map_err(fail)?)
+    }
+
+    /// Puts the whole table in its place, whole, after its companion: where the table is, all is.
+    pub fn publish(&mut self, form: Form, output: &Path) -> Result<(), MergeError> {
+        // the lock of everyone who makes a table here
+        let lock = Progress::open(&Progress::beside(output), &self.identity(), &|_| ())?;
+        let mut wrong = None;
+        let fail = |cause| WriteError { path: output.to_owned(), cause };
+        let written = replace::stream(output, |out| {
+            let mut sum = crc32fast::Hasher::new();
+            let composed = self.compose(form, &mut |piece| {
+                sum.update(piece);
+                out.write_all(piece).map_err(fail)
+            });
+            if let Err(error) = composed {
+                wrong = Some(error);
+                return Err(fail(std::io::ErrorKind::InvalidData.into()));
+            }
+            self.meta.crc32 = format!("{:08x}", sum.finalize());
+            let bytes = self.meta.bytes().map_err(|e| fail(e.into()))?;
+            replace::write(&Meta::beside(output), &bytes)
+        });
+        match (wrong, written) {
+            (Some(error), _) => Err(error),
+            (None, written) => Ok(written.and_then(|()| lock.finish())?),
+        }
+    }
 }

@@ -1,26 +1,42 @@
 //! The companion of a table: what its columns mean and how it was made.
+//!
+//! The companion of `NAME.csv` is `NAME.csv.meta.json`, its own; versions before it shared
+//! `NAME.meta.json` among the tables of one name, which is still read.
 
 use super::batch::Summary;
 use super::score::Plan;
 use super::shard::Shard;
+use super::table::Form;
+use crate::store::limits;
 use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// What stands in `NAME.meta.json` beside the table `NAME.csv`.
+/// What a companion's name has after its table's.
+const ENDING: &str = ".meta.json";
+
+/// What stands in `NAME.csv.meta.json` beside the table `NAME.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Meta {
     /// Always `cutlab`.
     pub program: String,
     /// Its version.
     pub version: String,
+    /// Its build ([`super::identity::BUILD`]); empty in companions older than that.
+    #[serde(default)]
+    pub build: String,
     /// The command with every setting spelled out, without output and shard.
     pub command: String,
     /// Seed of the random streams: the same for every row.
     pub seed: u64,
-    /// Digest of version, command and inputs: parts of one table have it in common.
+    /// Digest of build, command and inputs: parts of one table have it in common.
     pub study: String,
     /// The table's columns.
     pub columns: Vec<String>,
+    /// What its scores can be drawn against; none for a table of stones as they are.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub layout: Option<Layout>,
     /// Rows of the whole table.
     pub total: u64,
     /// The part of it that this table is; none for the whole.
@@ -32,6 +48,21 @@ pub struct Meta {
     pub crc32: String,
     /// What the scores mean.
     pub metrics: Vec<Definition>,
+}
+
+/// What the scores of a table can be drawn against.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Layout {
+    /// The stone that is varied, for titles; empty if the table has several.
+    pub stone: String,
+    /// Columns along the axes: one for curves, two for a map.
+    pub axes: Vec<String>,
+    /// Columns that tell the curves of one plot apart.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<String>,
+    /// Whether the points are spread over the axes and form no grid.
+    #[serde(default)]
+    pub scattered: bool,
 }
 
 /// One metric of the table.
@@ -57,9 +88,43 @@ pub struct Definition {
 }
 
 impl Meta {
-    /// Where the companion of `table` is.
+    /// Where the companion of `table` is written.
     pub fn beside(table: &Path) -> PathBuf {
-        table.with_extension("meta.json")
+        let mut name = table.as_os_str().to_owned();
+        name.push(ENDING);
+        name.into()
+    }
+
+    /// Where the companion of `table` is read: as [`Meta::beside`], or where versions before it put
+    /// it if there alone is one.
+    pub fn found_beside(table: &Path) -> PathBuf {
+        let (own, old) = (Meta::beside(table), table.with_extension("meta.json"));
+        if own.symlink_metadata().is_err() && old.symlink_metadata().is_ok() { old } else { own }
+    }
+
+    /// Whether a file has a companion's name.
+    pub fn is_companion(path: &Path) -> bool {
+        path.file_name().is_some_and(|name| name.as_encoded_bytes().ends_with(ENDING.as_bytes()))
+    }
+
+    /// Whether a file is a table that has its companion.
+    pub fn is_beside(table: &Path) -> bool {
+        Form::of(table).is_ok() && table.extension().is_some() && Meta::found_beside(table).is_file()
+    }
+
+    /// Whether the file at `table` is the table, or the part of it, that `command` made, with nothing
+    /// changed since.
+    pub fn is_of(table: &Path, command: &str, shard: Option<Shard>) -> bool {
+        let sum = || limits::regular(table).and_then(checksum).ok();
+        Meta::read(&Meta::found_beside(table)).is_ok_and(|meta| {
+            meta.command == command && meta.shard == shard && sum().is_some_and(|sum| meta.crc32 == sum)
+        })
+    }
+
+    /// The companion in the file at `path`.
+    pub fn read(path: &Path) -> std::io::Result<Meta> {
+        let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
+        Ok(serde_json::from_slice(&bytes)?)
     }
 
     /// The definitions of a plan's metrics.
@@ -84,5 +149,16 @@ impl Meta {
         let mut bytes = serde_json::to_vec_pretty(self)?;
         bytes.push(b'\n');
         Ok(bytes)
+    }
+}
+
+/// CRC-32 of a file's bytes, as companions have it.
+pub fn checksum(mut file: File) -> std::io::Result<String> {
+    let (mut sum, mut piece) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut piece)? {
+            0 => return Ok(format!("{:08x}", sum.finalize())),
+            n => sum.update(&piece[..n]),
+        }
     }
 }

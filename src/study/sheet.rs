@@ -161,8 +161,9 @@ impl Sheet<'_> {
     /// Notes an error that was not reached.
     fn complain(&mut self, name: &str, target: f64, error: f64, samples: u64) {
         let target = shown(target);
-        let note =
-            format!("{name}: standard error {target} not reached: {error:.2e} after {samples} samples");
+        let note = format!(
+            "{name}: standard error {target} times the metric's scale not reached: {error:.2e} of it after {samples} samples"
+        );
         let before = self.row.error.take();
         self.row.error = Some(before.map_or(note.clone(), |e| format!("{e}; {note}")));
     }

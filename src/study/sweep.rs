@@ -66,7 +66,12 @@ impl Steps {
         if step == 0.0 || steps < 0.0 {
             return Err(format!("'{text}': the step leads away from {to}"));
         }
-        let count = (steps + 1e-6).floor() + 1.0;
+        let mut count = (steps + 1e-6).floor() + 1.0;
+        // a step of few digits may reach the end but for rounding: it must not go beyond
+        let beyond = (from + (count - 1.0) * step - to) * step.signum();
+        if beyond > 1e-9 * to.abs().max(1.0) {
+            count -= 1.0;
+        }
         if count > MOST {
             return Err(format!("'{text}' has more than a thousand million values"));
         }
@@ -182,6 +187,13 @@ mod tests {
         assert_eq!(values("0:1:0.3"), [0.0, 0.3, 0.6, 0.9]);
         assert_eq!(values("2:0:-1"), [2.0, 1.0, 0.0]);
         assert_eq!(values("7"), [7.0]);
+        assert_eq!(values("0:1:0.3333333").last(), Some(&0.9999999));
+        for text in ["0:89.999999:10", "0:1:0.3333334", "1:0:-0.3333334", "-30:30:7", "0:0.3:0.1", "5:5:1"] {
+            let steps = Steps::read(text, Unit::None).expect("a range");
+            let (low, high) = (steps.from.min(steps.to), steps.from.max(steps.to));
+            let is_within = |v: f64| (low - 1e-9..=high + 1e-9).contains(&v);
+            assert!(steps.count > 0 && steps.values().all(is_within), "{text}: {:?}", values(text));
+        }
         for bad in ["", "1:2", "1:2:0", "2:1:1", "a:b:c", "0:inf:1", "0:1:1e-12", "1:2:3:4"] {
             assert!(Steps::read(bad, Unit::None).is_err(), "{bad}");
         }

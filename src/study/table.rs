@@ -69,7 +69,31 @@ impl Cell {
     pub fn number(x: f64) -> Cell {
         Cell::Number(rounded(x))
     }
+
+    fn of_csv(column: &str, text: &str) -> Cell {
+        match (text.parse(), text.parse()) {
+            _ if text.is_empty() => Cell::Empty(()),
+            _ if TEXT_COLUMNS.contains(&column) => text.into(),
+            (Ok(count), _) => Cell::Count(count),
+            (Err(_), Ok(number)) => Cell::Number(number),
+            _ => text.into(),
+        }
+    }
+
+    fn of_json(value: serde_json::Value) -> Cell {
+        use serde_json::Value;
+        match value {
+            Value::Null => Cell::Empty(()),
+            Value::String(text) => Cell::Text(text),
+            Value::Number(n) if n.is_u64() => n.as_u64().map_or(Cell::Empty(()), |n| Cell::Count(n as usize)),
+            Value::Number(n) => n.as_f64().map_or(Cell::Empty(()), Cell::Number),
+            other => Cell::Text(other.to_string()),
+        }
+    }
 }
+
+/// Columns whose cells are words, even those that look like numbers.
+const TEXT_COLUMNS: [&str; 4] = ["stone", "material", "name", "error"];
 
 impl From<&str> for Cell {
     fn from(text: &str) -> Cell {
@@ -126,6 +150,23 @@ impl Form {
         }
         map.end().map_err(fail)?;
         Ok(out)
+    }
+
+    /// The cells of a row that [`Form::row`] made.
+    pub fn cells(self, columns: &[String], row: &[u8]) -> Result<Vec<Cell>, TableError> {
+        if self == Form::Csv {
+            let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(row);
+            let record = reader.records().next().transpose().map_err(|e| TableError::Row(e.to_string()))?;
+            let record = record.unwrap_or_default();
+            return Ok(columns
+                .iter()
+                .zip(&record)
+                .map(|(column, cell)| Cell::of_csv(column, cell))
+                .collect());
+        }
+        let mut row: serde_json::Map<String, serde_json::Value> =
+            serde_json::from_slice(row).map_err(|e| TableError::Row(e.to_string()))?;
+        Ok(columns.iter().map(|column| Cell::of_json(row.remove(column).unwrap_or_default())).collect())
     }
 
     /// What stands before row number `i`, from 0.
@@ -221,41 +262,51 @@ impl<R: BufRead> RowReader<R> {
     }
 }
 
-/// The numbers of a table, column by column.
+/// The cells of a table, column by column: numbers, and the same as text.
 #[derive(Debug, Clone, Default)]
-pub struct Numbers(BTreeMap<String, Vec<Option<f64>>>);
+pub struct Numbers {
+    numbers: BTreeMap<String, Vec<Option<f64>>>,
+    texts: BTreeMap<String, Vec<String>>,
+}
 
 impl Numbers {
-    /// Those of a table's bytes; a cell that is no number is none.
+    /// Those of a table's bytes.
     pub fn read(bytes: &[u8], form: Form) -> Result<Numbers, TableError> {
-        let mut numbers = Numbers::default();
-        let mut add = |column: &str, x: Option<f64>| match numbers.0.get_mut(column) {
-            Some(cells) => cells.push(x),
-            None => drop(numbers.0.insert(column.to_owned(), vec![x])),
+        let mut table = Numbers::default();
+        let mut add = |column: &str, number: Option<f64>, text: String| {
+            table.numbers.entry(column.to_owned()).or_default().push(number);
+            table.texts.entry(column.to_owned()).or_default().push(text);
         };
         if form == Form::Csv {
             let mut reader = csv::Reader::from_reader(bytes);
             let fail = |e: csv::Error| TableError::Row(e.to_string());
             let head = reader.headers().map_err(fail)?.clone();
             for row in reader.records() {
-                head.iter()
-                    .zip(&row.map_err(fail)?)
-                    .for_each(|(column, cell)| add(column, cell.parse().ok()));
+                let row = row.map_err(fail)?;
+                head.iter().zip(&row).for_each(|(column, cell)| add(column, cell.parse().ok(), cell.into()));
             }
-            return Ok(numbers);
+            return Ok(table);
         }
         let mut rows = RowReader::new(form, bytes)?;
         while let Some(row) = rows.row()? {
             let row: serde_json::Map<String, serde_json::Value> =
                 serde_json::from_slice(&row).map_err(|e| TableError::Row(e.to_string()))?;
-            row.iter().for_each(|(column, cell)| add(column, cell.as_f64()));
+            for (column, cell) in &row {
+                let text = cell.as_str().map_or_else(|| cell.to_string(), str::to_owned);
+                add(column, cell.as_f64(), text);
+            }
         }
-        Ok(numbers)
+        Ok(table)
     }
 
-    /// A column; empty if there is none of that name.
+    /// A column's numbers, none where a cell is no number; empty if there is no such column.
     pub fn column(&self, name: &str) -> &[Option<f64>] {
-        self.0.get(name).map_or(&[], Vec::as_slice)
+        self.numbers.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// A column's cells as text; empty if there is no such column.
+    pub fn texts(&self, name: &str) -> &[String] {
+        self.texts.get(name).map_or(&[], Vec::as_slice)
     }
 }
 

@@ -48,7 +48,7 @@ fn samples() -> Vec<Sample> {
         good(&format!("score -q octahedron cube --metrics weight_ratio -o t.{ending}"));
         add(ending, targets::tables, Some(how as u8), &read(&format!("t.{ending}")));
     }
-    add("companion", targets::tables, Some(3), &read("t.meta.json"));
+    add("companion", targets::tables, Some(3), &read("t.csv.meta.json"));
     let sky = image::Rgb32FImage::from_fn(8, 4, |x, y| image::Rgb([x as f32, y as f32 / 9.0, 1.0]));
     for ending in ["hdr", "exr"] {
         let path = folder.path().join(format!("sky.{ending}"));

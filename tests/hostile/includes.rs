@@ -99,7 +99,7 @@ fn what_is_included_is_part_of_a_tables_identity() {
     let study = || {
         let out = cutlab(folder.path(), "score -q in/stone.pbrt --metrics weight_ratio -o t.csv");
         assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
-        let meta = fs::read(folder.path().join("t.meta.json")).expect("was written");
+        let meta = fs::read(folder.path().join("t.csv.meta.json")).expect("was written");
         let meta: serde_json::Value = serde_json::from_slice(&meta).expect("JSON");
         meta["study"].as_str().expect("a digest").to_owned()
     };

@@ -297,7 +297,7 @@ fn tables_that_are_read_back_are_limited() {
             vec![b'x'; 3 << 20],
         ]
         .concat();
-        let good = fs::read_to_string(at("1-2.meta.json")).expect("is there");
+        let good = fs::read_to_string(at(&format!("1-2.{ending}.meta.json"))).expect("is there");
         let sum = |bytes: &[u8]| format!("{:08x}", crc32fast::hash(bytes));
         let was = sum(&fs::read(at(&format!("1-2.{ending}"))).expect("is there"));
         // the long row comes first
@@ -305,13 +305,14 @@ fn tables_that_are_read_back_are_limited() {
         let head = if ending == "csv" { head } else { 0 };
         let long = [&table[..head], &table[table.len() - (3 << 20) - 1..]].concat();
         fs::write(at(&format!("1-2.{ending}")), &long).expect("written");
-        fs::write(at("1-2.meta.json"), good.replace(&was, &sum(&long))).expect("written");
+        fs::write(at(&format!("1-2.{ending}.meta.json")), good.replace(&was, &sum(&long))).expect("written");
         let out = within_memory(folder.path(), &format!("merge 1-2.{ending} 2-2.{ending} -o all.{ending}"));
         let said = String::from_utf8_lossy(&out.stderr);
         assert!(said.contains("more than 1048576 bytes in a row"), "{said}");
         assert_eq!(said.trim_end().lines().count(), 1, "{said}");
         assert!(!at(&format!("all.{ending}")).exists());
-        fs::write(at("1-2.meta.json"), format!("{good}{}", " ".repeat(1 << 20))).expect("written");
+        fs::write(at(&format!("1-2.{ending}.meta.json")), format!("{good}{}", " ".repeat(1 << 20)))
+            .expect("written");
         refused(
             folder.path(),
             &format!("merge 1-2.{ending} 2-2.{ending} -o all.{ending}"),

@@ -182,7 +182,7 @@ fn pipes_in_the_places_of_its_own_files_are_not_waited_for() {
         ends_in_one_line(folder.path(), &format!("{render} {name}"), says);
     }
     pipe("a.csv");
-    pipe("b.meta.json");
+    pipe("b.csv.meta.json");
     fs::write(folder.path().join("b.csv"), "stone\n").expect("written");
     for part in ["a.csv", "b.csv"] {
         ends_in_one_line(folder.path(), &format!("merge {part} -o all.csv"), "it is not a regular file");

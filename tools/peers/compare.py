@@ -54,7 +54,7 @@ def measured(command):
 
 def cutlab(options):
     path = os.path.join(scene.OUT, "ours.exr")
-    seconds, _ = measured([*scene.RENDER, "-o", path, *shlex.split(options)])
+    seconds, _ = measured([*scene.RENDER, "--force", "-o", path, *shlex.split(options)])
     return scene.luminance(scene.layers(path)), seconds
 
 

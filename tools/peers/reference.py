@@ -82,7 +82,7 @@ def light_trace(landed):
 def cutlab(folder, seed, photons, *options):
     """Runs cutlab; its photons and the layers of its picture."""
     picture, map_path = os.path.join(folder, "round.exr"), os.path.join(folder, "photons.map")
-    command = [*scene.RENDER, "-o", picture, "--photon-map", map_path, "--seed", str(seed)]
+    command = [*scene.RENDER, "--force", "-o", picture, "--photon-map", map_path, "--seed", str(seed)]
     subprocess.run([*command, "--photons", str(photons), *options], check=True)
     landed = landed_photons(map_path)
     os.remove(map_path)

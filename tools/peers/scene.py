@@ -41,7 +41,7 @@ def mesh():
     """Vertices and faces (lists of vertex numbers) of the stone as it stands on the table."""
     path = os.path.join(OUT, "stone.obj")
     if not os.path.exists(path):
-        subprocess.run([CUTLAB, "generate", "-q", STONE, "-o", path], check=True)
+        subprocess.run([CUTLAB, "generate", "-q", "--force", STONE, "-o", path], check=True)
     lines = [line.split() for line in open(path)]
     vertices = np.array([[float(x) for x in line[1:4]] for line in lines if line[:1] == ["v"]])
     vertices[:, 2] += CULET - vertices[:, 2].min()

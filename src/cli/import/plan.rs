@@ -3,63 +3,120 @@
 use crate::cli::folders;
 use crate::cli::outcome::Failure;
 use crate::cli::stones;
-use crate::formats;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 /// One file to be imported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Job {
     /// The file, or a library stone.
-    pub stone: String,
+    pub stone: OsString,
     /// Where to write it; `-` is standard output.
     pub target: PathBuf,
-    /// Found in a folder and of an ending that no format has: whatever it is, nobody asked for it.
+    /// Found in a folder and no stone by its ending or content: nobody asked for it.
     pub by_chance: bool,
 }
 
 /// A stone and its place below the output folder, without ending.
 struct Found {
-    stone: String,
+    stone: OsString,
     below: PathBuf,
+    /// The name of the folder that it lies in, if that is not part of `below`.
+    folder: Option<OsString>,
     by_chance: bool,
+}
+
+impl Found {
+    /// The place with more and more of the stone's own name in it: alone, with its ending, with its
+    /// folder before it.
+    fn name(&self, detail: u32) -> PathBuf {
+        let with = |parts: [Option<&OsStr>; 3]| {
+            let mut name = OsString::new();
+            for part in parts.into_iter().flatten() {
+                if !name.is_empty() {
+                    name.push("-");
+                }
+                name.push(part);
+            }
+            self.below.with_file_name(name)
+        };
+        let stem = self.below.file_name();
+        let ending = Path::new(&self.stone).extension();
+        match detail {
+            0 => self.below.clone(),
+            1 => with([stem, ending, None]),
+            2 => with([self.folder.as_deref(), stem, ending]),
+            n => with([stem, ending, Some((n - 1).to_string().as_ref())]),
+        }
+    }
 }
 
 /// The jobs of an import into the folder `output`, folders taken with all that is in them.
 ///
-/// Files that would be written to one place get their own ending into their names: `a.asc` and
-/// `a.gem` become `a-asc.glb` and `a-gem.glb`. The output folder itself is not searched.
-pub fn into_folder(arguments: &[String], output: &Path, ending: &str) -> Result<Vec<Job>, Failure> {
+/// No two jobs write to one place, also where capitals make no difference. Files that would get as
+/// much as needed of their own names into it: `a.asc` and `a.gem` become `a-asc.glb` and `a-gem.glb`,
+/// `x/a.asc` and `y/a.asc` become `x-a-asc.glb` and `y-a-asc.glb`; what is then left gets a number. A
+/// stone that is named twice is taken once. The output folder itself is not searched.
+pub fn into_folder(arguments: &[OsString], output: &Path, ending: &str) -> Result<Vec<Job>, Failure> {
     let skipped = output.canonicalize().ok();
-    let mut found = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
             for file in folders::files(path, skipped.as_deref())? {
                 let below = file.strip_prefix(path).unwrap_or(&file).with_extension("");
-                let by_chance = !formats::has_known_ending(&file);
-                found.push(Found { stone: folders::as_stone(&file), below, by_chance });
+                let by_chance = !folders::is_meant_as_stone(&file);
+                found.push(Found { stone: folders::as_stone(&file), below, folder: None, by_chance });
             }
         } else {
+            let folder = path.parent().and_then(Path::file_name).map(OsStr::to_owned);
             let below = stones::file_stem(argument).into();
-            found.push(Found { stone: argument.clone(), below, by_chance: false });
+            found.push(Found { stone: argument.clone(), below, folder, by_chance: false });
         }
     }
-    let mut wanted: HashMap<PathBuf, usize> = HashMap::new();
-    found.iter().filter(|f| !f.by_chance).for_each(|f| *wanted.entry(f.below.clone()).or_default() += 1);
-    let job = |f: Found| {
-        let shared = f.by_chance || wanted.get(&f.below).is_some_and(|n| *n > 1);
-        let own = Path::new(&f.stone).extension().filter(|_| shared);
-        let mut name = f.below.into_os_string();
-        for (between, part) in [("-", own), (".", Some(ending.as_ref()))] {
-            if let Some(part) = part {
-                name.push(between);
-                name.push(part);
-            }
-        }
+    let mut seen = HashSet::new();
+    found.retain(|f| seen.insert(f.stone.clone()));
+    let places = places(&found);
+    let job = |(f, place): (Found, PathBuf)| {
+        let mut name = place.into_os_string();
+        name.push(".");
+        name.push(ending);
         Job { stone: f.stone, target: output.join(name), by_chance: f.by_chance }
     };
-    Ok(found.into_iter().map(job).collect())
+    Ok(found.into_iter().zip(places).map(job).collect())
+}
+
+/// A name for each stone, no two the same.
+pub fn places_of(stones: &[OsString]) -> Vec<PathBuf> {
+    let found = |stone: &OsString| {
+        let folder = Path::new(stone).parent().and_then(Path::file_name).map(OsStr::to_owned);
+        Found { stone: stone.clone(), below: stones::file_stem(stone).into(), folder, by_chance: false }
+    };
+    places(&stones.iter().map(found).collect::<Vec<_>>())
+}
+
+/// A place for each, no two the same: each has the shortest name that no other would have as well.
+fn places(found: &[Found]) -> Vec<PathBuf> {
+    let key = |name: &Path| stones::shown(name).to_lowercase();
+    let mut places: Vec<Option<PathBuf>> = found.iter().map(|f| f.by_chance.then(|| f.name(1))).collect();
+    let mut taken: HashSet<String> = HashSet::new();
+    let mut detail = 0;
+    while places.iter().any(Option::is_none) {
+        let mut wanted: HashMap<String, usize> = HashMap::new();
+        let waiting = || found.iter().zip(&places).filter(|(_, place)| place.is_none());
+        waiting().for_each(|(f, _)| *wanted.entry(key(&f.name(detail))).or_default() += 1);
+        for (f, place) in found.iter().zip(&mut places).filter(|(_, place)| place.is_none()) {
+            let name = f.name(detail);
+            let alone = wanted.get(&key(&name)).is_some_and(|n| *n == 1);
+            // numbers go to one after the other
+            if (alone || detail > 2) && taken.insert(key(&name)) {
+                *place = Some(name);
+            }
+        }
+        detail += 1;
+    }
+    places.into_iter().flatten().collect()
 }
 
 #[cfg(test)]
@@ -72,25 +129,40 @@ mod tests {
         let top = tempfile::tempdir().expect("a temporary folder");
         let folder = top.path().join("in");
         fs::create_dir_all(folder.join("deep/out")).expect("makes");
-        for name in ["a.asc", "a.gem", "deep/b.obj", "deep/out/c.obj", "notes.md", "a.md"] {
+        for name in
+            ["a.asc", "a.gem", "a-asc.obj", "deep/b.obj", "deep/out/c.obj", "notes.md", "a.md", "A.stl"]
+        {
             fs::write(folder.join(name), "x").expect("writes");
         }
         let output = folder.join("deep/out");
-        let jobs = into_folder(&[folder.display().to_string()], &output, "glb").expect("plans");
+        let jobs = into_folder(&[folder.clone().into()], &output, "glb").expect("plans");
         let named: Vec<_> = jobs
             .iter()
             .map(|j| (j.target.strip_prefix(&output).expect("inside").display().to_string(), j.by_chance))
             .collect();
         let expected = [
-            ("a-asc.glb", false),
+            ("A-stl.glb", false),
+            ("a-asc.glb", false), // of a-asc.obj
+            ("a-asc-2.glb", false),
             ("a-gem.glb", false),
             ("a-md.glb", true),
             ("deep/b.glb", false),
             ("notes-md.glb", true),
         ];
         assert_eq!(named, expected.map(|(n, c)| (n.to_string(), c)));
-        assert!(
-            into_folder(&["x/y.asc".into()], &output, "glb").expect("plans")[0].target.ends_with("y.glb")
-        );
+    }
+
+    #[test]
+    fn stones_of_one_name_are_told_apart_by_their_folders_then_by_numbers() {
+        let plan = |arguments: &[&str]| {
+            let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
+            let jobs = into_folder(&arguments, Path::new("o"), "glb").expect("plans");
+            jobs.iter().map(|j| j.target.display().to_string()).collect::<Vec<_>>()
+        };
+        assert_eq!(plan(&["x/y.asc"]), ["o/y.glb"]);
+        assert_eq!(plan(&["x/s.asc", "y/s.asc"]), ["o/x-s-asc.glb", "o/y-s-asc.glb"]);
+        assert_eq!(plan(&["a/x/s.asc", "b/x/s.asc"]), ["o/s-asc-2.glb", "o/s-asc-3.glb"]);
+        assert_eq!(plan(&["s.asc", "s.asc", "S.ASC"]), ["o/s-asc-2.glb", "o/S-ASC-3.glb"]);
+        assert_eq!(plan(&["oval:table=50", "oval:table=55", "oval"]).len(), 3);
     }
 }

@@ -17,7 +17,7 @@ pub fn first(args: &Args, target: &Target, scene: &SceneFile) -> Option<String> 
 
 /// `--glare 8`: the number counts as a STONE.
 fn of_glare(args: &Args) -> Option<String> {
-    let number = args.stones.iter().find(|s| s.parse::<f32>().is_ok())?;
+    let number = args.stones.iter().filter_map(|s| s.to_str()).find(|s| s.parse::<f32>().is_ok())?;
     args.glare.is_some().then(|| format!("--glare takes its number after '=': --glare={number}"))
 }
 

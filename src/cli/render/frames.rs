@@ -10,12 +10,14 @@ use super::target::{Alone, Kind, Target};
 use super::{Args, command};
 use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
+use crate::cli::outputs::record;
 use crate::photons::file;
 use crate::render::animation::{self, Pace, Turn};
 use crate::render::write::{EncodeError, Made};
 use crate::render::{Maps, Settings, mp4};
 use crate::scene::Scene;
 use crate::store::replace::{self, WriteError};
+use crate::study::identity::BUILD;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -29,7 +31,8 @@ pub fn take(
 ) -> Result<Vec<PathBuf>, Failure> {
     let command = command::normalised();
     // what another version made, or was made of files that have changed since, is of no use
-    let identity = format!("{command} # {}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
+    let identity =
+        format!("{command} # {} {BUILD}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
     match args.frames {
         None => one(args, scene, settings, target, (&command, &identity), console),
         Some(frames) => all(args, scene, settings, target, frames, &identity, console),
@@ -129,9 +132,18 @@ impl Film<'_> {
     ) -> Result<(), EncodeError> {
         let pace = self.args.fps.map_or_else(|| Pace::of_turn(self.frames), Pace::of_rate);
         let made = Made { command: self.command, rounds: None };
+        let record = record::behind(&command::normalised());
         match kind {
-            Kind::Gif => animation::gif(pictures, self.size, pace, out),
-            Kind::Mp4 => mp4::mp4(pictures, self.size, pace, made, out),
+            Kind::Gif => {
+                animation::gif(pictures, self.size, pace, out)?;
+                Ok(out.write_all(record.as_bytes())?)
+            }
+            Kind::Mp4 => {
+                mp4::mp4(pictures, self.size, pace, made, out)?;
+                // a box that players pass over
+                let length = (record.len() + 8) as u32;
+                Ok(out.write_all(&[&length.to_be_bytes(), &b"free"[..], record.as_bytes()].concat())?)
+            }
             _ => animation::apng(pictures, self.frames, self.size, self.alpha, pace, made, out),
         }
     }

@@ -6,6 +6,7 @@ use super::target::{Kind, beside};
 use super::{Args, rounds};
 use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
+use crate::cli::outputs::record;
 use crate::photons::{Shots, file};
 use crate::render::write::{self, Bits, EncodeError, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, glare, tone, tracer};
@@ -210,7 +211,11 @@ impl<'a> File<'a> {
         self.written.clear();
         for (pass, path) in self.parts() {
             let bytes = self.encoded(scene, film, settings, pass, rounds);
-            replace::write(&path, &bytes.map_err(|e| Failure::input(e.to_string()))?)?;
+            let mut bytes = bytes.map_err(|e| Failure::input(e.to_string()))?;
+            if matches!(self.kind, Kind::Jpeg | Kind::WebP) {
+                bytes.extend(record::behind(self.command).bytes());
+            }
+            replace::write(&path, &bytes)?;
             self.written.push(path);
         }
         Ok(())

@@ -1,8 +1,9 @@
 //! `-o` of `cutlab render`: what is written and where, and the work that is kept beside it.
 
-use super::Args;
+use super::{Args, command};
 use crate::cli::console::Console;
 use crate::cli::outcome::{self, Failure};
+use crate::cli::outputs::{Outputs, record};
 use crate::render::animation;
 use crate::render::{Pass, mp4};
 use crate::scene::SceneFile;
@@ -169,6 +170,24 @@ impl Target {
             )));
         }
         Ok((width, height))
+    }
+
+    /// Takes the places of all files, or says why they cannot be written.
+    pub fn claim(&self, args: &Args, outputs: &mut Outputs) -> Result<(), Failure> {
+        let command = command::normalised();
+        let is_own = |there: &Path| record::is_of(there, &command);
+        if let Some(map) = &args.photon_map {
+            outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
+        }
+        let numbers = if self.kind == Kind::Numbered { args.frames.unwrap_or(1) } else { 1 };
+        for number in 0..numbers {
+            let path = if self.kind.is_film() { self.path.clone() } else { self.frame(number) };
+            for (_, name) in Pass::ALL.iter().filter(|_| args.passes && self.kind != Kind::Exr) {
+                outputs.claim(&beside(&path, name), is_own)?;
+            }
+            outputs.claim(&path, is_own)?;
+        }
+        Ok(())
     }
 
     /// What is written.

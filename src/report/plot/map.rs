@@ -38,7 +38,8 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
-    let note = format!("standard error up to {worst:.1e}{how}; {}", drawing.metric.about);
+    let other = drawing.other_note();
+    let note = format!("standard error up to {worst:.1e}{how}{other}; {}", drawing.metric.about);
     let mut out = frame.open(&format!("{name} of {}", drawing.stone), &note);
     let levels = surface.as_ref().and_then(|s| Some((s, s.reach()?)));
     match levels {
@@ -293,7 +294,8 @@ fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
             continue;
         }
         let (x, y) = (frame.x.at(mark.at[0]), frame.y.at(mark.at[1]));
-        let width = 11.0 * text_width(&mark.name, true);
+        let name = mark.called();
+        let width = 11.0 * text_width(&name, true);
         let to_left = x + 10.0 + width > left + w;
         let middle = if to_left { x - 9.0 - width / 2.0 } else { x + 9.0 + width / 2.0 };
         let free = |dy: &&f64| !taken.iter().any(|t| overlap(*t, (middle, y + **dy, width / 2.0, 7.0)));
@@ -308,10 +310,14 @@ fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
              stroke=\"#000\" stroke-opacity=\"0.7\" stroke-width=\"3\" stroke-linejoin=\"round\" \
              paint-order=\"stroke\">{}</text>",
             if mark.own { 6.5 } else { 4.0 },
-            if mark.own { "#e8352e" } else { "#fff" },
+            match (mark.own, mark.other.is_empty()) {
+                (true, _) => "#e8352e",
+                (false, true) => "#fff",
+                (false, false) => "none", // its score is not the map's at this place
+            },
             if to_left { x - 9.0 } else { x + 9.0 },
             y + dy + 4.0,
-            escaped(&mark.name)
+            escaped(&name)
         );
     }
     taken

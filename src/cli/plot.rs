@@ -1,0 +1,44 @@
+//! `cutlab plot`: curves and maps of a table that is there, without computing anything.
+
+use super::console::Console;
+use super::outcome::{Code, Failure};
+use super::outputs::{Outputs, record};
+use super::plots::{self, Plots};
+use crate::study::merge::Part;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab plot sweep.csv -o wlr.svg -o iso.png     of a table of sweep, or of score --tilt
+  cutlab plot all.csv -o map.svg                  map-METRIC.svg for every metric of the table
+
+The table needs its companion beside it (sweep.csv.meta.json), which says what its axes are.")]
+pub struct Args {
+    /// A whole table that sweep, merge or score --tilt wrote
+    #[arg(value_name = "TABLE")]
+    table: PathBuf,
+    /// Where to draw: .svg or .png; a file called METRIC.svg shows that metric, of any other name one is
+    /// drawn for each, NAME-METRIC.svg
+    #[arg(long, short, value_name = "FILE", required = true)]
+    output: Vec<PathBuf>,
+}
+
+/// Draws the plots.
+pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+    let part = Part::open(&args.table)?;
+    if let Some(shard) = part.meta.shard {
+        let table = args.table.display();
+        return Err(Failure::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));
+    }
+    let layout = plots::layout_of(&args.table, &part.meta)?;
+    let plots = Plots::of(&args.output, &plots::metrics_of(&part.meta))?;
+    let mut outputs = Outputs::of(console);
+    outputs.reads(&args.table);
+    let command = record::own_command();
+    plots.claim(&command, &mut outputs)?;
+    let bytes = part.bytes()?;
+    let files = plots.draw(&bytes, part.form, &layout, &command)?;
+    plots::tell(&files, console)?;
+    Ok(Code::Done)
+}

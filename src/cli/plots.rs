@@ -1,0 +1,118 @@
+//! Plots of a table's scores: where each is written, and what stands along its axes.
+
+use super::console::Console;
+use super::outcome::Failure;
+use super::outputs::{Outputs, record};
+use super::stones;
+use crate::metrics::Metric;
+use crate::report::plot::{self, Axis, Drawing};
+use crate::report::raster;
+use crate::store::replace;
+use crate::study::meta::{Layout, Meta};
+use crate::study::table::{Form, Numbers};
+use std::path::{Path, PathBuf};
+
+/// Plots to be drawn: each file with its score.
+#[derive(Debug, Clone)]
+pub struct Plots {
+    files: Vec<(PathBuf, &'static Metric)>,
+}
+
+impl Plots {
+    /// The files of the plots asked for. One that is called as a metric shows that metric; of any
+    /// other name there is one for each, NAME-METRIC.svg.
+    pub fn of(paths: &[PathBuf], metrics: &[&'static Metric]) -> Result<Plots, Failure> {
+        let mut files = Vec::new();
+        for path in paths {
+            let Some(ending) = ending_of(path) else {
+                return Err(Failure::input(format!("{}: plots are .svg or .png", path.display())));
+            };
+            let stem = stones::shown(path.file_stem().unwrap_or_default());
+            let own = metrics.iter().find(|m| m.name == stem);
+            match (own, metrics) {
+                (Some(metric), _) | (None, [metric]) => files.push((path.clone(), *metric)),
+                _ => files.extend(metrics.iter().map(|metric| {
+                    let name = format!("{stem}-{}.{ending}", metric.name);
+                    (path.with_file_name(name), *metric)
+                })),
+            }
+        }
+        Ok(Plots { files })
+    }
+
+    /// Whether there is none to be drawn.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
+    /// Takes the places of all files.
+    ///
+    /// - `command`: that makes the table
+    pub fn claim(&self, command: &str, outputs: &mut Outputs) -> Result<(), Failure> {
+        self.files.iter().try_for_each(|(file, _)| outputs.claim(file, |there| record::is_of(there, command)))
+    }
+
+    /// Draws the plots of a table; their files.
+    ///
+    /// - `command`: recorded in each
+    pub fn draw(
+        &self,
+        bytes: &[u8],
+        form: Form,
+        layout: &Layout,
+        command: &str,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        if self.is_empty() {
+            return Ok(Vec::new());
+        }
+        let table = Numbers::read(bytes, form)?;
+        let family = stones::family(&layout.stone);
+        let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::of(key, family)).collect();
+        for (path, metric) in &self.files {
+            let drawing = Drawing { metric, axes: &axes, stone: &layout.stone, family, own: None };
+            let svg = drawing.svg(&table, layout.scattered, &layout.curves);
+            let bytes = if ending_of(path) == Some("svg") {
+                record::recorded(svg, command).into_bytes()
+            } else {
+                let png = raster::png_of(&svg, plot::PIXELS, Some(command));
+                png.map_err(|e| Failure::input(e.to_string()))?
+            };
+            replace::write(path, &bytes)?;
+        }
+        Ok(self.files.iter().map(|(path, _)| path.clone()).collect())
+    }
+}
+
+/// What a table's companion says of its axes.
+pub fn layout_of(table: &Path, meta: &Meta) -> Result<Layout, Failure> {
+    let why = || {
+        let table = table.display();
+        match meta.build.is_empty() {
+            true => format!("{table} is of an older cutlab, which did not note its axes: make it anew"),
+            false => {
+                format!("{table} has nothing to draw its scores against: it is of no sweep and no --tilt")
+            }
+        }
+    };
+    meta.layout.clone().filter(|l| (1..=2).contains(&l.axes.len())).ok_or_else(|| Failure::input(why()))
+}
+
+/// The metrics of a table.
+pub fn metrics_of(meta: &Meta) -> Vec<&'static Metric> {
+    meta.metrics.iter().filter_map(|m| Metric::named(&m.name)).collect()
+}
+
+/// `svg` or `png`, by the file's ending.
+fn ending_of(path: &Path) -> Option<&'static str> {
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    ["svg", "png"].into_iter().find(|e| *e == ending)
+}
+
+/// Says which files were drawn.
+pub fn tell(files: &[PathBuf], console: &Console) -> Result<(), Failure> {
+    if console.json {
+        return console.print_json(&files);
+    }
+    files.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+    Ok(())
+}
