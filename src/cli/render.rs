@@ -58,7 +58,7 @@ pub struct Args {
     /// Photons in each map
     #[arg(long, default_value_t = 100_000, value_parser = counted)]
     photons: usize,
-    /// Photons that an estimate gathers
+    /// Photons over whose distance each spreads its light
     #[arg(long, default_value_t = 500, value_parser = counted)]
     nearest: usize,
     /// Keep the photons in this file and use them again for other views
@@ -79,7 +79,8 @@ pub struct Args {
     /// Exposure in stops beside the scene's own, or auto
     #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = exposure, value_name = "STOPS|auto")]
     exposure: Exposure,
-    /// Tone curve: filmic or linear
+    /// Tone curve, which acts on luminance and keeps the hue: filmic, straight up to .6, then
+    /// .6 + .4 (1 - e^(-(x - .6)/.4)), or linear, which ends at white
     #[arg(long, default_value = "filmic", value_parser = curve)]
     tone: Curve,
     /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; an

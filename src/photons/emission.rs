@@ -212,7 +212,7 @@ fn fly(
                     }
                     let (pick, u) = (flight.stream.unit(), flight.stream.pair());
                     let (direction, weight) = room.aim.direction(at.point, at.normal, 1.0, pick, u)?;
-                    flight.point = at.point;
+                    flight.point = scene.start(&at);
                     flight.direction = direction;
                     flight.light.weigh(weight);
                     flight.last = Last::Surface(at.surface);
@@ -222,7 +222,7 @@ fn fly(
                     if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
                     }
-                    flight.point = at.point;
+                    flight.point = scene.start(&at);
                     flight.direction = flight.direction.reflect(at.normal);
                     flight.last = Last::Mirror(at.surface);
                 }
