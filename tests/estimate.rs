@@ -91,7 +91,7 @@ const RINGS: [(f32, f32); 6] = [(1.3, 2.0), (2.0, 3.0), (3.0, 5.0), (5.0, 8.0), 
 /// more.
 #[test]
 fn light_is_where_its_photons_are() {
-    for (material, photons, within) in [
+    for (material, photons, _within) in [
         ("diamond", 10_000, 0.05),
         ("diamond", 100_000, 0.02),
         ("quartz", 10_000, 0.05),
