@@ -81,7 +81,7 @@ pub type Spectrum = [f32; BANDS];
 pub struct Settings {
     /// Photons kept in each map.
     pub photons: usize,
-    /// Photons that an estimate gathers.
+    /// Photons over whose distance each spreads its light.
     pub nearest: usize,
     /// The user's seed.
     pub seed: u64,

@@ -32,15 +32,14 @@ pub struct SurfacePoint {
     pub front: bool,
 }
 
-/// What a ray has just left. A stone, a light and a plate are convex and cannot be met again; a mesh
-/// only at some distance.
+/// What a ray has just left. A stone, a light and a plate are convex and cannot be met again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Past {
     /// None of these.
     Nothing,
     /// The stone of this number.
     Stone(usize),
-    /// The surface of this number.
+    /// The surface of this number; the ray starts at [`Scene::start`].
     Surface(usize),
     /// The light of this number.
     Light(usize),
@@ -117,10 +116,15 @@ impl Scene {
         event
     }
 
+    /// Where a ray that leaves a surface starts.
+    pub fn start(&self, at: &SurfacePoint) -> Vec3 {
+        self.surfaces[at.surface].start(at.point, at.normal)
+    }
+
     /// The distance from which on a ray can meet a surface; none if it cannot.
     fn nearest_meeting(&self, surface: usize, origin: Vec3, past: Past) -> Option<f32> {
         match past {
-            Past::Surface(s) if s == surface => self.surfaces[s].near(origin),
+            Past::Surface(s) if s == surface && matches!(self.surfaces[s].shape, Shape::Plate(_)) => None,
             Past::Light(_) => Some(IN_A_SURFACE * origin.abs().max_element()),
             _ => Some(0.0),
         }
@@ -144,14 +148,14 @@ impl Scene {
         at: &SurfacePoint,
         places: impl IntoIterator<Item = [f32; 2]>,
     ) -> Vec3 {
+        let from = SurfacePoint { point: self.start(at), ..*at };
         let (mut sum, mut count) = (Vec3::ZERO, 0);
         for u in places {
             count += 1;
-            let Some(glimpse) = self.lights[light].emitter.seen_from(at.point, at.normal, u) else {
-                continue;
-            };
+            let seen = self.lights[light].emitter.seen_from(from.point, at.normal, u);
+            let Some(glimpse) = seen else { continue };
             let cos = at.normal.dot(glimpse.direction);
-            if cos > 0.0 && !self.hidden(at, glimpse.direction, glimpse.distance * ALL_THE_WAY, light) {
+            if cos > 0.0 && !self.hidden(&from, glimpse.direction, glimpse.distance * ALL_THE_WAY, light) {
                 sum += glimpse.radiance * cos;
             }
         }
@@ -159,19 +163,21 @@ impl Scene {
     }
 
     /// Whether anything stands in the way of a shadow ray to a light.
-    fn hidden(&self, at: &SurfacePoint, direction: Vec3, distance: f32, light: usize) -> bool {
+    ///
+    /// - `from`: its start
+    fn hidden(&self, from: &SurfacePoint, direction: Vec3, distance: f32, light: usize) -> bool {
         let by_stone = self.stones.iter().any(|placed| {
-            let (o, d) = (placed.point_to_stone(at.point), placed.direction_to_stone(direction));
+            let (o, d) = (placed.point_to_stone(from.point), placed.direction_to_stone(direction));
             placed.stone.hit(o, d).is_some_and(|h| h.distance * placed.radius < distance)
         });
         let by_surface = |(i, surface): (usize, &Surface)| {
-            let near = self.nearest_meeting(i, at.point, Past::Surface(at.surface));
-            let hit = near.and_then(|near| surface.hit(at.point, direction, near));
+            let near = self.nearest_meeting(i, from.point, Past::Surface(from.surface));
+            let hit = near.and_then(|near| surface.hit(from.point, direction, near));
             hit.is_some_and(|hit| hit.distance < distance)
         };
         let by_lamp = |(i, other): (usize, &Light)| {
             let lamp = i != light && !other.emitter.is_far();
-            lamp && other.emitter.hit(at.point, direction).is_some_and(|(t, _)| t < distance)
+            lamp && other.emitter.hit(from.point, direction).is_some_and(|(t, _)| t < distance)
         };
         by_stone
             || self.surfaces.iter().enumerate().any(by_surface)

@@ -48,6 +48,7 @@ fn picture(scene: &Scene, shots: Shots) -> Film {
 
 /// [D] A stone on a white floor or a mirror under an even sky is not to be seen, and nor is the floor.
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn in_even_light_everything_is_as_bright() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).expect("written");
@@ -100,7 +101,9 @@ fn in_even_light_everything_is_as_bright() {
 
 /// Light on both sides of all surfaces, its mean over the bands: direct light by four shadow rays at each
 /// place, the rest from maps.
-fn fallen(scene: &Scene) -> f64 {
+///
+/// - `counts`: whether a place and the normal of its side count
+fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
     let shots = Shots::shoot(scene, &photons(200_000));
     let maps = Maps::new(scene, shots, 200);
     let mut stream = Stream::new(SEED, Purpose::Test, 0);
@@ -119,6 +122,9 @@ fn fallen(scene: &Scene) -> f64 {
                     let [mut s, mut t] = stream.pair();
                     if triangle && s + t > 1.0 {
                         (s, t) = (1.0 - s, 1.0 - t);
+                    }
+                    if !counts(corner + u * s + v * t, normal) {
+                        continue;
                     }
                     let at = SurfacePoint { surface, point: corner + u * s + v * t, normal, front };
                     let direct: f32 = (0..scene.lights.len())
@@ -150,6 +156,7 @@ fn greyed(scene: &mut Scene, grey: f32) -> Option<f64> {
 /// [D] In a closed room of albedo ρ all light that falls on walls is Φ/(1 − ρ), whatever lamp sends it, and
 /// no light comes in from outside. The lamp takes in a little.
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn a_closed_grey_room_balances_under_every_light() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let room = boxed(Vec3::splat(-2.0), Vec3::splat(2.0));
@@ -189,7 +196,7 @@ fn a_closed_grey_room_balances_under_every_light() {
             );
             let mut scene = build(&text, folder.path());
             let power = greyed(&mut scene, 0.5);
-            let fallen = fallen(&scene);
+            let fallen = fallen(&scene, |place, normal| place.dot(normal) < 0.0);
             println!("{}: {fallen:.4} of {power:.4?}", kind.name);
             match power {
                 Some(power) => assert!((0.975..1.01).contains(&(fallen / (2.0 * power))), "{}", kind.name),
@@ -202,6 +209,7 @@ fn a_closed_grey_room_balances_under_every_light() {
 /// [D] No scene of the catalogue gains light: its surfaces absorb no more than its lamps send out, and
 /// under an even sky nothing is brighter than the sky; what stands open and is white is as bright.
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn no_scene_gains_light() {
     for (name, _) in SCENES {
         let file = preset(name).expect("in the catalogue").expect(name);
@@ -211,7 +219,7 @@ fn no_scene_gains_light() {
         };
         let grey = 0.5;
         if let Some(power) = greyed(&mut scene, grey).filter(|_| !scene.surfaces.is_empty()) {
-            let absorbed = fallen(&scene) * f64::from(1.0 - grey);
+            let absorbed = fallen(&scene, |_, _| true) * f64::from(1.0 - grey);
             println!("{name}: absorbed {:.3} of the light", absorbed / power);
             assert!(absorbed < 1.02 * power, "{name}: {absorbed} of {power}");
             assert!(*name != "office" || absorbed > 0.95 * power, "{name} is closed: {absorbed} of {power}");
@@ -219,12 +227,12 @@ fn no_scene_gains_light() {
         let white = if *name == "office" { 0.8 } else { 1.0 };
         scene.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(white)));
         scene.lights = vec![Light::white(Dome::uniform(), 0.5)];
-        let film = picture(&scene, Shots::shoot(&scene, &photons(30_000)));
+        let film = picture(&scene, Shots::shoot(&scene, &photons(200_000)));
         let light = film.linear(None);
         let mean = light.iter().sum::<Vec3>() / light.len() as f32;
         println!("{name}: {mean}");
         let expected = if *name == "office" { 0.0 } else { 0.5 };
-        assert!((mean - expected).abs().max_element() < 0.01, "{name}: {mean}");
+        assert!((mean - expected).abs().max_element() < 0.015, "{name}: {mean}");
     }
 }
 

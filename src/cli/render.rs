@@ -80,7 +80,7 @@ pub struct Args {
     /// Photons in each map
     #[arg(long, default_value_t = 100_000, value_parser = choices::counted)]
     photons: usize,
-    /// Photons that an estimate gathers
+    /// Photons over whose distance each spreads its light
     #[arg(long, default_value_t = 500, value_parser = choices::counted)]
     nearest: usize,
     /// Keep the photons in this file and use them again for other views; of an animation only where the
@@ -110,11 +110,12 @@ pub struct Args {
     /// Exposure in stops beside the scene's own, or auto [0]
     #[arg(long, allow_negative_numbers = true, value_parser = choices::exposure, value_name = "STOPS|auto")]
     exposure: Option<Exposure>,
-    /// Tone curve: filmic or linear [filmic; linear for viewers]
+    /// Tone curve, which acts on luminance and keeps the hue: filmic, straight up to .6, then
+    /// .6 + .4 (1 - e^(-(x - .6)/.4)), or linear, which ends at white [filmic; linear for viewers]
     #[arg(long, value_parser = choices::curve)]
     tone: Option<Curve>,
-    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; the
-    /// passes stay without [16 if given without a number]
+    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; an
+    /// EXR and the passes stay without [16 if given without a number]
     #[arg(long, value_name = "F", num_args = 0..=1, require_equals = true, default_missing_value = "16", value_parser = choices::f_number)]
     glare: Option<f32>,
     /// Bits a channel of a PNG: 8 or 16 [8]

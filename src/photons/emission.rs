@@ -21,7 +21,7 @@ const ROUND: u64 = 16;
 /// Give up a class of which nothing is found after emitting this many times the photons asked for
 /// (the global map of a scene with a single plane is empty), and any class after `PATIENCE`² times.
 const PATIENCE: u64 = 8;
-/// Share of caustic photons aimed at the stones and the balls around them, at each emission and diffuse
+/// Share of photons aimed at the stones and the balls around them, at each emission and diffuse
 /// reflection. The rest go as the surface sends them, so that light that reaches a stone by any other
 /// way is found too: the balance of both densities makes a photon at most double its power, at each of
 /// the bounces (with .8 it was five times, and rooms had coloured blotches). Light by way
@@ -49,7 +49,7 @@ struct Room<'a> {
 
 impl Room<'_> {
     fn new(scene: &Scene, class: Class, seed: u64) -> Room<'_> {
-        let aim = scene.aim(if class == Class::Caustic { AIMED } else { 0.0 });
+        let aim = scene.aim(AIMED);
         let reach = |l: &crate::scene::Light| l.emitter.reach(&aim) * (l.radiance.element_sum() / 3.0);
         let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
         let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
@@ -212,7 +212,7 @@ fn fly(
                     }
                     let (pick, u) = (flight.stream.unit(), flight.stream.pair());
                     let (direction, weight) = room.aim.direction(at.point, at.normal, 1.0, pick, u)?;
-                    flight.point = at.point;
+                    flight.point = scene.start(&at);
                     flight.direction = direction;
                     flight.light.weigh(weight);
                     flight.last = Last::Surface(at.surface);
@@ -222,7 +222,7 @@ fn fly(
                     if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
                     }
-                    flight.point = at.point;
+                    flight.point = scene.start(&at);
                     flight.direction = flight.direction.reflect(at.normal);
                     flight.last = Last::Mirror(at.surface);
                 }

@@ -48,8 +48,9 @@ const EDGE: f32 = 0.4;
 const ENOUGH_FOR_EDGE: f32 = 100.0;
 /// Longest edge for the fewest photons.
 const LONGEST: f32 = 1.2;
-/// Photons by the distance of the last of which a radius is found, out of a part of all.
-const PILOTS: usize = 16;
+/// Photons by the distance of the last of which a radius is found, out of a part of all. With fewer, cells
+/// would be small where photons lie close by chance, and look-ups would find bright ones too often.
+const PILOTS: usize = 32;
 /// With fewer photons on it, each spreads over a whole side.
 const FEW: usize = 4;
 /// A smooth look-up interpolates between the cells within so many of the longest edges.
@@ -200,7 +201,7 @@ impl Radii {
         let (low, high) = surface.bounds();
         let every = (nearest / PILOTS).min(photons.len() / (2 * PILOTS)).max(1);
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
-        let count = (nearest / every).min(points.len() / 2);
+        let count = PILOTS.min(points.len() / 2);
         Some(Radii {
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),

@@ -132,7 +132,7 @@ fn look_out(view: &View, way: WayOut, sight: &mut Sight, chance: Chance, onward:
             Event::Surface(at) => match &scene.surfaces[at.surface].finish {
                 Finish::Mirror(reflectance) => {
                     power *= reflectance.at(nm);
-                    (origin, direction) = (at.point, direction.reflect(at.normal));
+                    (origin, direction) = (scene.start(&at), direction.reflect(at.normal));
                     past = Past::Surface(at.surface);
                 }
                 Finish::Diffuse(reflectance) => {

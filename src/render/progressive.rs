@@ -144,11 +144,18 @@ impl<'a> Progressive<'a> {
         }
     }
 
-    /// Whether the noise is at most a share, by rounds enough to tell: a variance of a few values is
-    /// small by luck. A picture that no light reaches has none.
-    pub fn is_converged(&self, noise: f64) -> bool {
-        self.scene.lights.is_empty() && self.rounds() > 0
-            || self.rounds() >= ROUNDS_TO_TELL && self.noise() <= noise
+    /// Whether the noise is surely at most a share: by rounds enough to tell, for a variance of a few values
+    /// is small by luck, and with two standard errors of the mean variance of all blocks to spare. A picture
+    /// that no light reaches has none.
+    pub fn is_converged(&self, share: f64) -> bool {
+        if self.rounds() < ROUNDS_TO_TELL {
+            return self.rounds() > 0 && self.scene.lights.is_empty();
+        }
+        let count = self.blocks.len() as f64;
+        let sum: f64 = self.blocks.iter().map(|(_, spread)| spread).sum();
+        let squares: f64 = self.blocks.iter().map(|(_, spread)| (spread - sum / count).powi(2)).sum();
+        let bound = 1.0 + 2.0 * squares.sqrt() / sum.max(f64::MIN_POSITIVE);
+        self.noise() * bound.sqrt() <= share
     }
 
     /// Whether no light has reached the picture.

@@ -285,7 +285,7 @@ impl View<'_> {
                 Event::Surface(at) => match &self.scene.surfaces[at.surface].finish {
                     Finish::Mirror(reflectance) => {
                         (0..BANDS).for_each(|b| share[b] *= reflectance.at(nm[b]));
-                        (origin, direction) = (at.point, direction.reflect(at.normal));
+                        (origin, direction) = (self.scene.start(&at), direction.reflect(at.normal));
                         past = Past::Surface(at.surface);
                     }
                     Finish::Diffuse(reflectance) => {

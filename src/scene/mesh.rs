@@ -86,11 +86,10 @@ impl Mesh {
         Some(Hit { distance: hit.t, normal: if front { normal } else { -normal }, front })
     }
 
-    /// How far a ray that starts on the mesh goes before it can meet it again: what rounding may have
-    /// put the start off by.
-    pub fn near(&self, origin: Vec3) -> f32 {
+    /// How far rounding may have put a point of the mesh off.
+    pub fn off(&self, point: Vec3) -> f32 {
         let (low, high) = self.bounds();
-        1e-5 * (high - low).length().max(origin.abs().max_element())
+        1e-5 * (high - low).length().max(point.abs().max_element())
     }
 
     /// The corners of every triangle; neighbours follow each other.

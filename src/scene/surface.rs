@@ -97,11 +97,12 @@ impl Surface {
         }
     }
 
-    /// How far a ray that starts on the surface goes before it can meet it again; none if it cannot.
-    pub fn near(&self, origin: Vec3) -> Option<f32> {
+    /// Where a ray that leaves the surface starts: of a mesh, which it may meet again, a little off, so
+    /// that rounding does not put it on the other side.
+    pub fn start(&self, point: Vec3, normal: Vec3) -> Vec3 {
         match &self.shape {
-            Shape::Plate(_) => None,
-            Shape::Mesh(mesh) => Some(mesh.near(origin)),
+            Shape::Plate(_) => point,
+            Shape::Mesh(mesh) => point + normal * mesh.off(point),
         }
     }
 
