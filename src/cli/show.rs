@@ -31,6 +31,14 @@ use std::path::{Path, PathBuf};
 use tiers::TierRow;
 
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Every measure follows from the planes alone, so that a stone measures alike in every file format.
+Percentages are of the girdle width, the least distance of two parallel lines around the outline.
+Crown and pavilion angle are those of the main facet across the width. Main facets are those that span the
+greatest height of their side: the mains of a brilliant, the first step of a step cut. Of these the one
+counts that faces along the width most nearly, and of several that do so alike the steepest.
+The weight is that of --material. A design drawn for an index is weighed as the known material nearest to
+it, if one lies within 0.01; a stone without either is weighed as diamond.")]
 pub struct Args {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns
     #[arg(required = true, value_name = "STONE")]

@@ -35,7 +35,7 @@ pub fn turned_up(up: DVec3) -> DMat3 {
 /// Why a stone seems not to stand table up, in words; none if it does, or if nothing tells.
 ///
 /// A stone is doubted if it is symmetric about another axis and not about z, if by far its largest facet
-/// is no table and there is none, or if the flat at its bottom is larger than its table and has facets
+/// is not horizontal, or if the flat at its bottom is larger than its table and has facets
 /// around it. Checked in `tests/standing.rs` on every cut of the library.
 pub fn doubt(solid: &Polyhedron) -> Option<String> {
     let faces = Faces::of(solid);
@@ -52,7 +52,7 @@ pub fn doubt(solid: &Polyhedron) -> Option<String> {
         }
     }
     let [(largest, normal), (next, _)] = *faces.sorted.first_chunk::<2>()?;
-    if !faces.has(Zone::Table) && Zone::of(normal) != Zone::Culet && largest > LARGEST * next {
+    if ![Zone::Table, Zone::Culet].contains(&Zone::of(normal)) && largest > LARGEST * next {
         let off = normal.truncate().length().atan2(normal.z).to_degrees();
         return said(format!("its largest facet leans by {off:.1}°"));
     }

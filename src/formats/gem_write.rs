@@ -4,7 +4,7 @@ use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
 use super::gem::{END_OF_FACETS, LINES, OFFSET_FOLLOWS};
-use super::windows_1252::encoded;
+use super::windows_1252::{byte_of, encoded};
 use crate::cut::Design;
 use crate::solid::polyhedron::Fate;
 use glam::DVec3;
@@ -73,6 +73,11 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
             "instructions are shortened to the {FACET_TEXT} bytes that GemCad takes with the facet's name: tier {}",
             shortened.join(", ")
         ));
+    }
+    let texts = headers(design).into_iter().chain(footers(design));
+    let texts = texts.chain(design.tiers.iter().flat_map(|t| [t.name.clone(), t.instructions.clone()]));
+    if texts.flat_map(|t| t.chars().collect::<Vec<_>>()).any(|c| byte_of(c).is_none()) {
+        remarks.push("letters that Windows-1252 does not have are written as '?'".into());
     }
     if !whole {
         remarks.push(format!("headers or footnotes are cut off after {TEXT} bytes"));
