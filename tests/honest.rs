@@ -167,7 +167,7 @@ fn what_does_not_apply_is_empty_and_says_why() {
         command.extend(exact);
         let (table, said) = bench.ends(0, &command);
         let row = table.lines().nth(1).expect("a row");
-        assert!(row.contains(",,,,0.0") && row.ends_with("left out: the stone has no table"), "{row}");
+        assert!(row.contains(",,,,,0.0") && row.contains("left out: the stone has no table"), "{row}");
         assert!(said.contains("table_iso, table_cos left out: the stone has no table"), "{said}");
     }
     let (table, said) = bench.ends(0, &["score", "cube", "--ri", "1.5", "--metrics", "fire_streak,spread"]);
