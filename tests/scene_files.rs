@@ -202,7 +202,7 @@ fn meshes_of_every_format_are_scenery() {
     }
 }
 
-/// Flat colours that are at least a twentieth of a viewer's picture, and what all flat ones are together.
+/// Flat colours that are at least a hundredth of a viewer's picture, and what all flat ones are together.
 fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
     let file = preset(scene).expect("in the catalogue").expect("is sound");
     let scene = file.build(&Cast::default(), 1.0).expect("is set up");
@@ -220,7 +220,7 @@ fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
         let near = film.pixels.iter().filter(|p| (p.shown - colour).abs().max_element() < 0.05);
         (name, near.count() as f64 / count)
     });
-    let names = shares.iter().filter(|(_, share)| *share >= 0.05).map(|(name, _)| *name).collect();
+    let names = shares.iter().filter(|(_, share)| *share >= 0.01).map(|(name, _)| *name).collect();
     (names, shares.iter().map(|(_, share)| share).sum())
 }
 
