@@ -138,10 +138,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
     let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
     let target = target::Target::of(&output, args)?;
-    let (width, height) = target.size(args, &file)?;
     if let Some(problem) = conflicts::first(args, &target, &file) {
         return Err(Failure::input(problem));
     }
+    let (width, height) = target.size(args, &file)?;
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
     let curve = args.tone.unwrap_or(if scene.camera.flat { Curve::Linear } else { Curve::Filmic });
     let tone = Tone { curve, ..Tone::default() };
