@@ -175,13 +175,21 @@ fn a_film_of_the_command_line_is_made_once_and_again() {
     let (_, problem) = bench.ends(2, &arguments);
     assert!(problem.contains("--width 34"), "{problem}");
     let even = arguments.map(|word| if word == "33" { "34" } else { word });
-    bench.good(&even);
+    assert_eq!(bench.good(&even), "", "the encoder says nothing");
     let first = std::fs::read(bench.path("a.mp4")).expect("was written");
     assert_eq!(bench.names(), ["a.mp4"]);
     bench.good(&even);
     assert_eq!(std::fs::read(bench.path("a.mp4")).expect("was written"), first);
     let moov = index(&first);
     assert_eq!((moov.mvhd.timescale, moov.mvhd.duration), (10, 5));
+    // the smallest and the fastest, and one that takes half a minute
+    for (side, frames, fps) in [("16", "3", "120"), ("18", "30", "1")] {
+        let size = ["--width", side, "--height", side, "--frames", frames, "--fps", fps, "-o", "b.mp4"];
+        let arguments = [&["render", "-q", "cube", "--spp", "1", "--photons", "100"][..], &size].concat();
+        assert_eq!(bench.good(&arguments), "");
+        let moov = index(&std::fs::read(bench.path("b.mp4")).expect("was written"));
+        assert_eq!(moov.mvhd.duration.to_string(), frames);
+    }
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn meshes_of_every_format_are_scenery() {
     }
 }
 
-/// Flat colours that are at least a twentieth of a viewer's picture, and what all flat ones are together.
+/// Flat colours that are at least a hundredth of a viewer's picture, and what all flat ones are together.
 fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
     let file = preset(scene).expect("in the catalogue").expect("is sound");
     let scene = file.build(&Cast::default(), 1.0).expect("is set up");
@@ -220,7 +220,7 @@ fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
         let near = film.pixels.iter().filter(|p| (p.shown - colour).abs().max_element() < 0.05);
         (name, near.count() as f64 / count)
     });
-    let names = shares.iter().filter(|(_, share)| *share >= 0.05).map(|(name, _)| *name).collect();
+    let names = shares.iter().filter(|(_, share)| *share >= 0.01).map(|(name, _)| *name).collect();
     (names, shares.iter().map(|(_, share)| share).sum())
 }
 
@@ -243,7 +243,7 @@ fn viewers_show_flat_colours() {
     ] {
         let (names, share) = flat_colours(scene);
         assert_eq!(names, expected, "{scene}");
-        assert!(share > 0.8, "{scene}: {share} of the picture is flat");
+        assert!(share > 0.7, "{scene}: {share} of the picture is flat");
     }
 }
 
@@ -258,7 +258,8 @@ fn before_a_sky(cut: &str, material: &str, radiance: f32) -> String {
     format!("{head}[[light]]{dome}")
 }
 
-/// What is cut out and the background behind it are the whole picture, to the last bit but rounding.
+/// What is cut out and the background behind it are the whole picture, but for what the wavelengths of a
+/// ray leave of a white sky.
 #[test]
 fn a_stone_before_its_own_background_is_the_picture() {
     const SKY: f32 = 0.4;
@@ -269,7 +270,7 @@ fn a_stone_before_its_own_background_is_the_picture() {
     let again = write::before(&cut, Vec3::splat(SKY));
     for ((a, b), c) in whole.pixels.iter().zip(&again).zip(&cut.pixels) {
         assert!(a.alpha > 0.9999);
-        assert!((a.shown - *b).abs().max_element() < 2e-3, "{} {b} at coverage {}", a.shown, c.alpha);
+        assert!((a.shown - *b).abs().max_element() < 0.03, "{} {b} at coverage {}", a.shown, c.alpha);
         match c.alpha {
             0.0 => clear += 1,
             x if x > 0.999 => opaque += 1,
@@ -294,7 +295,7 @@ fn an_edge_has_the_colour_of_what_it_is_the_edge_of() {
         }
         edges += usize::from(pixel.alpha < 0.999);
         // a clear stone under an even sky is as bright as the sky
-        assert!((straight.truncate() - SKY).abs().max_element() < 0.02, "{straight}");
+        assert!((straight.truncate() - SKY).abs().max_element() * straight.w < 0.02, "{straight}");
         assert!((straight.w - pixel.alpha).abs() < 1e-6);
     }
     assert!(edges > 10);
@@ -304,7 +305,8 @@ fn an_edge_has_the_colour_of_what_it_is_the_edge_of() {
 fn floors_are_background_and_meshes_are_not() {
     let bench = Bench::new();
     bench.good(&["generate", "-q", "cube", "-o", "block.obj"]);
-    let block = "[[surface]]\nmesh = \"block.obj\"\nscale = 6\nat = [12, 0, 6]\nreflectance = 0.5\n[[light]]";
+    let block =
+        "[[surface]]\nmesh = \"block.obj\"\nscale = 0.5\nat = [10, 0, 3]\nreflectance = 0.5\n[[light]]";
     std::fs::write(bench.path("s.toml"), ROOM.replacen("[[light]]", block, 1)).expect("writes");
     let alpha = |name: &str, extra: &[&str]| {
         let arguments = [&["render", "-q", "--scene", "s.toml", "-o", name], extra, &SMALL[..]].concat();

@@ -142,10 +142,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let file = scene_file(&args.scene)?;
     let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
     let target = target::Target::of(&output, args)?;
-    let (width, height) = target.size(args, &file)?;
     if let Some(problem) = conflicts::first(args, &target, &file) {
         return Err(Failure::input(problem));
     }
+    let (width, height) = target.size(args, &file)?;
     let mut outputs = Outputs::beside(&args.stones, console);
     outputs.reads(Path::new(&args.scene));
     target.claim(args, &mut outputs)?;

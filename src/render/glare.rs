@@ -127,7 +127,10 @@ pub fn add(film: &mut Film, tone: &Tone, f_number: f32) {
         }
         // what a pixel loses is beyond white and not missed: its own edges stay as smooth as they were
         come -= spread.at(0, 0) * beyond(&exposed[i]);
-        pixel.shown += curve.shown(pixel.shown + come.max(Vec3::ZERO)) - curve.shown(pixel.shown);
+        let added = curve.shown(pixel.shown + come.max(Vec3::ZERO)) - curve.shown(pixel.shown);
+        pixel.shown += added;
+        // it covers what is behind it as much as it is bright, also beyond the edges of things
+        pixel.alpha = (pixel.alpha + added.max_element()).min(1.0);
         pixel.shown = pixel.shown.min(Vec3::ONE);
     });
 }
@@ -193,5 +196,17 @@ mod tests {
         };
         assert_eq!(shown(0.9), 0.9);
         assert!(shown(500.0) > 2.0);
+    }
+
+    /// What is premultiplied is never brighter than it is opaque, and what is opaque stays so.
+    #[test]
+    fn glare_beyond_an_edge_covers_as_much_as_it_shines() {
+        let mut film = Film { width: 99, height: 99, pixels: vec![Pixel::default(); 99 * 99] };
+        let middle = &mut film.pixels[49 * 99 + 49];
+        *middle = Pixel { shown: Vec3::ONE, alpha: 1.0, ..Pixel::default() };
+        middle.light[Pass::Stone as usize] = Vec3::splat(500.0);
+        add(&mut film, &Tone { stops: 0.0, curve: Curve::Linear }, 16.0);
+        assert!(film.pixels.iter().all(|p| p.shown.max_element() <= p.alpha && p.alpha <= 1.0));
+        assert!(film.pixels.iter().filter(|p| p.alpha > 0.01).count() > 20);
     }
 }

@@ -28,6 +28,8 @@ pub const SHORTER_SIDE: u32 = 2160;
 
 /// Quantiser: steps of luma so fine that facets keep their edges.
 const QUANTISER: u8 = 18;
+/// Most frames in a second that the encoder is told of; players go by the file's.
+const FASTEST: f32 = 60.0;
 /// Frames from one that stands alone to the next.
 const KEY_FRAMES: u32 = 48;
 
@@ -47,8 +49,9 @@ pub fn mp4(
     made: Made,
     out: &mut dyn Write,
 ) -> Result<(), EncodeError> {
+    // by buffer, whose state nobody reports: the quantiser is the one of its range, no frame is left out
     let config = EncoderConfig::new()
-        .rate_control_mode(RateControlMode::Quality)
+        .rate_control_mode(RateControlMode::Bufferbased)
         .bitrate(BitRate::from_bps(bits_per_second(width, height, pace)))
         .qp(QpRange::new(QUANTISER, QUANTISER))
         .skip_frames(false)
@@ -57,7 +60,7 @@ pub fn mp4(
         .background_detection(false)
         .complexity(Complexity::High)
         .profile(Profile::Main)
-        .max_frame_rate(FrameRate::from_hz(pace.per_second()))
+        .max_frame_rate(FrameRate::from_hz(pace.per_second().clamp(1.0, FASTEST)))
         .intra_frame_period(IntraFramePeriod::from_num_frames(KEY_FRAMES))
         .num_threads(1)
         .vui(VuiConfig::bt709());

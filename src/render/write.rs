@@ -115,12 +115,10 @@ fn sixteen_linear(x: f32) -> [u8; 2] {
 
 /// What a display shows of a film that leaves its background out: linear colours, not premultiplied, and
 /// the share of each pixel that is covered.
-///
-/// Glare shines beyond the edges of things: a pixel is as opaque as it is bright.
 pub fn cut_out(film: &Film) -> Vec<Vec4> {
     let straight = |p: &Pixel| {
-        let alpha = p.alpha.max(p.shown.max_element()).min(1.0);
-        if alpha > 0.0 { (p.shown / alpha).extend(alpha) } else { Vec4::ZERO }
+        let straight = (p.shown / p.alpha).clamp(Vec3::ZERO, Vec3::ONE);
+        if p.alpha > 0.0 { straight.extend(p.alpha.min(1.0)) } else { Vec4::ZERO }
     };
     film.pixels.iter().map(straight).collect()
 }

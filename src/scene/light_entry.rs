@@ -70,9 +70,9 @@ impl LightEntry {
             (None, Some(_), None) => return Err(wrong("power", "a light at infinity has a radiance")),
             (Some(_), Some(_), _) => return Err(wrong("power", "a light has a radiance or a power")),
         };
-        if !(radiance <= BRIGHTEST) {
+        if radiance > BRIGHTEST || radiance.is_nan() {
             let key = if self.power.is_some() { "power" } else { "radiance" };
-            return Err(wrong(key, format!("a radiance of {radiance:e} is beyond {BRIGHTEST:e}")));
+            return Err(wrong(key, format!("{key} makes a radiance of {radiance:e}, beyond {BRIGHTEST:e}")));
         }
         if let Some(colour) = self.colour
             && (colour.iter().any(|part| *part < 0.0) || colour.iter().all(|part| *part == 0.0))
