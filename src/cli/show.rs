@@ -324,12 +324,12 @@ impl Sheet {
                 format!("{envelope} (GIA's table of single proportions, which is necessary only)"),
             );
         }
-        line("width × length", format!("{:.4} × {:.4}{unit}", m.width, m.length));
+        line("width × length", format!("{} × {}{unit}", figure(m.width, 4), figure(m.length, 4)));
         line(
             "volume",
             match self.unit {
                 "mm" => format!("{:.4} mm³", self.volume),
-                _ => format!("{:.6} in the file's own unit", self.volume),
+                _ => format!("{} in the file's own unit", figure(self.volume, 6)),
             },
         );
         if let (Some(mm), Some(mm3)) = (m.width_mm, m.volume_mm3) {
@@ -359,6 +359,16 @@ impl Sheet {
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
+    }
+}
+
+/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
+/// file may be in metres.
+fn figure(value: f64, decimals: usize) -> String {
+    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
+        format!("{value:.decimals$e}")
+    } else {
+        format!("{value:.decimals$}")
     }
 }
 

@@ -6,7 +6,7 @@
 //! follows the facets may be missing or break off at any place, as in old files, and anything may follow it.
 
 use super::cutting_table::{angle_deg, index_of};
-use super::error::FormatError;
+use super::error::{FormatError, counted};
 use super::gem_write::write;
 use super::source::Source;
 use super::windows_1252::decoded;
@@ -147,12 +147,15 @@ impl<'s> Bytes<'s> {
     }
 
     fn design(&mut self) -> Result<Raw, FormatError> {
-        let mut raw = Raw::default();
+        let (mut raw, mut count) = (Raw::default(), 0);
         while !self.is_at_end() {
             let Some(facet) = self.facet()? else { break };
-            raw.facets.push(facet);
-            self.source.within(&limits::FACETS, raw.facets.len())?;
+            count += 1;
+            if limits::FACETS.check(count).is_ok() {
+                raw.facets.push(facet);
+            }
         }
+        self.source.has_at_most(&limits::FACETS, count)?;
         if !raw.facets.is_empty() && self.tail(&mut raw).is_err() {
             raw.remarks.push("the file ends before its texts do: what is missing is left empty".into());
             return Ok(raw);
@@ -163,7 +166,7 @@ impl<'s> Bytes<'s> {
             let said = if preform.is_ok() { "a preform" } else { "what follows, maybe a preform," };
             raw.remarks.push(format!("{said} is left out"));
         } else if !self.rest().is_empty() {
-            raw.remarks.push(format!("{} bytes after the design are passed over", self.rest().len()));
+            raw.remarks.push(format!("{} after the design passed over", counted(self.rest().len(), "byte")));
         }
         Ok(raw)
     }
