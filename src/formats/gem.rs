@@ -141,9 +141,10 @@ impl<'s> Bytes<'s> {
         }
     }
 
-    /// Whether all that is left is what old systems fill a file up with.
+    /// Whether all that is left is what old systems fill a file up with, or a part of the mark of the end.
     fn is_at_end(&self) -> bool {
-        self.rest().iter().all(|b| matches!(b, 0 | 0x1A))
+        let rest = self.rest();
+        END_OF_FACETS.to_le_bytes()[..7].starts_with(rest) || rest.iter().all(|b| matches!(b, 0 | 0x1A))
     }
 
     fn design(&mut self) -> Result<Raw, FormatError> {

@@ -44,10 +44,12 @@ impl<'a> Source<'a> {
         text.replace('\0', "")
     }
 
-    /// Whether the bytes are those of no text: control characters among the first.
+    /// Whether the bytes are those of no text: control characters among the first, or NUL before others.
     pub fn is_binary(&self) -> bool {
-        self.beginning().contains(|c: char| c.is_ascii_control() && !c.is_ascii_whitespace() && c != '\x1a')
-            || (marked(self.bytes).is_none() && self.bytes.iter().take(64).any(|b| *b == 0))
+        let start = &self.bytes[..self.bytes.len().min(4096)];
+        let end = start.iter().rposition(|b| *b != 0).map_or(0, |last| last + 1);
+        let is_odd = |b: &u8| b.is_ascii_control() && !b"\t\n\x0b\x0c\r\x1a\x1b".contains(b);
+        marked(self.bytes).is_none() && start[..end].iter().any(is_odd)
     }
 
     /// The file's name without folder and ending.

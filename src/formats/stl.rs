@@ -67,6 +67,8 @@ fn sniff_text(source: &Source) -> u8 {
     let start = source.beginning().to_ascii_lowercase();
     let mut words = start.split_whitespace();
     match words.next() {
+        // a binary header may say the same
+        Some("solid") if source.is_binary() => 5,
         Some("solid") if words.any(|w| w == "facet") => 90,
         Some("solid") => 20,
         Some("facet") => 60,

@@ -8,6 +8,7 @@ use base64::Engine;
 fn gltf(root: &str, node: &str, primitive: &str) -> String {
     let mut buffer: Vec<u8> = FACES.as_flattened().iter().map(|c| *c as u8).collect();
     buffer.extend(CORNERS.as_flattened().iter().flat_map(|c| (*c as f32).to_le_bytes()));
+    buffer.push(0); // not a multiple of three: the text ends in signs
     let data = base64::engine::general_purpose::STANDARD.encode(buffer);
     format!(
         "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"mesh\":0{node}}}],\
@@ -28,7 +29,7 @@ fn glb(json: &str, chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
         body.extend(*kind);
         body.extend(*content);
     }
-    [b"glTF", &2u32.to_le_bytes()[..], &(12 + body.len() as u32).to_le_bytes(), &body].concat()
+    [&b"glTF"[..], &2u32.to_le_bytes()[..], &(12 + body.len() as u32).to_le_bytes(), &body].concat()
 }
 
 #[test]
@@ -38,7 +39,6 @@ fn a_gltf_is_read_by_what_a_stone_is_made_of() {
     let inverted = ",\"scale\":[1,-1,1],\"rotation\":[0,0.6,0,0.8],\"translation\":[5,6,7]";
     let scenes = ",\"scene\":1,\"scenes\":[{\"nodes\":[]},{\"nodes\":[0]}]";
     let unused = ",\"animations\":[{\"channels\":7}],\"materials\":\"none\",\"images\":[{\"uri\":\"../x\"}],\"skins\":[{}]";
-    let beside = plain.replace("\"buffers\":[", "\"buffers\":[").replace("]}}", "]}}");
     for (what, bytes) in [
         ("plain", plain.clone().into_bytes()),
         ("a frame that turns it inside out", gltf("", inverted, "").into_bytes()),
@@ -51,10 +51,7 @@ fn a_gltf_is_read_by_what_a_stone_is_made_of() {
         ("parts of no use, and damaged", gltf(unused, "", ",\"material\":99").into_bytes()),
         (
             "an accessor of no use",
-            plain
-                .replace("\"accessors\":[", "\"accessors\":[")
-                .replace("\"type\":\"VEC3\"}", "\"type\":\"VEC3\"},{\"componentType\":1}")
-                .into_bytes(),
+            plain.replace("\"type\":\"VEC3\"}", "\"type\":\"VEC3\"},{\"componentType\":1}").into_bytes(),
         ),
         (
             "a morph target without weight",
@@ -64,7 +61,7 @@ fn a_gltf_is_read_by_what_a_stone_is_made_of() {
             "a compressed copy",
             gltf("", "", ",\"extensions\":{\"KHR_draco_mesh_compression\":{}}").into_bytes(),
         ),
-        ("base64 without its end", beside.replace("=\"", "\"").into_bytes()),
+        ("base64 without its end", plain.replace("==\"", "\"").into_bytes()),
         ("words after the end", (plain.clone() + "\nsaved").into_bytes()),
         ("chunks", glb(&plain, &[])),
         ("a chunk of unknown type", glb(&plain, &[(b"XYZ\0", &[1, 2, 3, 4]), (b"BIN\0", &[])])),

@@ -114,7 +114,7 @@ fn a_ply_is_read_in_all_its_forms() {
         [bytes, body].concat()
     };
     let big_faces =
-        FACES.iter().flat_map(|t| [&[3][..], &t.map(|c| (c as i32).to_be_bytes()).concat()].concat());
+        FACES.iter().flat_map(|t| [&[3u8][..], &t.map(|c| (c as i32).to_be_bytes()).concat()].concat());
     let big_strip = [strip.len() as i32].iter().chain(&strip).flat_map(|c| c.to_be_bytes()).collect();
     let lone_cr = [
         &b"ply\rformat binary_little_endian 1.0\relement vertex 6\rproperty char x\rproperty char y\r\
