@@ -152,6 +152,10 @@ fn within_limit(path: &Path, bytes: Bytes) -> Result<Vec<u8>, FormatError> {
 /// - `folder`: where files that it refers to must lie; none refuses them
 pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imported, FormatError> {
     let source = Source { name, bytes, folder };
+    // a page may quote a design: it is none all the same
+    if refused::is_web_page(&source) {
+        return Err(refused::why(&source));
+    }
     let (sure, format) = FORMATS
         .iter()
         .rev()
@@ -159,9 +163,9 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imp
         .max_by_key(|(sure, _)| *sure)
         .filter(|(sure, _)| *sure > 0)
         .ok_or_else(|| refused::why(&source))?;
-    /// Below this a known ending is the better evidence.
+    /// Below this other evidence is better: an ending, or how files of other kinds begin.
     const GUESS: u8 = 30;
-    if sure < GUESS && refused::by_name(&source).is_some() {
+    if sure < GUESS && refused::is_known(&source) {
         return Err(refused::why(&source));
     }
     let Reading { design, mut warnings } =
@@ -181,7 +185,7 @@ pub fn may_include(name: &str, bytes: &[u8]) -> bool {
 fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
     let facets = design.facets().count();
     let many = |cause| FormatError::Limit { place: file.into(), cause };
-    limits::FACETS.check(facets).map_err(many)?;
+    limits::FACETS.check_all(facets).map_err(many)?;
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
     let count = |wanted: fn(&Fate) -> bool| solid.fates.iter().filter(|f| wanted(f)).count();
     let mut remarks = Vec::new();

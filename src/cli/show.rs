@@ -325,11 +325,11 @@ impl Sheet {
                 format!("{envelope} (GIA's table of single proportions, which is necessary only)"),
             );
         }
-        line("width × length", format!("{:.4} × {:.4}{unit}", k * m.width, k * m.length));
+        line("width × length", format!("{} × {}{unit}", figure(k * m.width, 4), figure(k * m.length, 4)));
         line(
             "volume",
             match is_free {
-                true => format!("{:.6} in the file's own unit", self.volume),
+                true => format!("{} in the file's own unit", figure(self.volume, 6)),
                 false => format!("{:.4} mm³", k.powi(3) * self.volume),
             },
         );
@@ -361,6 +361,16 @@ impl Sheet {
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
+    }
+}
+
+/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
+/// file may be in metres.
+fn figure(value: f64, decimals: usize) -> String {
+    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
+        format!("{value:.decimals$e}")
+    } else {
+        format!("{value:.decimals$}")
     }
 }
 

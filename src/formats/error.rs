@@ -65,15 +65,15 @@ pub enum FormatError {
         /// The file.
         file: String,
     },
-    /// Bytes of no format that cutlab knows.
-    #[error("{file}, byte 0: expected one of {}, found {found}", .known.join(", "))]
+    /// Content of no format that is read. It is a stranger's, and not shown.
+    #[error("{file}: {found}, no design or mesh{hint}")]
     Unrecognised {
         /// The file.
         file: String,
-        /// Its first bytes.
-        found: String,
-        /// The formats that are read.
-        known: Vec<&'static str>,
+        /// What it is, as far as it tells.
+        found: &'static str,
+        /// What to do instead, after a semicolon; or nothing.
+        hint: &'static str,
     },
     /// A format known by name that cutlab does not read.
     #[error("{file}: {format} files are not read: {instead}")]
@@ -194,6 +194,11 @@ pub(super) fn shown(text: &str) -> String {
 /// own words.
 pub(super) fn shortened(text: &str) -> String {
     cut(text, 3 * SHOWN)
+}
+
+/// `1 byte`, `2 bytes`.
+pub(super) fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn cut(text: &str, most: usize) -> String {

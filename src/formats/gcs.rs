@@ -3,10 +3,10 @@
 //! Normals are the truth; where one is missing it follows from the index angle or the corners, and a depth
 //! that is missing from the corners. Indices are computed from the normals: `base`, `symmetry` and `mirror`
 //! are the state of the program's window, not of the design. The frame is ours (a chiral design was compared
-//! in the program itself; `tests/dialects.rs` keeps one). No document type is accepted, so no entity can expand.
+//! in the program itself; `tests/dialects/designs.rs` keeps one). No document type is accepted, so no entity can expand.
 
 use super::cutting_table::{angle_of_mesh, index_of, one_line};
-use super::error::{FormatError, shown};
+use super::error::{FormatError, counted, shown};
 use super::gcs_write::write;
 use super::source::{Source, is_no_value, number};
 use super::{Format, Reading, Writer};
@@ -63,7 +63,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     }
     let mut reading = file.design(root)?;
     if !after.trim().is_empty() {
-        reading.warnings.push(format!("{} bytes after the design are passed over", after.len()));
+        reading.warnings.push(format!("{} after the design passed over", counted(after.len(), "byte")));
     }
     Ok(reading)
 }
@@ -147,11 +147,11 @@ impl File<'_> {
                 design.name.clone_from(title);
             }
         }
-        let mut count = 0;
-        for node in root.children().filter(|n| n.has_tag_name("tier")) {
+        let tiers = || root.children().filter(|n| n.has_tag_name("tier"));
+        let facets = tiers().flat_map(|t| t.children()).filter(|n| n.has_tag_name("facet")).count();
+        self.source.has_at_most(&limits::FACETS, facets)?;
+        for node in tiers() {
             let tier = self.tier(node, design.gear, &mut warnings)?;
-            count += tier.facets.len();
-            self.source.within(&limits::FACETS, count)?;
             if !tier.facets.is_empty() {
                 design.tiers.push(tier);
             }
@@ -170,10 +170,8 @@ impl File<'_> {
             instructions: text("instructions"),
             facets: Vec::new(),
         };
-        let polar = self.number(node, "angle")?;
-        if let Some(angle) = polar.filter(|a| !(0.0..=180.0).contains(a)) {
-            return Err(self.wrong(node, "an angle from 0 (table) to 180 (culet)", &angle.to_string()));
-        }
+        // from 0 (table) to 180 (culet); of use only where normals are missing
+        let polar = self.hint(node, "angle").filter(|a| (0.0..=180.0).contains(a));
         let depth = self.number(node, "depth")?;
         let facets: Vec<_> = node.children().filter(|n| n.has_tag_name("facet")).collect();
         let entries: Vec<Entries> = facets.iter().map(|f| self.entries(*f)).collect::<Result<_, _>>()?;

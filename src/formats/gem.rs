@@ -6,7 +6,7 @@
 //! follows the facets may be missing or break off at any place, as in old files, and anything may follow it.
 
 use super::cutting_table::{angle_deg, index_of};
-use super::error::FormatError;
+use super::error::{FormatError, counted};
 use super::gem_write::write;
 use super::source::Source;
 use super::windows_1252::decoded;
@@ -141,18 +141,22 @@ impl<'s> Bytes<'s> {
         }
     }
 
-    /// Whether all that is left is what old systems fill a file up with.
+    /// Whether all that is left is what old systems fill a file up with, or a part of the mark of the end.
     fn is_at_end(&self) -> bool {
-        self.rest().iter().all(|b| matches!(b, 0 | 0x1A))
+        let rest = self.rest();
+        END_OF_FACETS.to_le_bytes()[..7].starts_with(rest) || rest.iter().all(|b| matches!(b, 0 | 0x1A))
     }
 
     fn design(&mut self) -> Result<Raw, FormatError> {
-        let mut raw = Raw::default();
+        let (mut raw, mut count) = (Raw::default(), 0);
         while !self.is_at_end() {
             let Some(facet) = self.facet()? else { break };
-            raw.facets.push(facet);
-            self.source.within(&limits::FACETS, raw.facets.len())?;
+            count += 1;
+            if limits::FACETS.check(count).is_ok() {
+                raw.facets.push(facet);
+            }
         }
+        self.source.has_at_most(&limits::FACETS, count)?;
         if !raw.facets.is_empty() && self.tail(&mut raw).is_err() {
             raw.remarks.push("the file ends before its texts do: what is missing is left empty".into());
             return Ok(raw);
@@ -163,7 +167,7 @@ impl<'s> Bytes<'s> {
             let said = if preform.is_ok() { "a preform" } else { "what follows, maybe a preform," };
             raw.remarks.push(format!("{said} is left out"));
         } else if !self.rest().is_empty() {
-            raw.remarks.push(format!("{} bytes after the design are passed over", self.rest().len()));
+            raw.remarks.push(format!("{} after the design passed over", counted(self.rest().len(), "byte")));
         }
         Ok(raw)
     }

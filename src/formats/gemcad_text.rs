@@ -62,6 +62,8 @@ struct File<'s> {
     footers: Vec<String>,
     tiers: Vec<Entry>,
     facet_count: usize,
+    /// The line of the first facet over the limit.
+    too_many_at: Option<usize>,
     open: Open,
     warnings: Vec<String>,
 }
@@ -77,12 +79,16 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         footers: Vec::new(),
         tiers: Vec::new(),
         facet_count: 0,
+        too_many_at: None,
         open: Open::Nothing,
         warnings: Vec::new(),
     };
     let mut words = Words::of(&text);
     while let Some(word) = words.next() {
         file.word(word, &mut words)?;
+    }
+    if let Some(line) = file.too_many_at {
+        source.has_at_most_at(line, &limits::FACETS, file.facet_count)?;
     }
     file.through_the_centre();
     if file.tiers.is_empty() {
@@ -117,7 +123,10 @@ impl File<'_> {
                 Ok(())
             }
             (None, text) => match number(text) {
-                Some(index) if in_tier => self.facet(word, index),
+                Some(index) if in_tier => {
+                    self.facet(word, index);
+                    Ok(())
+                }
                 // `96 0.0`, as some writer leaves the letter out
                 Some(_) if self.gear.is_none() && self.tiers.is_empty() => self.gear(word, text, words),
                 _ if in_tier && (!word.first || loses_facets(&word)) => {
@@ -298,12 +307,13 @@ impl File<'_> {
         Ok(())
     }
 
-    fn facet(&mut self, word: Word, index: f64) -> Result<(), FormatError> {
-        if let Some(tier) = self.tiers.last_mut() {
-            tier.indices.push((index, String::new()));
-        }
+    fn facet(&mut self, word: Word, index: f64) {
         self.facet_count += 1;
-        self.source.within_at(word.line, &limits::FACETS, self.facet_count)
+        match limits::FACETS.check(self.facet_count) {
+            Ok(()) => self.tiers.last_mut().map_or((), |t| t.indices.push((index, String::new()))),
+            // counted on, for the error to say how many there are
+            Err(_) => self.too_many_at = self.too_many_at.or(Some(word.line)),
+        }
     }
 
     /// The name after `n`, of the index before it: any word at all, as facets are called G, n, a or 12, and

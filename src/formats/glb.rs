@@ -6,7 +6,7 @@
 mod buffers;
 mod document;
 
-use super::error::{FormatError, shown};
+use super::error::{FormatError, counted, shown};
 use super::shell::{Digits, Mesh, design_of_mesh};
 use super::source::Source;
 use super::{Format, Reading, Writer, glb_write};
@@ -131,7 +131,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
         next.extend(node.children.iter().rev().map(|child| (*child, world)));
     }
     if reader.left_out > 0 {
-        let said = format!("{} primitives of points or lines left out", reader.left_out);
+        let said = format!("{} of points or lines left out", counted(reader.left_out, "primitive"));
         reader.mesh.warnings.push(said);
     }
     Ok(reader.mesh)

@@ -71,7 +71,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
     let text = source.text();
     let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
     let points = points(source, &text, &mut mesh)?;
-    source.within(&limits::POLYGONS, points.faces)?;
+    source.has_at_most(&limits::POLYGONS, points.faces)?;
     let mut seen = Counts::default();
     let (mut name, mut corners) = (Arc::<str>::default(), 0);
     for (at, line) in joined(&text) {

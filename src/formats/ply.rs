@@ -81,7 +81,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
                 }
                 let named = header.facet_names.len() as u64 == element.count;
                 let already = mesh.polygons.len();
-                source.within(&limits::POLYGONS, already.saturating_add(element.count as usize))?;
+                source.has_at_most(&limits::POLYGONS, already.saturating_add(element.count as usize))?;
                 each(element, &mut values, |row, corners| {
                     let normal = normal.map(|at| DVec3::from_array(at.map(|p| row[p])));
                     let normal = normal.filter(|n| n.is_finite());

@@ -1,7 +1,7 @@
 //! What every mesh format does with the polygons it has read: make a design of them.
 
 use super::Reading;
-use super::error::FormatError;
+use super::error::{FormatError, counted};
 use super::source::Source;
 use crate::cut::Design;
 use crate::solid::recover::{Polygon, RecoverError, Stored, facets_of_polygons};
@@ -120,7 +120,8 @@ pub fn recovered(name: &str, mesh: &Mesh) -> Result<(Design, Vec<String>), Recov
     let design = Design::of_facets(name, found.stone()?);
     let mut warnings = mesh.warnings.clone();
     if divided > 0 {
-        warnings.push(format!("{divided} edges are divided on one side only: closed as a set of points"));
+        let edges = counted(divided, "corner");
+        warnings.push(format!("{edges} on edges of other faces: closed as a set of points"));
     }
     if tolerance > COARSE {
         warnings

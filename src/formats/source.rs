@@ -44,10 +44,12 @@ impl<'a> Source<'a> {
         text.replace('\0', "")
     }
 
-    /// Whether the bytes are those of no text: control characters among the first.
+    /// Whether the bytes are those of no text: control characters among the first, or NUL before others.
     pub fn is_binary(&self) -> bool {
-        self.beginning().contains(|c: char| c.is_ascii_control() && !c.is_ascii_whitespace() && c != '\x1a')
-            || (marked(self.bytes).is_none() && self.bytes.iter().take(64).any(|b| *b == 0))
+        let start = &self.bytes[..self.bytes.len().min(4096)];
+        let end = start.iter().rposition(|b| *b != 0).map_or(0, |last| last + 1);
+        let is_odd = |b: &u8| b.is_ascii_control() && !b"\t\n\x0b\x0c\r\x1a\x1b".contains(b);
+        marked(self.bytes).is_none() && start[..end].iter().any(is_odd)
     }
 
     /// The file's name without folder and ending.
@@ -65,7 +67,18 @@ impl<'a> Source<'a> {
         FormatError::Line { file: self.name.into(), line, expected: expected.into(), found: shown(found) }
     }
 
-    /// Refuses `n` of something if that is more than its limit.
+    /// Refuses a file with `n` of something in all, if that is more than its limit.
+    pub fn has_at_most(&self, limit: &Limit, n: usize) -> Result<(), FormatError> {
+        limit.check_all(n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
+    }
+
+    /// As [`Source::has_at_most`], where the first that is too many stands at a line (from 1).
+    pub fn has_at_most_at(&self, line: usize, limit: &Limit, n: usize) -> Result<(), FormatError> {
+        let place = || format!("{}, line {line}", self.name);
+        limit.check_all(n).map_err(|cause| FormatError::Limit { place: place(), cause })
+    }
+
+    /// Refuses `n` of something, counted so far, if that is more than its limit.
     pub fn within(&self, limit: &Limit, n: usize) -> Result<(), FormatError> {
         limit.check(n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
     }
@@ -79,7 +92,7 @@ impl<'a> Source<'a> {
     /// Refuses a file of more bytes than `limit`.
     pub fn of_at_most(&self, limit: &Limit) -> Result<(), FormatError> {
         let too_large = |cause| FormatError::TooLarge { file: self.name.into(), cause };
-        limit.check(self.bytes.len()).map_err(too_large)
+        limit.check_all(self.bytes.len()).map_err(too_large)
     }
 
     /// An error at a byte.

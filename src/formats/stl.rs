@@ -2,7 +2,7 @@
 //!
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
-use super::error::FormatError;
+use super::error::{FormatError, counted};
 use super::shell::{Digits, Mesh, design_of_mesh};
 use super::source::{Source, lines, number};
 use super::{Format, Surface, Writer};
@@ -67,6 +67,8 @@ fn sniff_text(source: &Source) -> u8 {
     let start = source.beginning().to_ascii_lowercase();
     let mut words = start.split_whitespace();
     match words.next() {
+        // a binary header may say the same
+        Some("solid") if source.is_binary() => 5,
         Some("solid") if words.any(|w| w == "facet") => 90,
         Some("solid") => 20,
         Some("facet") => 60,
@@ -90,7 +92,7 @@ fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
         let expected = format!("{size} bytes for {count} triangles");
         return Err(source.at_byte(HEADER, expected, format!("{} bytes", source.bytes.len())));
     };
-    source.within(&limits::POLYGONS, count)?;
+    source.has_at_most(&limits::POLYGONS, count)?;
     let mut mesh = Mesh { corners: Digits::F32, normals: Digits::F32, ..Mesh::default() };
     for record in source.bytes.get(HEADER + 4..size).unwrap_or_default().chunks_exact(TRIANGLE) {
         let point = |i: usize| DVec3::from_array([0, 1, 2].map(|k| float(&record[4 * (3 * i + k)..])));
@@ -101,7 +103,7 @@ fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
     }
     // some writers pad the end with zeros
     if source.bytes[size..].iter().any(|b| *b != 0) {
-        mesh.warnings.push(format!("{extra} bytes after the last triangle are passed over"));
+        mesh.warnings.push(format!("{} after the last triangle passed over", counted(extra, "byte")));
     }
     Ok(mesh)
 }
@@ -110,6 +112,8 @@ fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
 /// parts words, so that a file may stand on one line.
 fn text_mesh(source: &Source) -> Result<Mesh, FormatError> {
     let text = source.text();
+    let facets = words_of(&text).filter(|(_, w)| w.eq_ignore_ascii_case("facet")).count();
+    source.has_at_most(&limits::POLYGONS, facets)?;
     let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
     let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
     let mut words = words_of(&text).peekable();
@@ -168,7 +172,7 @@ fn finish(
         return Err(source.at_line(at, "three vertices to every facet", &found));
     }
     mesh.polygons.push(polygon);
-    source.within_at(at, &limits::POLYGONS, mesh.polygons.len())
+    Ok(())
 }
 
 /// The words of the file without the solids' names: these end with their line, unless all stands on one.

@@ -34,13 +34,13 @@ pub struct Records<'t> {
 pub fn records<'t>(source: &Source, text: &'t str) -> Result<Records<'t>, FormatError> {
     let mut records: Vec<Record> = Vec::new();
     let mut digits = Digits::TEXT;
+    source.has_at_most(&limits::POLYGONS, words(text).filter(|(_, w)| begins(w)).count())?;
     for (line, word) in words(text) {
         let last = records.last_mut();
         let value = number(word).or(is_no_value(word).then_some(f64::NAN));
         match (value, last) {
             _ if begins(word) => {
                 records.push(Record { line, numbers: Vec::new(), after: Vec::new() });
-                source.within_at(line, &limits::POLYGONS, records.len())?;
             }
             (Some(value), Some(record)) if record.after.is_empty() => {
                 digits.see(word);

@@ -28,8 +28,15 @@ const WELD: [f64; 2] = [1e-9, 1e-4];
 /// mesh's volume: so the noise of a scan is found where it is more than the roundings.
 const COPLANAR: [f64; 2] = [3e-7, 5e-4];
 
-/// From one try to the next either grows by this.
-const STEP: f64 = 4.0;
+/// From one try to the next a weld grows by this.
+const WELD_STEP: f64 = 32.0;
+
+/// From one try to the next a height grows by this: with more, the first that is above the noise may bend
+/// narrow facets into their neighbours.
+const COPLANAR_STEP: f64 = 2.0;
+
+/// What stands out so many times the coarsest height above a facet's plane is no noise but a dent.
+const DENT: f64 = 10.0;
 
 /// Stated normals must fit the corners within this part of the mesh's diagonal at the best: well above the
 /// rounding of `f64`.
@@ -153,7 +160,7 @@ pub fn facets_of_polygons(
     polygons: &[Polygon],
     stored: Stored,
 ) -> Result<Recovered, RecoverError> {
-    limits::POLYGONS.check(polygons.len())?;
+    limits::POLYGONS.check_all(polygons.len())?;
     for (polygon, p) in polygons.iter().enumerate() {
         if let Some(&corner) = p.corners.iter().find(|&&c| c >= vertices.len()) {
             return Err(RecoverError::NoCorner { polygon, corner, vertices: vertices.len() });
@@ -170,7 +177,7 @@ pub fn facets_of_polygons(
     }
     let rounding = ROUNDINGS * stored.corner / size;
     let mut surface = Surface::default();
-    for weld in steps(WELD, WELD[0].max(rounding)) {
+    for weld in steps(WELD[0].max(rounding), WELD_STEP, WELD[1]) {
         surface = Surface::of(vertices, polygons, &welded(vertices, lo, hi, weld * size));
         if surface.open_edges > 0 {
             surface = surface.with_corners_on_edges(polygons, COPLANAR[0].max(rounding) * size);
@@ -182,35 +189,38 @@ pub fn facets_of_polygons(
     if surface.faces.is_empty() {
         return Err(RecoverError::Empty);
     }
-    let mut best: Result<Recovered, RecoverError> = Err(RecoverError::Empty);
-    for tolerance in steps(COPLANAR, COPLANAR[0].max(rounding)) {
-        let found = match judge(&surface, polygons, tolerance, stored, size) {
-            // of noise no stone is made, but a stone may have that many facets
-            Err(many) if best.is_err() && !surface.is_convex_at_edges(tolerance * size) => {
-                best = Err(many);
-                continue;
-            }
-            Err(many) => return best.map_err(|_| many),
-            Ok(found) => found,
+    let judged = |tolerance| judge(&surface, polygons, tolerance, stored, size);
+    let finest = COPLANAR[0].max(rounding);
+    let first = judged(finest);
+    match &first {
+        Ok(found) if !found.is_worth_another_try() => return first,
+        // of noise no stone is made, but a stone may have that many facets
+        Err(_) if surface.is_convex_at_edges(finest * size) => return first,
+        _ => {}
+    }
+    let coarsest = judged(COPLANAR[1].max(finest));
+    if coarsest.as_ref().is_ok_and(|c| c.is_worth_another_try() && c.stands_out > DENT * COPLANAR[1]) {
+        return first.or(coarsest);
+    }
+    // what is no stone at any height is handed out by the finest
+    let mut best = first;
+    for tolerance in steps(finest, COPLANAR_STEP, COPLANAR[1]).skip(1) {
+        let found = judged(tolerance);
+        if found.as_ref().is_ok_and(|f| f.verdict.is_ok()) {
+            return found;
+        }
+        best = match (best, found) {
+            (Ok(best), Ok(found)) => Ok(best.standing_out_at_most(found.stands_out)),
+            (best, found) => best.or(found),
         };
-        let hopeless = matches!(found.verdict, Err(RecoverError::Open(_) | RecoverError::Shells(_)));
-        if found.verdict.is_ok() || hopeless {
-            return Ok(found);
-        }
-        if best.as_ref().is_ok_and(|b| found.stands_out >= b.stands_out) {
-            continue;
-        }
-        best = Ok(found);
     }
     best
 }
 
-/// From `first` on, by steps, up to the most.
-fn steps([_, most]: [f64; 2], first: f64) -> impl Iterator<Item = f64> {
-    let mut all: Vec<f64> =
-        std::iter::successors(Some(first), |t| Some(t * STEP)).take_while(|t| *t < most).collect();
-    all.push(most.max(first));
-    all.into_iter()
+/// From `first` on, by factors, up to the most.
+fn steps(first: f64, factor: f64, most: f64) -> impl Iterator<Item = f64> {
+    let below = std::iter::successors(Some(first), move |t| Some(t * factor)).take_while(move |t| *t < most);
+    below.chain([most.max(first)])
 }
 
 fn judge(
@@ -223,7 +233,7 @@ fn judge(
     let regions = surface.regions(polygons, tolerance * size);
     let is_solid = surface.shells == 1 && surface.open_edges == 0;
     if is_solid {
-        limits::FACETS.check(regions.len())?;
+        limits::FACETS.check_all(regions.len())?;
     }
     let mut facets = Vec::with_capacity(regions.len());
     let (mut stands_out, mut convex) = (0.0f64, is_solid);
@@ -299,6 +309,20 @@ impl Recovered {
     /// Whether every edge is shared by two polygons.
     pub fn closed(&self) -> bool {
         self.open_edges == 0
+    }
+
+    /// Whether a coarser look may make a stone of it.
+    fn is_worth_another_try(&self) -> bool {
+        !matches!(self.verdict, Ok(()) | Err(RecoverError::Open(_) | RecoverError::Shells(_)))
+    }
+
+    /// The same, of which no corner stands out further than that.
+    fn standing_out_at_most(mut self, most: f64) -> Recovered {
+        self.stands_out = self.stands_out.min(most);
+        if let Err(RecoverError::NotConvex(body)) = &mut self.verdict {
+            body.stands_out = self.stands_out;
+        }
+        self
     }
 
     /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.

@@ -113,11 +113,32 @@ pub static ALL: &[&Limit] = &[
 
 /// More than a limit allows. One line that says how to raise it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("more than {most} {of}: the limit; {VARIABLE}={twice} in the environment doubles every limit")]
+#[error("more than {most} {of}: the limit; {}", .way.said())]
 pub struct Exceeded {
     most: u64,
     of: &'static str,
-    twice: u64,
+    way: Way,
+}
+
+/// How a limit is raised far enough.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// By this factor.
+    Enough(u64),
+    /// By none.
+    Never,
+    /// Nobody has counted: by this factor all are twice what they are now.
+    Twice(u64),
+}
+
+impl Way {
+    fn said(self) -> String {
+        match self {
+            Way::Enough(factor) => format!("{VARIABLE}={factor} in the environment is enough"),
+            Way::Never => format!("even {VARIABLE}={HIGHEST} in the environment is not enough"),
+            Way::Twice(factor) => format!("{VARIABLE}={factor} in the environment doubles every limit"),
+        }
+    }
 }
 
 impl Limit {
@@ -130,7 +151,7 @@ impl Limit {
         self.most.saturating_mul(FACTOR.load(Ordering::Relaxed))
     }
 
-    /// Refuses `n` of them if that is more.
+    /// Refuses `n` of them, counted so far, if that is more.
     pub fn check(&self, n: impl TryInto<u64>) -> Result<(), Exceeded> {
         match n.try_into() {
             Ok(n) if n <= self.most() => Ok(()),
@@ -138,9 +159,21 @@ impl Limit {
         }
     }
 
+    /// Refuses `n` of them, which are all, if that is more: the error names the factor that is enough.
+    pub fn check_all(&self, n: impl TryInto<u64>) -> Result<(), Exceeded> {
+        match n.try_into() {
+            Ok(n) if n <= self.most() => Ok(()),
+            Ok(n) if n <= self.most.saturating_mul(HIGHEST) => {
+                Err(Exceeded { way: Way::Enough(n.div_ceil(self.most)), ..self.exceeded() })
+            }
+            _ => Err(Exceeded { way: Way::Never, ..self.exceeded() }),
+        }
+    }
+
     /// What is said of more.
     pub fn exceeded(&self) -> Exceeded {
-        Exceeded { most: self.most(), of: self.of, twice: 2 * FACTOR.load(Ordering::Relaxed) }
+        let way = Way::Twice(2 * FACTOR.load(Ordering::Relaxed));
+        Exceeded { most: self.most(), of: self.of, way }
     }
 
     /// The bytes at `path`, if the operating system gives them and they are not more. It may be a pipe
@@ -156,7 +189,7 @@ impl Limit {
 
     fn read_from(&self, file: File) -> Result<Result<Vec<u8>, Exceeded>, Error> {
         // a file says how large it is; pipes and devices say 0
-        if let Err(exceeded) = self.check(file.metadata()?.len()) {
+        if let Err(exceeded) = self.check_all(file.metadata()?.len()) {
             return Ok(Err(exceeded));
         }
         let mut bytes = Vec::new();
@@ -201,6 +234,15 @@ mod tests {
             error,
             "more than 10000 facets of a stone: the limit; CUTLAB_LIMIT=2 in the environment doubles every limit"
         );
+        let said = |n: u64| FACETS.check_all(n).expect_err("too many").to_string();
+        assert_eq!(FACETS.check_all(10_000u64), Ok(()));
+        assert_eq!(
+            said(31_616),
+            "more than 10000 facets of a stone: the limit; CUTLAB_LIMIT=4 in the environment is enough"
+        );
+        assert!(said(10_001).ends_with("CUTLAB_LIMIT=2 in the environment is enough"));
+        assert!(said(1_000_000).ends_with("CUTLAB_LIMIT=100 in the environment is enough"));
+        assert!(said(1_000_001).ends_with("even CUTLAB_LIMIT=100 in the environment is not enough"));
         assert!(FACETS.check(-1i64).is_err() && FACETS.check(u128::MAX).is_err());
         for wrong in ["", "0", "101", "-1", "2.5", "many"] {
             assert!(raise(wrong).is_err_and(|e| e.contains("from 1 to 100")), "{wrong}");

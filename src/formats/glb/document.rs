@@ -1,7 +1,7 @@
 //! What of a glTF document a stone is made of. All else is passed over unread: no material, animation or
 //! accessor that is not needed can refuse a file.
 
-use crate::formats::error::{FormatError, shown};
+use crate::formats::error::{FormatError, counted, shown};
 use crate::formats::source::Source;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -146,7 +146,7 @@ pub fn document<'s>(source: &Source<'s>) -> Result<(Document, Option<&'s [u8]>, 
     let after =
         json.get(values.byte_offset()..).unwrap_or_default().trim_matches([' ', '\t', '\r', '\n', '\0']);
     if !after.is_empty() {
-        remarks.push(format!("{} bytes after the document are passed over", after.len()));
+        remarks.push(format!("{} after the document passed over", counted(after.len(), "byte")));
     }
     let Some(asset) = &document.asset else { return Err(broken("no asset with a version".into())) };
     let needed = asset.min_version.as_ref().unwrap_or(&asset.version);
@@ -179,7 +179,8 @@ fn chunks<'s>(
         return Err(source.at_byte(8, format!("a length of at least {HEADER}"), length.to_string()));
     }
     if source.bytes.len() > length {
-        remarks.push(format!("{} bytes after the last chunk are passed over", source.bytes.len() - length));
+        let extra = counted(source.bytes.len() - length, "byte");
+        remarks.push(format!("{extra} after the last chunk passed over"));
     }
     let end = length.min(source.bytes.len());
     let (mut json, mut inside, mut at) = (None, None, HEADER);

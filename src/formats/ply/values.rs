@@ -1,7 +1,7 @@
 //! The values after a PLY header, one after the other, from words or bytes.
 
 use super::header::{Header, Kind, Storage};
-use crate::formats::error::FormatError;
+use crate::formats::error::{FormatError, counted};
 use crate::formats::shell::Digits;
 use crate::formats::source::{Source, is_no_value, lines, number};
 use crate::store::limits;
@@ -44,13 +44,13 @@ impl<'s> Values<'s> {
     /// A remark on what follows the last value.
     pub fn left_over(&mut self) -> Option<String> {
         let (n, what) = match self.storage {
-            Storage::Text => (self.words.by_ref().count(), "words"),
+            Storage::Text => (self.words.by_ref().count(), "word"),
             _ => {
                 let rest = self.bytes.get(self.at..).unwrap_or_default();
-                (if rest.iter().all(|b| matches!(b, b'\r' | b'\n' | 0)) { 0 } else { rest.len() }, "bytes")
+                (if rest.iter().all(|b| matches!(b, b'\r' | b'\n' | 0)) { 0 } else { rest.len() }, "byte")
             }
         };
-        (n > 0).then(|| format!("{n} {what} after the last element are passed over"))
+        (n > 0).then(|| format!("{} after the last element passed over", counted(n, what)))
     }
 
     fn wrong(&self, expected: String, found: &str) -> FormatError {
