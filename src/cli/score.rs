@@ -49,9 +49,9 @@ pub struct Args {
 /// Scores every stone and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
     let specs = folders::expanded(&args.stones)?;
     scoring::check_output(&args.table.output, specs.iter().map(String::as_str))?;
+    args.scoring.notes(console);
     let mut command = "cutlab score".to_string();
     args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(stone)));
     command += &args.scoring.words();

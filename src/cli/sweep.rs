@@ -58,9 +58,11 @@ fn scattered(text: &str) -> Result<u64, String> {
 /// Scores every point and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(console);
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
+    if !args.vary.iter().any(|v| v.key == SIZE) {
+        args.scoring.notes(console);
+    }
     let mut command = format!("cutlab sweep {}", quoted(&args.stone));
     for varied in &sweep.varied {
         command += &format!(" --vary {}={}", varied.key, varied.steps);
