@@ -60,9 +60,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
-    if !args.vary.iter().any(|v| v.key == SIZE) {
-        args.scoring.notes(console);
-    }
+    // a size that is varied is not a size that nobody gave
+    let size = args.vary.iter().find(|v| v.key == SIZE);
+    size.map_or(args.scoring.clone(), |v| args.scoring.clone().with_size(v.steps.from)).notes(console);
     let mut command = format!("cutlab sweep {}", quoted(&args.stone));
     for varied in &sweep.varied {
         command += &format!(" --vary {}={}", varied.key, varied.steps);
