@@ -68,6 +68,7 @@ const SAMPLES: &[Sample] = &[
     ("plot", "table", &[&["w.csv"]]),
     ("plot", "output", &[&["w.svg"], &["iso.png", "spread.svg"]]),
     // formats
+    ("import", "to", &[&["stl"], &["asc"], &["gem"], &["gltf"]]),
     ("*", "to", &[&["stl"], &["asc"], &["gem"], &["svg"], &["gltf"]]),
     ("*", "paper", &[&["a4"], &["letter"]]),
     ("*", "up", &[&["x"], &["-z"]]),
