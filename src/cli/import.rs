@@ -6,7 +6,7 @@ use super::console::Console;
 use super::drawing::Drawing;
 use super::outcome::{self, Code, Failure};
 use super::outputs::{self, Outputs};
-use super::{standing, stones};
+use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Encoded, Format};
 use crate::report::diagram::Paper;

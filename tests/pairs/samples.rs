@@ -68,6 +68,7 @@ const SAMPLES: &[Sample] = &[
     ("plot", "table", &[&["w.csv"]]),
     ("plot", "output", &[&["w.svg"], &["iso.png", "spread.svg"]]),
     // formats
+    ("import", "to", &[&["stl"], &["asc"], &["gem"], &["gltf"]]),
     ("*", "to", &[&["stl"], &["asc"], &["gem"], &["svg"], &["gltf"]]),
     ("*", "paper", &[&["a4"], &["letter"]]),
     ("*", "up", &[&["x"], &["-z"]]),
@@ -85,6 +86,8 @@ const SAMPLES: &[Sample] = &[
             &["brightness,lost"],
         ],
     ),
+    // its page takes half a minute
+    ("compare", "metrics", &[&["spread,weight_ratio"], &["iso,fire_streak"], &["aset_red,contrast"]]),
     ("*", "error", &[&["0.05"], &["0.02"]]),
     ("*", "observer", &[&["0"], &["20"]]),
     ("score", "sort", &[&["iso"], &["spread"]]),
@@ -124,7 +127,7 @@ const SAMPLES: &[Sample] = &[
     ("render", "glare", &[&[""], &["8"]]),
     // the rest
     ("list", "names", &[&["wlr"], &["oval"]]),
-    ("validate", "only", &[&["critical angle"], &["octahedron"]]),
+    ("validate", "only", &[&["critical angle"], &["cube"]]),
 ];
 
 /// The values of an option, if there are any.

@@ -200,9 +200,9 @@ impl<'a> Search<'a> {
     ) -> bool {
         let smallest = self.smallest(row, refuses);
         let needs: Vec<Choice> = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
-        let before = self.refused.len();
+        let (before, line) = (self.refused.len(), self.case(&smallest).line());
         match needs[..] {
-            [] => report.failed(self.command, "the command alone is refused", &self.case(&smallest).line()),
+            [] => report.failed(self.command, &format!("the command alone is refused: {line}"), ""),
             [one] => {
                 // what it wants beside it: another option that is at rest here
                 let mut rescued = false;
@@ -220,11 +220,7 @@ impl<'a> Search<'a> {
                     }
                 }
                 if !rescued {
-                    report.failed(
-                        self.command,
-                        "a value that is always refused",
-                        &self.case(&smallest).line(),
-                    );
+                    report.failed(self.command, &format!("a value that is always refused: {line}"), "");
                     let others = (0..self.factors.len()).filter(|f| *f != one.0);
                     let pairs = others.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
                     self.refused.extend(pairs.map(|other| covering::pair(one, other)));
