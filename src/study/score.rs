@@ -1,6 +1,7 @@
 //! Scores of stones: which experiments to run, how long, and one row a stone.
 
 use super::sheet::Sheet;
+use crate::experiments::beam::Needs;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
     Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, STOP_POWER, Scintillation,
@@ -228,7 +229,11 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
     let dispersive = subject.material.is_dispersive();
     if dispersive {
-        sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
+        let readings = plan.metrics.iter().filter(|m| !(exact && m.by_beams)).filter_map(|m| beam(m.reading));
+        let needs = readings.map(Needs::of).reduce(Needs::and).unwrap_or(Needs::ALL);
+        sheet.fill("beam", beam, false, BEAM_COST, || {
+            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(needs))
+        })?;
     }
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
