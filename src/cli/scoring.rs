@@ -8,7 +8,7 @@ use crate::formats::stone::STANDARD_INPUT;
 use crate::math::typed::{self, NumberError, Unit};
 use crate::metrics::{METRICS, Metric};
 use crate::optics::Material;
-use crate::optics::dispersion::lines;
+use crate::optics::dispersion::{VISIBLE_UM, lines};
 use crate::study::batch::Outcome;
 use crate::study::identity::{Held, Identity};
 use crate::study::score::{Effort, Plan, Row, Shape, Subject, Tilt, score};
@@ -26,7 +26,8 @@ pub struct Scoring {
     /// degrees, 100 for percentages
     #[arg(long, value_name = "E", value_parser = error)]
     error: Option<f64>,
-    /// Take what beams can give from beams instead of photons
+    /// Take what beams can give from beams instead of photons; no effect on stones that absorb or have
+    /// dents
     #[arg(long)]
     exact: bool,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each
@@ -70,9 +71,14 @@ impl Scoring {
     /// - `sized`: whether all stones have a size
     pub fn notes(&self, sized: bool, console: &Console) {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
-        let (from, to) = if six { (lines::G, lines::B) } else { (lines::D, lines::D) };
+        let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
+        let (from, to) = match (coloured, six) {
+            (true, _) => VISIBLE_UM,
+            (false, true) => (lines::G, lines::B),
+            (false, false) => (lines::D, lines::D),
+        };
         self.substance.note_range(from, to, console);
-        if !sized && self.size.is_none() && self.substance.material.is_some_and(|m| !m.is_clear()) {
+        if !sized && self.size.is_none() && coloured {
             let mm = stones::USUAL_SIZE;
             console
                 .note(&format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it"));

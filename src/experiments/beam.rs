@@ -5,6 +5,7 @@ use super::entrance::{self, Outline};
 use super::horizon::is_up;
 use super::together::Together;
 use super::{Aspect, ExperimentError, Medium, Optics};
+use crate::math::statistic::Statistic;
 use crate::math::histogram::Histogram;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
@@ -45,6 +46,36 @@ pub struct Beam<'a> {
     optics: [[Optics; LINES]; 2],
     outline: Outline,
     crown: Vec<f32>,
+    needs: Needs,
+}
+
+/// What of a [`Tally`] is wanted; the rest need not be right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Needs {
+    /// Exits of all six lines, rather than of those that are compared.
+    pub lit: bool,
+    /// Exits too faint to be seen, which count for the separation of the colours.
+    pub faint: bool,
+}
+
+impl Needs {
+    /// Everything.
+    pub const ALL: Needs = Needs { lit: true, faint: true };
+
+    /// What a score reads of a tally.
+    pub fn of(reading: &Statistic<Tally>) -> Needs {
+        let seen = Tally { points: 1.0, lit: 1.0, streak_deg: 1.0, ..Tally::default() };
+        let unlit = Tally { lit: 2.0, ..seen.clone() };
+        let mut faint = Tally { power_angle_deg: 1.0, paired_power: 1.0, ..seen.clone() };
+        faint.power_by_angle.put(1.0, 1.0);
+        let differs = |other: &Tally| reading.of(other).to_bits() != reading.of(&seen).to_bits();
+        Needs { lit: differs(&unlit), faint: differs(&faint) }
+    }
+
+    /// What either needs.
+    pub fn and(self, other: Needs) -> Needs {
+        Needs { lit: self.lit || other.lit, faint: self.faint || other.faint }
+    }
 }
 
 /// Sums of a batch; every ray has power 1 in every line.
@@ -93,7 +124,22 @@ impl<'a> Beam<'a> {
         }
         let (outline, crown) = (Outline::new(stone, aspect)?, entrance::crown_flags(stone));
         let polarised = medium.polarised;
-        Ok(Self { stone, aspect, polarised, optics, outline, crown })
+        Ok(Self { stone, aspect, polarised, optics, outline, crown, needs: Needs::ALL })
+    }
+
+    /// Traces no more than what is needed of the tally; the same points give the same sums.
+    pub fn for_needs(self, needs: Needs) -> Self {
+        Self { needs, ..self }
+    }
+
+    /// The power below which a path is not followed.
+    ///
+    /// Of light that arrives at a facet with power p no beam denser than 4 n p leaves: T/m is largest for
+    /// light polarised along the plane of incidence, at the critical angle, and no entering beam is
+    /// narrower inside than outside.
+    fn stop_power(&self) -> f32 {
+        let index = self.optics.iter().flatten().map(|o| o.index).fold(1.0, f32::max);
+        if self.needs.faint { STOP_POWER } else { THRESHOLD / (4.0 * index) }
     }
 }
 
@@ -148,6 +194,11 @@ impl Rays for Shine<'_> {
         true
     }
 
+    /// Lines that have parted are not compared any more.
+    fn is_done(&self, lane: usize) -> bool {
+        !self.experiment.needs.lit && !self.together.still(lane)
+    }
+
     fn meet(&mut self, m: &Meeting, _: &Packet) {
         let axis = self.experiment.aspect.axis.as_vec3();
         let (mut seen, mut height) = ([0.0; LANES], [0.0; LANES]);
@@ -179,7 +230,8 @@ impl Experiment for Beam<'_> {
     type Tally = Tally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        for (optics, paired) in [(self.optics[0], true), (self.optics[1], false)] {
+        let passes = [(self.optics[0], true), (self.optics[1], false)];
+        for (optics, paired) in passes.into_iter().filter(|(_, paired)| *paired || self.needs.lit) {
             let mut shine = Shine {
                 experiment: self,
                 points: Points::new(seed, Purpose::Beam, batch, points.clone()),
@@ -189,7 +241,7 @@ impl Experiment for Beam<'_> {
                 widening: [0.0; LANES],
                 together: Together::NONE,
             };
-            feed::walk_all(self.stone, STOP_POWER, &mut shine);
+            feed::walk_all(self.stone, self.stop_power(), &mut shine);
         }
     }
 }

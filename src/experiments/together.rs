@@ -21,6 +21,11 @@ impl<const K: usize> Together<K> {
         self.0[lane] = true;
     }
 
+    /// Whether the lines of the ray in the lanes from `lane` on have come the same way so far.
+    pub(super) fn still(&self, lane: usize) -> bool {
+        self.0[lane]
+    }
+
     /// Whether all lines of the ray in the lanes from `lane` on leave at this meeting, and have come
     /// the same way.
     #[inline]

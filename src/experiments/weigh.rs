@@ -14,7 +14,7 @@ use rayon::prelude::*;
 /// The scores follow no more beams of one direction than this: a second's work, ten times what a
 /// diamond needs. At an index of 10, which keeps nearly all light inside, there would be tens of
 /// millions; what is left is then finished by photons.
-pub const MOST_BEAMS: u64 = 1_000_000;
+pub const MOST_BEAMS: u64 = 4_000_000;
 
 /// How hard to work.
 #[derive(Debug, Clone, Copy, PartialEq)]

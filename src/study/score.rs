@@ -2,6 +2,7 @@
 
 use super::sheet::Sheet;
 use crate::cut::Zone;
+use crate::experiments::beam::Needs;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
     Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, STOP_POWER, Scintillation,
@@ -277,7 +278,11 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
             .filter(|m| m.needs_dispersion())
             .for_each(|m| sheet.row.leave_out(m, NO_DISPERSION));
     } else {
-        sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
+        let readings = plan.metrics.iter().filter(|m| !(exact && m.by_beams)).filter_map(|m| beam(m.reading));
+        let needs = readings.map(|r| Needs::of(&r)).reduce(Needs::and).unwrap_or(Needs::ALL);
+        sheet.fill("beam", beam, false, BEAM_COST, || {
+            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(needs))
+        })?;
     }
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
