@@ -81,9 +81,10 @@ fn a_mesh_with_a_dent_is_scored_as_far_as_it_can_be() {
     assert!((sum - 1.0).abs() < 1e-6, "{table}");
     assert!(number("absorbed") > 0.0 && number("brightness") > 0.0 && number("wlr_se") > 0.0, "{table}");
     assert_eq!(cell("facets").parse().ok(), Some(8), "{table}");
-    for name in ["leakage_strongest", "windowing", "extinction", "iso", "weight_ratio", "error"] {
+    for name in ["leakage_strongest", "windowing", "extinction", "iso", "weight_ratio"] {
         assert_eq!(cell(name), "", "{name}: {table}");
     }
+    assert!(cell("error").contains("left out: not known for stones that are not convex"), "{table}");
     let out = bench.run(&["score", &dented, "--metrics", "iso,windowing"]);
     assert_eq!(out.status.code(), Some(2));
     assert!(text(&out.stderr).contains("none of the scores asked for"), "{}", text(&out.stderr));

@@ -31,7 +31,7 @@ fn about(solid: &Polyhedron, material: &Material, pivot: Option<DVec3>) -> Estim
         None => Scintillation::seen_from(&stone, &medium, Aspect::FACE_UP, sky),
     };
     let mut traced = Traced::new(rocked.expect("lit"), SEED);
-    traced.extend_to(1 << 16);
+    traced.extend_to(1 << 18);
     traced.estimate(|t| t.change / t.luminance)
 }
 
