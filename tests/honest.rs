@@ -183,7 +183,7 @@ fn what_does_not_apply_is_empty_and_says_why() {
     let (json, _) = bench.ends(0, &[&compare[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json[0]["scores"][0]["left_out"], "the stone has no table");
-    assert!(json[0]["scores"][1]["value"].as_f64().is_some_and(|v| v > 0.0), "{json}");
+    assert!(json[0]["scores"][1]["value"].is_number(), "{json}");
     assert!(json[0]["differences"][0]["significant"].is_null(), "{json}");
 }
 

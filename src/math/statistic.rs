@@ -196,7 +196,8 @@ mod tests {
     fn a_median_lies_within_two_errors_whatever_the_histogram() {
         let median: Statistic<Histogram> = Statistic::Median(|h| h, 0.5);
         let peaks = |share: f64| move |u: f64| if u < share { 10.0 + u } else { 60.0 + u };
-        let cases: [(Box<dyn Fn(f64) -> f64>, std::ops::RangeInclusive<f64>); 5] = [
+        type Case = (Box<dyn Fn(f64) -> f64>, std::ops::RangeInclusive<f64>);
+        let cases: [Case; 5] = [
             (Box::new(peaks(0.49)), 30.0..=30.02),
             (Box::new(peaks(0.51)), 5.49..=5.5),
             (Box::new(peaks(0.5)), 5.5..=30.0),
