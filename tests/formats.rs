@@ -285,7 +285,7 @@ fn stones_are_named_in_one_grammar() {
         ("round-briliant:table=55", "did you mean 'round-brilliant'?"),
         ("round-brilliant:table", "expected key=value with a number, found 'table'"),
         ("round-brilliant:table=wide", "expected key=value with a number, found 'table=wide'"),
-        ("round-brilliant:table=55,table=56", "found 'table=56'"),
+        ("round-brilliant:table=55,table=56", "table is given twice"),
         ("round-brilliant:tabel=55", "tabel"),
         ("octahedron:facets=9", "8"),
         ("", "no cut and no file is called ''"),
