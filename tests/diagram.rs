@@ -312,7 +312,11 @@ fn generate_and_show_draw_it() {
     assert_eq!(run("generate classic -o - --to svg").1, svg);
     assert_eq!(run("show classic --diagram -").1, svg);
     assert_eq!(run("generate classic -o l.pdf --paper letter").0, Some(0));
-    assert!(objects(&read("l.pdf")).contains("/MediaBox[0 0 612 792]"));
+    let [a4, letter] = ["a4", "letter"].map(|paper| {
+        assert_eq!(run(&format!("generate classic -o {paper}.pdf --paper {paper}")).0, Some(0));
+        read(&format!("{paper}.pdf"))
+    });
+    assert!(a4.starts_with(b"%PDF-") && a4 != letter && letter == read("l.pdf"));
     let (code, sheet, _) = run("show a.toml --diagram b.svg --ri 1.77");
     assert!(code == Some(0) && sheet.contains("73 = "), "{sheet}");
     assert!(String::from_utf8(read("b.svg")).expect("UTF-8").contains("angles for n = 1.770"));
