@@ -260,7 +260,7 @@ fn the_page_becomes_a_pdf_of_its_paper_with_its_fonts() {
         assert!(page.starts_with(b"%PDF-") && page.len() < 300_000, "{} bytes", page.len());
         assert_eq!(page, pdf::pdf(&svg).expect("again"), "the same bytes");
         let said = objects(&page);
-        let (_, media) = said.split_once("/MediaBox [").expect("a page");
+        let (_, media) = said.split_once("/MediaBox[").expect("a page");
         let media: Vec<f64> = media
             .split(']')
             .next()
@@ -279,7 +279,7 @@ fn a_size_is_told_flat_to_flat_and_corner_to_corner() {
     let design = cut("classic").sized(10.0).expect("closed");
     let has = |said: &[String], what: &str| said.iter().any(|s| s.contains(what));
     let said = said(&design);
-    assert!(has(&said, "width 10.00 mm flat to flat, W = 10.20 mm corner to corner"), "{said:?}");
+    assert!(has(&said, "W = 10.20 mm (flat to flat 10.00 mm)"), "{said:?}");
 }
 
 #[test]
@@ -312,7 +312,11 @@ fn generate_and_show_draw_it() {
     assert_eq!(run("generate classic -o - --to svg").1, svg);
     assert_eq!(run("show classic --diagram -").1, svg);
     assert_eq!(run("generate classic -o l.pdf --paper letter").0, Some(0));
-    assert!(objects(&read("l.pdf")).contains("/MediaBox [0 0 612 792]"));
+    let [a4, letter] = ["a4", "letter"].map(|paper| {
+        assert_eq!(run(&format!("generate classic -o {paper}.pdf --paper {paper}")).0, Some(0));
+        read(&format!("{paper}.pdf"))
+    });
+    assert!(a4.starts_with(b"%PDF-") && a4 != letter && letter == read("l.pdf"));
     let (code, sheet, _) = run("show a.toml --diagram b.svg --ri 1.77");
     assert!(code == Some(0) && sheet.contains("73 = "), "{sheet}");
     assert!(String::from_utf8(read("b.svg")).expect("UTF-8").contains("angles for n = 1.770"));

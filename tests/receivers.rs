@@ -44,7 +44,7 @@ fn gemcad_words(text: &str) -> Vec<Plane> {
     let mut index_of_refraction = 0.0;
     assert!(text.ends_with("\r\n"), "{text}");
     for (number, line) in text.split("\r\n").enumerate().filter(|(_, l)| !l.is_empty()) {
-        assert!(line.len() < 80 || line.starts_with("H "), "{line}");
+        assert!(line.chars().count() < 80 || line.starts_with("H "), "{line}");
         let mut words = line.split_whitespace().peekable();
         while let Some(word) = words.next() {
             let number_of = |w: Option<&str>| {
@@ -94,7 +94,8 @@ fn gemcad_words(text: &str) -> Vec<Plane> {
 #[test]
 fn gemcad_cuts_every_stone_whole_out_of_its_rough_from_text() {
     for (name, design) in library_designs() {
-        let text = String::from_utf8_lossy(&encoded(&design, "asc").bytes).into_owned();
+        // a byte a character
+        let text: String = encoded(&design, "asc").bytes.into_iter().map(char::from).collect();
         let planes = gemcad_words(&text);
         let (faces, rough) = out_of_rough(&planes);
         let solid = design.solid().expect("closed");

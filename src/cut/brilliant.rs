@@ -142,7 +142,9 @@ pub fn envelope(p: &Proportions) -> Option<&'static str> {
         p.crown_height_percent,
         p.depth_percent,
     ];
-    // a stone made to a bound lies within it, whatever the last digit
-    let within = |(value, (from, to)): (&f64, &(f64, f64))| (from - 1e-9..=to + 1e-9).contains(value);
+    /// A stone made to a bound lies within it whatever digits its file keeps; far below what is graded.
+    const LAST_DIGIT: f64 = 1e-3;
+    let within =
+        |(value, (from, to)): (&f64, &(f64, f64))| (from - LAST_DIGIT..=to + LAST_DIGIT).contains(value);
     ENVELOPES.iter().find(|(_, bounds)| values.iter().zip(bounds).all(within)).map(|(name, _)| *name)
 }

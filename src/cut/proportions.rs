@@ -80,13 +80,23 @@ pub struct Ratios {
 /// the rounding of a design file leaves between planes that are meant to meet in a point.
 pub const SLIVER: f64 = 1e-9;
 
+/// Corners nearer to each other than this part of the width are one: what the rounding of a file leaves
+/// of planes that are meant to meet in a point.
+const ONE_CORNER: f64 = 1e-5;
+
+fn zones_of(solid: &Polyhedron) -> Vec<Zone> {
+    (0..solid.faces.len()).map(|f| Zone::of(solid.area_vector(f).normalize_or_zero())).collect()
+}
+
 /// Measures a design whose solid is already known.
-pub fn measure(solid: &Polyhedron) -> Proportions {
-    let zones: Vec<Zone> =
-        (0..solid.faces.len()).map(|f| Zone::of(solid.area_vector(f).normalize_or_zero())).collect();
+pub fn measure(exact: &Polyhedron) -> Proportions {
+    let width = exact.width();
+    let exact_zones = zones_of(exact);
+    let seen: Vec<bool> = (0..exact_zones.len()).map(|f| exact.area(f) > SLIVER * width * width).collect();
+    // which corners a facet has must not depend on a file's last digits
+    let solid = &exact.welded(ONE_CORNER * width);
+    let zones = zones_of(solid);
     let (lo, hi) = solid.bounds();
-    let width = solid.width();
-    let seen: Vec<bool> = (0..zones.len()).map(|f| solid.area(f) > SLIVER * width * width).collect();
     let percent = |x: f64| 100.0 * x / width;
     let girdle_z: Vec<f64> =
         zone_faces(&zones, Zone::Girdle).flat_map(|f| solid.polygon(f).map(|v| v.z)).collect();
@@ -100,11 +110,11 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
     };
     let outline = solid.outline();
     let flat_size = |zone| zone_faces(&zones, zone).map(|f| flat_extent(solid, f, &outline)).reduce(f64::max);
-    let (length, volume) = (solid.length(), solid.volume());
+    let (length, volume) = (exact.length(), exact.volume());
     let (w, l) = wheel_size(&outline);
     let round = greatest_extent(&outline) <= ROUND * width;
     let by_zone = [Zone::Table, Zone::Crown, Zone::Girdle, Zone::Pavilion, Zone::Culet]
-        .map(|zone| (zone.name(), zone_faces(&zones, zone).filter(|f| seen[*f]).count()));
+        .map(|zone| (zone.name(), zone_faces(&exact_zones, zone).filter(|f| seen[*f]).count()));
     Proportions {
         facets: seen.iter().filter(|s| **s).count(),
         by_zone: by_zone.to_vec(),
@@ -119,7 +129,7 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
         depth_percent: percent(hi.z - lo.z),
         culet_percent: flat_size(Zone::Culet).map_or(0.0, percent),
         volume,
-        surface: solid.surface(),
+        surface: exact.surface(),
         ratios: Ratios {
             w,
             l_w: l / w,
@@ -129,7 +139,7 @@ pub fn measure(solid: &Polyhedron) -> Proportions {
             h_w: (hi.z - lo.z) / w,
             vol_w3: volume / w.powi(3),
         },
-        symmetry: symmetry::of(solid, SLIVER * width * width),
+        symmetry: symmetry::of(exact, SLIVER * width * width),
         brilliant: if round { brilliant::lengths(solid, &zones) } else { None },
     }
 }

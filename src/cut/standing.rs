@@ -114,10 +114,12 @@ impl Faces {
         self.largest(zone) > 0.0
     }
 
-    /// Whether the flat below is larger than that on top and has slanting facets around it, as a table
-    /// has; the base of a rose cut has none.
+    /// Whether the largest facet is a flat below, larger than that on top, with slanting facets around it
+    /// as a table has; the base of a rose cut has none.
     fn is_upside_down(&self) -> bool {
-        self.has(Zone::Pavilion) && self.largest(Zone::Culet) > NO_CULET * self.largest(Zone::Table)
+        let (largest, normal) = self.sorted.first().copied().unwrap_or_default();
+        let is_flat_below = Zone::of(normal) == Zone::Culet;
+        is_flat_below && self.has(Zone::Pavilion) && largest > NO_CULET * self.largest(Zone::Table)
     }
 
     /// Directions that an axis of the stone may have: normals of facets, and corners seen from its middle.

@@ -138,7 +138,6 @@ fn dielectric(material: &Material, thickness: f32) -> json::Material {
             attenuation_color: khr::AttenuationColor(colour),
             ..Default::default()
         }),
-        ..Default::default()
     };
     json::Material {
         name: Some(material.name.to_string()),

@@ -54,8 +54,24 @@ impl Polyhedron {
     }
 
     /// The outline seen from above: the convex hull of the corners in x and y, counter-clockwise.
+    ///
+    /// Its edges are longer than a hundred-thousandth of its extent: the upper and lower end of a girdle
+    /// edge differ by rounding, and an edge from one to the other would have any direction at all.
     pub fn outline(&self) -> Vec<DVec2> {
-        convex_hull(self.vertices.iter().map(|v| v.truncate()).collect())
+        const SHORTEST: f64 = 1e-5;
+        let hull = convex_hull(self.vertices.iter().map(|v| v.truncate()).collect());
+        let (low, high) = self.bounds();
+        let near = SHORTEST * (high - low).truncate().max_element();
+        let mut corners: Vec<DVec2> = Vec::with_capacity(hull.len());
+        for corner in hull {
+            if corners.last().is_none_or(|last| last.distance(corner) > near) {
+                corners.push(corner);
+            }
+        }
+        while corners.len() > 1 && corners[0].distance(corners[corners.len() - 1]) <= near {
+            corners.pop();
+        }
+        corners
     }
 
     /// Girdle width: the least distance between two parallel lines that hold the outline. For a

@@ -14,6 +14,9 @@ const SMALL: f64 = 2.3;
 /// Distance of lines, in units of the font size.
 const LEAD: f64 = 1.35;
 
+/// Part of the width that a bold line is wrapped to, as regular letters are narrower by about that.
+const BOLD: f64 = 0.9;
+
 /// Most lines of the file's own words above the drawings, and below the table.
 const MOST: usize = 6;
 
@@ -60,7 +63,9 @@ pub fn above(design: &Design, p: &Proportions, index: Option<f64>, wide: f64) ->
     let headers = design.headers.iter().map(String::as_str).filter(|h| h.trim() != title);
     lines.extend(said(headers, LINE, wide));
     for facts in [make(design, p, index), ratios(design, p)] {
-        lines.extend(wrapped(&facts.join(" · "), LINE, wide).into_iter().map(|line| (LINE, true, line)));
+        lines.extend(
+            wrapped(&facts.join(" · "), LINE, BOLD * wide).into_iter().map(|line| (LINE, true, line)),
+        );
     }
     Lines { lines }
 }
@@ -113,11 +118,9 @@ fn ratios(design: &Design, p: &Proportions) -> Vec<String> {
     facts.push(format!("Vol/W³ = {:.3}", r.vol_w3));
     if design.unit == Unit::Millimetre {
         // a faceter who asked for a size finds that one, not only the one across the corners
-        let corners = r.w > 1.0005 * p.width;
-        facts.push(match corners {
-            true => format!("width {:.2} mm flat to flat, W = {:.2} mm corner to corner", p.width, r.w),
-            false => format!("W = {:.2} mm", r.w),
-        });
+        let (w, flats) = (format!("W = {:.2} mm", r.w), format!("{:.2} mm", p.width));
+        let differ = r.w > 1.005 * p.width;
+        facts.push(if differ { format!("{w} (flat to flat {flats})") } else { w });
     }
     facts
 }
