@@ -145,7 +145,7 @@ fn assert_sound(what: &str, surface: &Surface) {
 #[test]
 fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
     let drawn =
-        library::names().filter(|n| cutlab::formats::stone::open(&format!("{n}:length-to-width=2")).is_ok());
+        library::names().filter(|n| cutlab::formats::stone::open(format!("{n}:length-to-width=2")).is_ok());
     let specs = library::names().map(String::from).chain(drawn.map(|n| format!("{n}:length-to-width=2")));
     for spec in specs {
         let design = cutlab::formats::stone::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;

@@ -88,7 +88,7 @@ fn frames_of_another_stone_or_without_their_passes_are_made_anew() {
     cutlab(folder.path(), &format!("{render} -o f%d.png --passes")).expect("renders");
     assert_eq!(read("f0.png"), of_cube);
     assert!(at("f0-direct.png").exists() && at("f1-stone.png").exists(), "asked for later");
-    cutlab(folder.path(), "generate -q octahedron -o x.toml").expect("generates");
+    cutlab(folder.path(), "generate -q octahedron -o x.toml --force").expect("generates");
     cutlab(folder.path(), &format!("{render} -o f%d.png")).expect("renders");
     cutlab(folder.path(), &format!("{render} -o g%d.png")).expect("renders");
     assert!(read("f0.png") != of_cube, "the file has another stone now");

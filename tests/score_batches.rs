@@ -133,7 +133,7 @@ fn progress_of_another_command_or_broken_is_set_aside_with_a_note() {
     bench.good(&["generate", "-o", "x.toml", "-q"]);
     let long = score(&["cube", "x.toml", "tolkowsky"], &["--error", "0.00005", "-o", "t.csv"]);
     assert!(bench.kill_after(Duration::from_millis(1500), &long), "too quick to be killed");
-    bench.good(&["generate", "--table", "60", "-o", "x.toml", "-q"]);
+    bench.good(&["generate", "--table", "60", "-o", "x.toml", "-q", "--force"]);
     let short = score(&["cube", "x.toml", "tolkowsky"], &["--error", "0.01", "-o", "t.csv"]);
     assert!(bench.good(&short).contains("another command or other inputs"));
 }

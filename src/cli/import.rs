@@ -179,7 +179,8 @@ fn import(
     if job.by_chance {
         return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
     }
-    let to_stream = replace::is_stream(&job.target);
+    // a pipe may have no reader: it is not waited for unless that is asked for
+    let to_stream = replace::is_stream(&job.target) && (console.force || !is_pipe(&job.target));
     if !to_stream {
         outputs.check_inputs(&job.target)?;
         if console.force {
@@ -234,6 +235,20 @@ fn import(
         return Ok(Row { file, outcome: THERE, ..read });
     }
     Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
+}
+
+/// Whether `path` leads to a named pipe.
+fn is_pipe(path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        path.metadata().is_ok_and(|m| m.file_type().is_fifo())
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = path;
+        false
+    }
 }
 
 /// The rows in columns, then how many had which outcome.

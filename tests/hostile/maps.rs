@@ -6,7 +6,8 @@ use super::limits::refused;
 use cutlab::photons::file::VERSION;
 use std::fs;
 
-const RENDER: &str = "render octahedron --width 8 --height 6 --spp 1 --photons 40 --nearest 5 -o p.png";
+const RENDER: &str =
+    "render octahedron --width 8 --height 6 --spp 1 --photons 40 --nearest 5 -o p.png --force";
 
 #[test]
 fn maps_that_do_not_fit_are_refused_with_the_reason() {
