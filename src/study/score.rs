@@ -5,7 +5,7 @@ use crate::experiments::beam::Needs;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
     Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, STOP_POWER, Scintillation,
-    View, by_beams, cells, dented, hemisphere, iso, view,
+    View, beam, by_beams, cells, dented, fire, hemisphere, iso, view,
 };
 use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading};
@@ -226,27 +226,33 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     sheet.fill("scintillation", scintillation, false, ROCKING_COST * wavelengths, || {
         Ok(Scintillation::seen_from(stone, &medium, aspect, cells)?.followed_to(stop))
     })?;
-    let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
-    let dispersive = subject.material.is_dispersive();
-    if dispersive {
-        let readings = plan.metrics.iter().filter(|m| !(exact && m.by_beams)).filter_map(|m| beam(m.reading));
-        let needs = readings.map(Needs::of).reduce(Needs::and).unwrap_or(Needs::ALL);
-        sheet.fill("beam", beam, false, BEAM_COST, || {
-            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(needs))
+    let beams = Beams::new(stone);
+    let (beam, dispersive) = (of_beam, subject.material.is_dispersive());
+    if dispersive && subject.material.is_clear() {
+        // beams are nearly exact for one direction, and ten times as cheap as photons
+        let fire = |r| of_beam(r).filter(|f| !Needs::of(f).faint);
+        let readings = || plan.metrics.iter().filter_map(|m| fire(m.reading)).map(Needs::of);
+        let needs = Needs { lit: readings().any(|needs| needs.lit), faint: false };
+        sheet.finish("fire by beams", fire, false, |w| fire::fire(&beams, &medium, aspect, needs, w))?;
+        let colours = |r| of_beam(r).filter(|f| Needs::of(f).faint);
+        sheet.fill("beam", colours, false, BEAM_COST, || {
+            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(Needs { lit: false, faint: true }))
         })?;
+    } else if dispersive {
+        sheet.fill("beam", beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
     }
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
         sheet.fill("quadrature", of_hemisphere, true, DIRECTION_COST, make)?;
-        let beams = Beams::new(stone);
         let strongest = |m: &&Metric| of_view(m.reading).is_some_and(by_beams::reads_strongest);
         let strongest = plan.metrics.iter().any(|m| strongest(m));
-        sheet.finish("view by beams", of_view, |w| {
+        sheet.finish("view by beams", of_view, true, |w| {
             by_beams::view(&beams, &medium, aspect, surroundings, strongest, w)
         })?;
-        sheet.finish("iso by beams", iso, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
+        sheet
+            .finish("iso by beams", iso, true, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
         if dispersive {
-            sheet.finish("beam by beams", beam, |w| by_beams::colours(&beams, &medium, aspect, w))?;
+            sheet.finish("beam by beams", beam, true, |w| by_beams::colours(&beams, &medium, aspect, w))?;
         }
         sheet.unfinished = true;
         let finished = sheet.row.samples.len();
@@ -291,6 +297,10 @@ fn fill_dented(
 
 fn of_hemisphere(reading: Reading) -> Option<fn(&hemisphere::Tally) -> f64> {
     if let Reading::Hemisphere(f) = reading { Some(f) } else { None }
+}
+
+fn of_beam(reading: Reading) -> Option<fn(&beam::Tally) -> f64> {
+    if let Reading::Beam(f) = reading { Some(f) } else { None }
 }
 
 fn of_view(reading: Reading) -> Option<fn(&view::Tally) -> f64> {
