@@ -17,6 +17,7 @@ pub mod contrast;
 pub mod dented;
 mod entrance;
 pub mod exact;
+pub mod fire;
 pub mod hemisphere;
 pub mod horizon;
 pub mod iso;

@@ -5,10 +5,10 @@ use super::entrance::{self, Outline};
 use super::horizon::is_up;
 use super::together::Together;
 use super::{Aspect, ExperimentError, Medium, Optics};
-use crate::math::statistic::Statistic;
 use crate::math::histogram::Histogram;
 use crate::math::points::Points;
 use crate::math::random::Purpose;
+use crate::math::statistic::Statistic;
 use crate::math::stats::Sum;
 use crate::optics::dispersion::lines;
 use crate::walk::feed::{self, Rays};
@@ -133,14 +133,19 @@ impl<'a> Beam<'a> {
     }
 
     /// The power below which a path is not followed.
-    ///
-    /// Of light that arrives at a facet with power p no beam denser than 4 n p leaves: T/m is largest for
-    /// light polarised along the plane of incidence, at the critical angle, and no entering beam is
-    /// narrower inside than outside.
     fn stop_power(&self) -> f32 {
         let index = self.optics.iter().flatten().map(|o| o.index).fold(1.0, f32::max);
-        if self.needs.faint { STOP_POWER } else { THRESHOLD / (4.0 * index) }
+        if self.needs.faint { STOP_POWER } else { least_seen(index.into()) as f32 }
     }
+}
+
+/// Light inside a stone with less than this share of what fell in leaves no exit that can be seen.
+///
+/// Of light that arrives at a facet with power p no beam denser than 4 n p leaves: T/m is largest for
+/// light polarised along the plane of incidence, at the critical angle, and no entering beam is
+/// narrower inside than outside.
+pub(super) fn least_seen(index: f64) -> f64 {
+    f64::from(THRESHOLD) / (4.0 * index)
 }
 
 /// Angle between two directions, in degrees; exact for small angles.

@@ -5,6 +5,7 @@ use super::together::Together;
 use super::{BATCHES, ExperimentError, check_index};
 use crate::math::stats::{self, Estimate};
 use crate::optics::stokes::Stokes;
+use crate::solid::Plane;
 use crate::walk::Meeting;
 use crate::walk::beams::remainder::{Photons, Remainder};
 use crate::walk::beams::{Beams, Entrance, Exit, Light, Lit, Rest, Scalar, Until, Watch};
@@ -229,7 +230,7 @@ struct Finished<'a, F, const K: usize, const N: usize> {
 }
 
 impl<F: Fn(&Leaving<K>) -> [f64; N], const K: usize, const N: usize> Photons for Finished<'_, F, K, N> {
-    fn begins(&mut self, lane: usize) {
+    fn begins(&mut self, lane: usize, _: &Plane) {
         self.together.begin(lane);
     }
 

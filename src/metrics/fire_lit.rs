@@ -16,7 +16,8 @@ pub static FIRE_LIT: Metric = Metric {
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Area of the exiting beams brighter than 1e-3 of the incident irradiance, weighted by \
         cos² of the angle from zenith, per outline area; mean of the lines B C D e F G. A surrogate. \
-        What a stone absorbs counts at each line.",
+        Of clear stones by exact beams, those too small to be followed by photons. What a stone absorbs \
+        counts at each line.",
     source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
     reading: Reading::Beam(Statistic::Mean(|t| [t.lit, t.points], 1.0)),
 };

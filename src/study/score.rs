@@ -6,7 +6,7 @@ use crate::experiments::beam::Needs;
 use crate::experiments::view::{Sky, Surroundings};
 use crate::experiments::{
     Aspect, Beam, Contrast, ExperimentError, Hemisphere, Iso, Medium, Quadrature, STOP_POWER, Scintillation,
-    View, by_beams, cells, dented, hemisphere, iso, view,
+    View, beam, by_beams, cells, dented, fire, hemisphere, iso, view,
 };
 use crate::math::stats::Estimate;
 use crate::metrics::{METRICS, Metric, Reading, Statistic};
@@ -270,32 +270,39 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     sheet.fill("scintillation", scintillation, false, ROCKING_COST * wavelengths, || {
         Ok(Scintillation::seen_from(stone, &medium, aspect, cells)?.followed_to(stop))
     })?;
-    let beam = |r| if let Reading::Beam(f) = r { Some(f) } else { None };
+    let beams = Beams::new(stone);
     let dispersive = subject.material.is_dispersive();
     if !dispersive {
         plan.metrics
             .iter()
             .filter(|m| m.needs_dispersion())
             .for_each(|m| sheet.row.leave_out(m, NO_DISPERSION));
-    } else {
-        let readings = plan.metrics.iter().filter(|m| !(exact && m.by_beams)).filter_map(|m| beam(m.reading));
-        let needs = readings.map(|r| Needs::of(&r)).reduce(Needs::and).unwrap_or(Needs::ALL);
-        sheet.fill("beam", beam, false, BEAM_COST, || {
-            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(needs))
+    } else if subject.material.is_clear() {
+        // beams are nearly exact for one direction, and ten times as cheap as photons
+        let fire = |r| of_beam(r).filter(|f| !Needs::of(f).faint);
+        let readings = || plan.metrics.iter().filter_map(|m| fire(m.reading)).map(|f| Needs::of(&f));
+        let needs = Needs { lit: readings().any(|needs| needs.lit), faint: false };
+        sheet.finish("fire by beams", fire, false, |w| fire::fire(&beams, &medium, aspect, needs, w))?;
+        let colours = |r| of_beam(r).filter(|f| Needs::of(f).faint);
+        sheet.fill("beam", colours, false, BEAM_COST, || {
+            Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(Needs { lit: false, faint: true }))
         })?;
+    } else {
+        sheet.fill("beam", of_beam, false, BEAM_COST, || Beam::seen_from(stone, &medium, aspect))?;
     }
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
         sheet.fill("quadrature", of_hemisphere, true, DIRECTION_COST, make)?;
-        let beams = Beams::new(stone);
         let strongest = |m: &&Metric| of_view(m.reading).is_some_and(|s| by_beams::reads_strongest(&s));
         let strongest = plan.metrics.iter().any(|m| strongest(m));
-        sheet.finish("view by beams", of_view, |w| {
+        sheet.finish("view by beams", of_view, true, |w| {
             by_beams::view(&beams, &medium, aspect, surroundings, strongest, w)
         })?;
-        sheet.finish("iso by beams", iso, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
+        sheet
+            .finish("iso by beams", iso, true, |_| Ok(vec![by_beams::iso(&beams, &medium, aspect, head)?]))?;
         if dispersive {
-            sheet.finish("beam by beams", beam, |w| by_beams::colours(&beams, &medium, aspect, w))?;
+            sheet
+                .finish("beam by beams", of_beam, true, |w| by_beams::colours(&beams, &medium, aspect, w))?;
         }
         sheet.unfinished = true;
         let finished = sheet.row.samples.len();
@@ -341,6 +348,10 @@ fn fill_dented(
 
 fn of_hemisphere(reading: Reading) -> Option<Statistic<hemisphere::Tally>> {
     if let Reading::Hemisphere(f) = reading { Some(f) } else { None }
+}
+
+fn of_beam(reading: Reading) -> Option<Statistic<beam::Tally>> {
+    if let Reading::Beam(f) = reading { Some(f) } else { None }
 }
 
 fn of_view(reading: Reading) -> Option<Statistic<view::Tally>> {

@@ -98,13 +98,16 @@ impl Sheet<'_> {
 
     /// Fills in the columns that beams of one direction give, with photons for what is left over as
     /// far as the plan asks.
+    ///
+    /// - `of`, `by_beams`: as [`Sheet::columns`] has them
     pub fn finish<T: Sum>(
         &mut self,
         name: &'static str,
         of: impl Fn(Reading) -> Option<Statistic<T>>,
+        by_beams: bool,
         tallies: impl Fn(&Work) -> Result<Vec<T>, ExperimentError>,
     ) -> Result<(), ExperimentError> {
-        let columns = self.columns(of, true);
+        let columns = self.columns(of, by_beams);
         if columns.is_empty() {
             return Ok(());
         }

@@ -45,6 +45,12 @@ pub trait Light: Copy {
         true
     }
 
+    /// The power of a photon that stands for it when it is not followed: 1, as photons are drawn in
+    /// proportion to power, unless they are drawn by something else.
+    fn of_photon(&self) -> f64 {
+        1.0
+    }
+
     /// Its polarisation, if it has one.
     fn stokes(&self) -> Option<Stokes> {
         None

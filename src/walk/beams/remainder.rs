@@ -8,6 +8,7 @@
 use super::{Light, Rest, Watch};
 use crate::math::random::{Purpose, Stream};
 use crate::optics::stokes::Stokes;
+use crate::solid::Plane;
 use crate::walk::feed::{self, Rays};
 use crate::walk::{Meeting, Packet, Stone};
 use glam::{DVec2, Vec3};
@@ -22,6 +23,9 @@ const FIRST_STEP: f64 = 1e-5;
 /// A ray that enters at one point in `K` lines.
 #[derive(Debug, Clone, Copy)]
 struct Photon<const K: usize> {
+    power: f32,
+    /// Plane of the facet that it entered through.
+    entrance: Plane,
     points: [Vec3; K],
     directions: [Vec3; K],
     /// Polarisation of the leading line, if it is followed; its company is there for its directions.
@@ -44,6 +48,8 @@ struct Batch<const K: usize> {
 pub struct Remainder<const K: usize> {
     batches: Vec<Batch<K>>,
     most: usize,
+    /// Power below which photons are given up.
+    stop_power: f32,
     /// Power left over so far, and at the nearest mark of any batch.
     power: f64,
     mark: f64,
@@ -61,7 +67,12 @@ impl<const K: usize> Remainder<K> {
             let step = FIRST_STEP;
             Batch { next: step * stream.unit64(), stream, step, photons: Vec::with_capacity(most) }
         });
-        Remainder { batches: batches.collect(), most, power: 0.0, mark: 0.0 }
+        Remainder { batches: batches.collect(), most, stop_power: STOP_POWER, power: 0.0, mark: 0.0 }
+    }
+
+    /// Gives photons up below a power.
+    pub fn ending_at(self, power: f32) -> Self {
+        Remainder { stop_power: power, ..self }
     }
 
     /// Number of batches.
@@ -90,7 +101,8 @@ impl<const K: usize> Remainder<K> {
     /// Walks the photons of a batch to their end.
     ///
     /// - `indices`: of the stone for each line
-    /// - `watch`: sees every meeting; a photon has power 1 in every line
+    /// - `watch`: sees every meeting; a photon has power 1 in every line, or what its light says
+    ///   ([`Light::of_photon`])
     ///
     /// Returns the power that one photon stands for, and the power given up over all lines, in
     /// photons.
@@ -105,7 +117,7 @@ impl<const K: usize> Remainder<K> {
         let indices = indices.map(|n| n as f32);
         let polarised = batch.photons.first().is_some_and(|photon| photon.stokes.is_some());
         let mut shower = Shower { photons: batch.photons.iter(), polarised, indices, watch };
-        (batch.step, feed::walk_all(stone, STOP_POWER, &mut shower))
+        (batch.step, feed::walk_all(stone, self.stop_power, &mut shower))
     }
 }
 
@@ -113,6 +125,8 @@ impl<const K: usize> Batch<K> {
     fn draw<L: Light>(&mut self, rest: &Rest<L, K>) {
         let uv = point_in(rest.footprint, &mut self.stream);
         self.photons.push(Photon {
+            power: rest.light.of_photon() as f32,
+            entrance: rest.entrance.plane,
             points: std::array::from_fn(|k| rest.frames[k].point_on(uv, &rest.plane).as_vec3()),
             directions: std::array::from_fn(|k| rest.frames[k].direction.as_vec3().normalize()),
             stokes: rest.light.stokes(),
@@ -157,8 +171,14 @@ fn point_in(corners: &[DVec2], stream: &mut Stream) -> DVec2 {
 
 /// What photons of the remainder leave.
 pub trait Photons {
-    /// A new photon is in the lanes from `lane` on.
-    fn begins(&mut self, _lane: usize) {}
+    /// A new photon is in the lanes from `lane` on; it entered the stone through a facet in the plane
+    /// `entrance`.
+    fn begins(&mut self, _lane: usize, _entrance: &Plane) {}
+
+    /// Whether the photon in the lanes from `lane` on need not be followed further.
+    fn is_done(&self, _lane: usize) -> bool {
+        false
+    }
 
     /// What all lanes leave at a meeting.
     fn meet(&mut self, meeting: &Meeting);
@@ -181,15 +201,19 @@ impl<W: Photons, const K: usize> Rays for Shower<'_, W, K> {
     fn next(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(photon) = self.photons.next() else { return false };
         for k in 0..K {
-            packet.set(lane + k, photon.points[k], photon.directions[k], 1.0, self.indices[k]);
+            packet.set(lane + k, photon.points[k], photon.directions[k], photon.power, self.indices[k]);
         }
         if let Some(Stokes { i, q, u, v, axis }) = photon.stokes {
-            let part = |x: f64| (x / i) as f32;
+            let part = |x: f64| photon.power * (x / i) as f32;
             (packet.q[lane], packet.u[lane], packet.v[lane]) = (part(q), part(u), part(v));
             (packet.ax[lane], packet.ay[lane], packet.az[lane]) = axis.as_vec3().into();
         }
-        self.watch.begins(lane);
+        self.watch.begins(lane, &photon.entrance);
         true
+    }
+
+    fn is_done(&self, lane: usize) -> bool {
+        self.watch.is_done(lane)
     }
 
     fn meet(&mut self, meeting: &Meeting, _: &Packet) {
