@@ -10,6 +10,7 @@ use cutlab::render::{self, Film, Maps, Pass, Tone};
 use cutlab::scene::{Cast, Scene, SceneFile, preset};
 use cutlab::transport::SurfacePoint;
 use glam::{Vec2, Vec3};
+use std::f32::consts::TAU;
 use std::path::Path;
 
 const SEED: u64 = 20_262;
@@ -86,54 +87,109 @@ fn few_photons() {
 /// Rings about the stone, in stone radii.
 const RINGS: [(f32, f32); 6] = [(1.3, 2.0), (2.0, 3.0), (3.0, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 20.0)];
 
-/// [D] The light that the map shows on a ring is the power of the photons that fell there, and over the
-/// whole table it is that of all. Blur carries light across the borders of rings: the fewer photons, the
-/// more.
-#[test]
-fn light_is_where_its_photons_are() {
-    for (material, photons, _within) in [
-        ("diamond", 10_000, 0.05),
-        ("diamond", 100_000, 0.02),
-        ("quartz", 10_000, 0.05),
-        ("quartz", 100_000, 0.02),
-    ] {
-        let cast = Cast { material: Material::named(material).cloned(), ..Cast::default() };
-        let file = preset("table").expect("in the catalogue").expect("is sound");
-        let scene = file.build(&cast, 1.0).expect("is set up");
-        let shot = Shots::shoot(&scene, &Settings { photons, nearest: 500, seed: SEED }).caustic;
-        let unit = scene.stones[0].radius;
-        let foot = scene.stones[0].position.truncate();
-        let stored = |inner: f32, outer: f32| -> f64 {
-            let within =
-                |p: &&Photon| (inner * unit..outer * unit).contains(&p.point.truncate().distance(foot));
-            shot.photons.iter().filter(within).map(power).sum()
-        };
-        let map = PhotonMap::new(&scene, shot.clone(), 500);
-        let seen = |inner: f32, outer: f32| -> f64 {
-            let (steps, turns) = (60, 360);
-            let cell = |i: usize| {
-                let r = inner + (outer - inner) * ((i / turns) as f32 + 0.5) / steps as f32;
-                let phi = ((i % turns) as f32 + 0.5) / turns as f32 * std::f32::consts::TAU;
-                let at = foot + Vec2::from_angle(phi) * r * unit;
-                let area =
-                    r * unit * unit * (outer - inner) / steps as f32 * std::f32::consts::TAU / turns as f32;
-                mean(&map.irradiance(&on_plate(at.x, at.y)).0) * f64::from(area)
-            };
-            (0..steps * turns).map(cell).sum()
-        };
-        let ratio = |(inner, outer)| seen(inner, outer) / stored(inner, outer);
-        let ratios: Vec<f64> = RINGS.into_iter().map(ratio).collect();
-        println!("{material} {photons}: {ratios:.3?}");
-        // the table is 40 stone units wide, and what lies beyond its edge gets no share
-        let n = 700;
-        let plate = |i: usize| ((i as f32 + 0.5) / n as f32 - 0.5) * 40.0 * scene.stones[0].stone.unit as f32;
-        let whole: f64 =
-            (0..n * n).map(|i| mean(&map.irradiance(&on_plate(plate(i % n), plate(i / n))).0)).sum::<f64>()
-                * (40.0 * scene.stones[0].stone.unit / n as f64).powi(2);
-        let all: f64 = shot.photons.iter().map(power).sum();
-        println!("whole {:.4}", whole / all);
-        assert!((whole / all - 1.0).abs() < 0.01, "{material} {photons}: {whole} {all}");
+/// The table with a stone, and the caustic photons on it.
+fn table(material: &str, photons: usize) -> (Scene, Shot) {
+    let cast = Cast { material: Material::named(material).cloned(), ..Cast::default() };
+    let file = preset("table").expect("in the catalogue").expect("is sound");
+    let scene = file.build(&cast, 1.0).expect("is set up");
+    let shot = Shots::shoot(&scene, &Settings { photons, nearest: 500, seed: SEED }).caustic;
+    (scene, shot)
+}
+
+/// Power of photons by rings and over all, each spread over the distance of about `nearest` others, by
+/// points of that disc that lie on the table.
+fn spread(scene: &Scene, shot: &Shot, nearest: usize) -> [f64; 7] {
+    const POINTS: usize = 32;
+    let unit = scene.stones[0].radius;
+    let foot = scene.stones[0].position.truncate();
+    let half = 20.0 * scene.stones[0].stone.unit as f32;
+    let every = (nearest / 32).max(1);
+    let pilots: Vec<Vec2> = shot.photons.iter().step_by(every).map(|p| p.point.truncate()).collect();
+    let mut sums = [0.0; 7];
+    for photon in &shot.photons {
+        let at = photon.point.truncate();
+        let mut distances: Vec<f32> = pilots.iter().map(|p| p.distance_squared(at)).collect();
+        let (_, far, _) = distances.select_nth_unstable_by(nearest / every, f32::total_cmp);
+        let radius = far.sqrt();
+        let places = (0..POINTS).map(|i| {
+            let share = (i as f32 + 0.5) / POINTS as f32;
+            let r = (1.0 - (1.0 - share).sqrt()).sqrt() * radius;
+            at + Vec2::from_angle(i as f32 * 2.399_963) * r
+        });
+        let here: Vec<Vec2> = places.filter(|p| p.abs().max_element() < half).collect();
+        for place in &here {
+            let share = power(photon) / here.len() as f64;
+            let r = place.distance(foot) / unit;
+            sums[6] += share;
+            RINGS
+                .iter()
+                .zip(&mut sums)
+                .filter(|(ring, _)| (ring.0..ring.1).contains(&r))
+                .for_each(|(_, s)| *s += share);
+        }
     }
+    sums
+}
+
+/// What a map shows on rings and over the whole table.
+fn seen(scene: &Scene, shot: &Shot, nearest: usize) -> [f64; 7] {
+    let unit = scene.stones[0].radius;
+    let foot = scene.stones[0].position.truncate();
+    let map = PhotonMap::new(scene, shot.clone(), nearest);
+    let mut sums = [0.0; 7];
+    for (sum, (inner, outer)) in sums.iter_mut().zip(RINGS) {
+        let (steps, turns) = (60, 360);
+        for i in 0..steps * turns {
+            let r = inner + (outer - inner) * ((i / turns) as f32 + 0.5) / steps as f32;
+            let at = foot + Vec2::from_angle(((i % turns) as f32 + 0.5) / turns as f32 * TAU) * r * unit;
+            let area = r * unit * unit * (outer - inner) / steps as f32 * TAU / turns as f32;
+            *sum += mean(&map.irradiance(&on_plate(at.x, at.y)).0) * f64::from(area);
+        }
+    }
+    let n = 700;
+    let side = 40.0 * scene.stones[0].stone.unit as f32 / n as f32;
+    let place = |i: usize| (i as f32 + 0.5 - n as f32 / 2.0) * side;
+    let whole = (0..n * n).map(|i| mean(&map.irradiance(&on_plate(place(i % n), place(i / n))).0));
+    sums[6] = whole.sum::<f64>() * f64::from(side * side);
+    sums
+}
+
+/// [D] The light that a map shows on rings about the stone and on the whole table is the power of the photons
+/// there, once each is spread over the distance of its neighbours, and to a few percent also before, where
+/// they are many.
+#[test]
+#[ignore = "half a minute: .ci/run runs it"]
+fn light_is_where_its_photons_are() {
+    for material in ["diamond", "quartz"] {
+        for (photons, nearest, blur) in
+            [(10_000, 500, 1.0), (10_000, 100, 0.15), (100_000, 500, 0.15), (100_000, 100, 0.05)]
+        {
+            let (scene, shot) = table(material, photons);
+            let seen = seen(&scene, &shot, nearest);
+            let ratios =
+                |right: [f64; 7]| -> Vec<f64> { seen.iter().zip(right).map(|(s, r)| s / r).collect() };
+            let (of_spread, of_points) =
+                (ratios(spread(&scene, &shot, nearest)), ratios(points(&scene, &shot)));
+            println!("{material} {photons} {nearest}: spread {of_spread:.3?}, points {of_points:.3?}");
+            assert!((of_points[6] - 1.0).abs() < 0.01, "{material} {photons} {nearest}: {of_points:?}");
+            assert!(of_spread.iter().all(|r| (r - 1.0).abs() < 0.03), "{material} {photons}: {of_spread:?}");
+            assert!(of_points.iter().all(|r| (r - 1.0).abs() < blur), "{material} {photons}: {of_points:?}");
+        }
+    }
+}
+
+/// Power of photons where they fell, by rings and over all.
+fn points(scene: &Scene, shot: &Shot) -> [f64; 7] {
+    let unit = scene.stones[0].radius;
+    let foot = scene.stones[0].position.truncate();
+    let mut sums = [0.0; 7];
+    for photon in &shot.photons {
+        let r = photon.point.truncate().distance(foot) / unit;
+        sums[6] += power(photon);
+        let rings = RINGS.iter().zip(&mut sums).filter(|(ring, _)| (ring.0..ring.1).contains(&r));
+        rings.for_each(|(_, sum)| *sum += power(photon));
+    }
+    sums
 }
 
 fn mean(bands: &[f32; BANDS]) -> f64 {

@@ -295,3 +295,26 @@ fn the_brilliant_is_as_bright_as_other_renderers_have_it() {
     let open = open.iter().sum::<f32>() / open.len() as f32;
     assert!((open - 1.0).abs() < 0.01, "{open}");
 }
+
+/// [D] A white plate at linear .8 is shown at .6 + .4 (1 − e^−.5) = .7574 in every channel, which is .8847 of
+/// sRGB: the few wavelengths of a camera ray do not bend it, also where they reach beyond white.
+#[test]
+fn white_stays_white() {
+    for (light, shown) in [(0.8, 0.757_388), (2.5, 0.996_539)] {
+        let text = format!(
+            "unit = 'mm'\ncamera = {{ at = [0, 0, 9], field = 20 }}\n\
+             surface = [{{ corner = [-9, -9, 0], u = [18, 0, 0], v = [0, 18, 0], reflectance = 0.5 }}]\n\
+             light = [{{ kind = 'dome', radiance = {} }}]\n",
+            2.0 * light
+        );
+        let file = SceneFile::parse("white", "white.toml", &text, Path::new("")).expect("is sound");
+        let scene = file.build(&Cast::default(), 1.0).expect("is set up");
+        let maps =
+            Maps::new(&scene, Shots::shoot(&scene, &Settings { photons: 10, nearest: 5, seed: SEED }), 5);
+        let tone = Tone::default();
+        let settings = render::Settings { width: 24, height: 24, rays: 25, round: 0, tone, seed: SEED };
+        let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
+        let mean = film.pixels.iter().map(|p| p.shown).sum::<Vec3>() / (24.0 * 24.0);
+        assert!((mean - shown).abs().max_element() < 1e-3, "{mean} {shown}");
+    }
+}

@@ -54,7 +54,7 @@ const PILOTS: usize = 32;
 /// With fewer photons on it, each spreads over a whole side.
 const FEW: usize = 4;
 /// A smooth look-up interpolates between the cells within so many of the longest edges.
-const AROUND: f32 = 1.25;
+const AROUND: f32 = 1.0;
 /// Places among which one of the right normal is looked for, if the nearest has another.
 const FOLDS: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(15);
 
@@ -86,16 +86,20 @@ impl PhotonMap {
         let Some(sheet) = self.sheet(at) else { return ([0.0; BANDS], f32::INFINITY) };
         let nearest = sheet.nearest(at.point, at.normal);
         let radius = sheet.cells[nearest].radius;
-        let around = AROUND * sheet.edge * radius;
+        let share = AROUND * sheet.edge;
+        // of cells whose radius grows no faster than they are away, none farther has a weight
+        let reach = share * radius / (1.0 - 0.5 * share);
         let mut sum = sheet.irradiance[nearest].map(|e| e * f32::MIN_POSITIVE);
         let mut total = f32::MIN_POSITIVE;
         let place = at.point.to_array();
-        sheet.places.query(&place).within::<SquaredEuclidean<f32>>(around * around).unsorted().visit(|f| {
+        sheet.places.query(&place).within::<SquaredEuclidean<f32>>(reach * reach).unsorted().visit(|f| {
             let i = f.item as usize;
             let cell = &sheet.cells[i];
+            // by the radii of both: by that of the place alone, small bright cells would count too often
+            let around = 0.5 * share * (radius + cell.radius);
             // falls to 0 at the edge, so that the sum has no steps
-            let near = (1.0 - f.distance.sqrt() / around).powi(2);
-            let weight = near * cell.area * cell.normal.dot(at.normal).max(0.0);
+            let near = (1.0 - f.distance.sqrt() / around).max(0.0) / around;
+            let weight = near * near * cell.area * cell.normal.dot(at.normal).max(0.0);
             total += weight;
             (0..BANDS).for_each(|b| sum[b] += weight * sheet.irradiance[i][b]);
         });

@@ -1,7 +1,7 @@
 //! Progressive photon mapping: picture after picture with photons of their own and ever smaller
 //! estimates, whose mean has less and less noise and blur.
 //!
-//! Every round shoots as many photons as the one before but gathers fewer of them, k_{i+1} =
+//! Every round shoots as many photons as the one before but spreads each over fewer of them, k_{i+1} =
 //! k_i (i + α)/(i + 1) with α = 2/3: the disc of an estimate shrinks to nothing while the mean over
 //! rounds sees ever more photons, so that noise and bias both vanish. Memory holds one round.
 //! Source: C. Knaus and M. Zwicker, *Progressive photon mapping: a probabilistic approach*, ACM
