@@ -77,7 +77,9 @@ impl Tally {
             t.returned += lost;
             t.returned_cos2 += lost;
         };
-        vec![with(returned), with(|t, lost| t.leaked += lost), with(|t, lost| t.absorbed += lost)]
+        // a clear stone takes none of it
+        let absorbed = (self.absorbed > 0.0).then(|| with(|t, lost| t.absorbed += lost));
+        [with(returned), with(|t, lost| t.leaked += lost)].into_iter().chain(absorbed).collect()
     }
 }
 

@@ -167,10 +167,12 @@ impl Tally {
             tally.luminance += bright * self.lost;
             tally
         };
-        let absorbed = Tally { absorbed: self.absorbed + self.lost, ..self.clone() };
+        // a clear stone takes none of it
+        let absorbs = self.absorbed > 0.0;
+        let absorbed = absorbs.then(|| Tally { absorbed: self.absorbed + self.lost, ..self.clone() });
         let zenith = Band::Blue as usize;
         let sky = (0..=zenith).map(|band| from(band, 1.0));
-        sky.chain([from(zenith, 0.0), from(Band::Below as usize, 0.0), absorbed]).collect()
+        sky.chain([from(zenith, 0.0), from(Band::Below as usize, 0.0)]).chain(absorbed).collect()
     }
 }
 

@@ -282,7 +282,7 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
         let fire = |r| of_beam(r).filter(|f| !Needs::of(f).faint);
         let readings = || plan.metrics.iter().filter_map(|m| fire(m.reading)).map(|f| Needs::of(&f));
         let needs = Needs { lit: readings().any(|needs| needs.lit), faint: false };
-        sheet.finish("fire by beams", fire, false, |w| fire::fire(&beams, &medium, aspect, needs, w))?;
+        sheet.finish("fire", fire, false, |w| fire::fire(&beams, &medium, aspect, needs, w))?;
         let colours = |r| of_beam(r).filter(|f| Needs::of(f).faint);
         sheet.fill("beam", colours, false, BEAM_COST, || {
             Ok(Beam::seen_from(stone, &medium, aspect)?.for_needs(Needs { lit: false, faint: true }))
