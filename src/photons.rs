@@ -7,6 +7,7 @@
 mod cells;
 pub mod emission;
 pub mod file;
+mod images;
 mod light;
 pub mod map;
 

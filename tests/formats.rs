@@ -1,7 +1,7 @@
 //! Formats: what is written reads back to the same planes, good files are read, bad ones are
 //! refused in one line that says where and why, and no bytes at all make a reader panic.
 
-use cutlab::cut::Design;
+use cutlab::cut::{Design, Unit};
 use cutlab::formats::{self, FORMATS, Imported, stone};
 use cutlab::solid::Plane;
 use cutlab::solid::polyhedron::Fate;
@@ -115,9 +115,10 @@ fn a_file_is_written_by_its_ending_and_read_by_its_bytes() {
     }
     let error = formats::write(&design, &folder.path().join("stone.doc")).expect_err("no such format");
     assert!(
-        error
-            .to_string()
-            .ends_with("its ending must be one of toml, asc, gem, gcs, obj, stl, ply, glb, gltf"),
+        error.to_string().ends_with(
+            "its ending must be one of toml, asc, gem, gcs, obj, stl, ply, glb, gltf; \
+             cutlab generate also draws diagrams (.svg, .pdf, .png)"
+        ),
         "{error}"
     );
 }
@@ -193,8 +194,9 @@ fn meshes_come_back_as_facets() {
         ("octahedron-binary.stl", 8, 4.0 / 3.0),
         ("octahedron-text.ply", 8, 4.0 / 3.0),
         ("octahedron-big.ply", 8, 4.0 / 3.0),
-        ("octahedron.gltf", 8, 32.0e9 / 3.0), // of metres
-        ("octahedron-beside.gltf", 8, 32.0e9 / 3.0),
+        // 4 m wide, as no stone is: its own numbers count
+        ("octahedron.gltf", 8, 32.0 / 3.0),
+        ("octahedron-beside.gltf", 8, 32.0 / 3.0),
         ("scene-full.asc", 8, 4.0 / 3.0),
         ("scene-no-token.asc", 8, 4.0 / 3.0),
         ("scene-no-emission.asc", 8, 4.0 / 3.0),
@@ -212,7 +214,10 @@ fn meshes_come_back_as_facets() {
         assert!((volume(&stone) / expected - 1.0).abs() < 1e-6, "{name}: {}", volume(&stone));
     }
     assert!(good("octahedron.obj").design.facets().any(|f| f.name == "facet 5"));
-    assert!(good("octahedron.gltf").warnings[0].contains("points or lines"));
+    let scene = good("octahedron.gltf");
+    assert!(scene.warnings[0].contains("points or lines"), "{:?}", scene.warnings);
+    assert!(scene.warnings[1].contains("4.000 m wide"), "{:?}", scene.warnings);
+    assert_eq!(scene.design.unit, Unit::Free);
     assert!(good("two-shapes.pbrt").warnings[0].contains("one of 2 shapes"));
 }
 

@@ -219,7 +219,11 @@ fn a_comparison_has_the_median_that_a_score_has() {
 /// A ratio that goes beyond 1 is not called a fraction.
 #[test]
 fn a_unit_is_called_what_it_is() {
-    let (listed, _) = Bench::new().ends(0, &["list", "metrics"]);
+    let bench = Bench::new();
+    let (lines, _) = bench.ends(0, &["list", "metrics"]);
+    let names: Vec<&str> = lines.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert!(names.contains(&"wlr") && names.contains(&"contrast"), "{lines}");
+    let (listed, _) = bench.ends(0, &[&["list", "metrics"][..], &names].concat());
     assert!(listed.contains("a ratio, 0 to 100") && listed.contains("a fraction, 0 to 1\n"), "{listed}");
     assert!(!listed.contains("a fraction, 0 to 100"), "{listed}");
 }

@@ -184,10 +184,11 @@ fn a_film_of_the_command_line_is_made_once_and_again() {
     assert_eq!((moov.mvhd.timescale, moov.mvhd.duration), (10, 5));
     // the smallest and the fastest, and one that takes half a minute
     for (side, frames, fps) in [("16", "3", "120"), ("18", "30", "1")] {
-        let size = ["--width", side, "--height", side, "--frames", frames, "--fps", fps, "-o", "b.mp4"];
+        let name = format!("{side}.mp4");
+        let size = ["--width", side, "--height", side, "--frames", frames, "--fps", fps, "-o", name.as_str()];
         let arguments = [&["render", "-q", "cube", "--spp", "1", "--photons", "100"][..], &size].concat();
         assert_eq!(bench.good(&arguments), "");
-        let moov = index(&std::fs::read(bench.path("b.mp4")).expect("was written"));
+        let moov = index(&std::fs::read(bench.path(&name)).expect("was written"));
         assert_eq!(moov.mvhd.duration.to_string(), frames);
     }
 }

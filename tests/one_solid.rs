@@ -300,10 +300,11 @@ fn a_stone_can_be_made_by_its_weight() {
         assert!((sheet["carats"].as_f64().expect("a weight") - 1.5).abs() < 1e-9, "{sheet}");
         let volume = sheet["volume_mm3"].as_f64().expect("a volume");
         assert!((volume * density / 200.0 / 1.5 - 1.0).abs() < 0.01, "{volume}");
-        let mut made = vec!["generate", stone, "--carat", "1.5", "-o", "x.stl"];
+        let file = format!("{stone}.stl");
+        let mut made = vec!["generate", stone, "--carat", "1.5", "-o", file.as_str()];
         made.extend(material.iter().flat_map(|m| ["--material", m]));
         let (_, said) = bench.run(&made);
-        let stl = formats::read(&bench.path("x.stl")).expect("is read").design;
+        let stl = formats::read(&bench.path(&file)).expect("is read").design;
         let written = stl.solid().expect("closed").volume();
         assert!((written / volume - 1.0).abs() < 1e-4, "{stone}: {written} {volume}");
         assert!(said.contains("1.5 ct"), "{said}");

@@ -55,8 +55,8 @@ fn options_that_cannot_go_together_are_one_sentence_and_leave_no_file() {
         (&["--frames", "2", "--passes", "-o", "a.mp4"], "%03d"),
         (&["--frames", "2", "--height", "33", "-o", "a.mp4"], "34"),
         (&["--frames", "2", "-o", "-"], "standard output"),
-        // a number that became a STONE
-        (&["--glare", "8", "-o", "a.png"], "--glare=8"),
+        // a number that became a STONE; after --glare it is glare's
+        (&["8", "--glare", "-o", "a.png"], "--glare=8"),
     ] {
         let bench = Bench::new();
         let arguments = render(arguments);

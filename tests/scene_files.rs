@@ -243,17 +243,17 @@ fn daylight_takes_a_panorama_by_option() {
         image::Rgb(if y < 8 { [0.4, 0.6, 1.0] } else { [0.2; 3] })
     });
     sky.save(bench.path("sky.hdr")).expect("writes");
-    let render = |extra: &[&'static str]| {
-        let arguments = ["render", "-q", "cube", "--scene", "daylight", "-o", "a.png"];
+    let render = |name: &'static str, extra: &[&'static str]| {
+        let arguments = ["render", "-q", "cube", "--scene", "daylight", "-o", name];
         [&arguments[..], extra, &SMALL[..]].concat()
     };
-    bench.good(&render(&["--hdr", "sky.hdr"]));
+    bench.good(&render("a.png", &["--hdr", "sky.hdr"]));
     let first = std::fs::read(bench.path("a.png")).expect("was written");
     std::fs::copy(bench.path("sky.hdr"), bench.path("panorama.hdr")).expect("copies");
-    bench.good(&render(&[]));
+    bench.good(&render("b.png", &[]));
     let pixels = |bytes: &[u8]| image::load_from_memory(bytes).expect("is a picture").to_rgb8();
-    assert_eq!(pixels(&first), pixels(&std::fs::read(bench.path("a.png")).expect("was written")));
-    assert!(bench.ends(2, &render(&["--hdr", "nothing.hdr"])).1.contains("nothing.hdr"));
+    assert_eq!(pixels(&first), pixels(&std::fs::read(bench.path("b.png")).expect("was written")));
+    assert!(bench.ends(2, &render("c.png", &["--hdr", "nothing.hdr"])).1.contains("nothing.hdr"));
 }
 
 /// The grammar that the program prints is one that it takes.

@@ -90,9 +90,12 @@ fn numbers_with_units_are_understood_and_others_explained() {
         stone("round-brilliant:table=57%, crown-angle=34°"),
         stone("round-brilliant:table=57,crown-angle=34")
     );
+    assert_eq!(stone("round-brilliant:depth=61.5%"), stone("round-brilliant:depth=61.5"));
     assert_eq!(stone("Round-Brilliant:Table=57"), stone("round-brilliant:table=57"));
     for (arguments, word) in [
         (&["generate", "--crown-angle", "34,5"][..], "as 34.5"),
+        (&["generate", "--carat", "1,5"], "as 1.5"),
+        (&["score", "--sort", "iso", "--top", "0"], "a whole number of rows from 1 on"),
         (&["generate", "--table", "57mm"], "give per cent, as 57"),
         (&["render", "--width", "640x480"], "one number is needed, '640x480' is two"),
         (&["render", "--width", "0"], "a whole number of pixels from 1 to 16384"),

@@ -3,7 +3,7 @@
 use super::values;
 use crate::cut::families::{FAMILIES, Parameter};
 use crate::cut::library;
-use crate::math::typed::Unit;
+use crate::math::typed::{self, Unit};
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::collections::BTreeMap;
 
@@ -96,7 +96,7 @@ impl Parameters {
         let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_lowercase();
         let kept =
             own.split(',').filter(|item| !item.trim().is_empty() && !self.0.contains_key(&key_of(item)));
-        let given = self.0.iter().map(|(key, value)| format!("{key}={value}"));
+        let given = self.0.iter().map(|(key, value)| format!("{key}={}", typed::shown(*value)));
         let items: Vec<String> = kept.map(str::to_string).chain(given).collect();
         format!("{name}:{}", items.join(","))
     }

@@ -239,6 +239,7 @@ mod tests {
             stone_name(OsStr::new("round-brilliant:table=60, crown-angle=34.5")),
             "round-brilliant-table60-crown-angle34.5"
         );
-        assert_eq!(stone_name(OsStr::new("designs/my:stone=1.asc")), "my");
+        // a file's own name is no parameter: all of it tells
+        assert_eq!(stone_name(OsStr::new("designs/my:stone=1.asc")), "my:stone=1");
     }
 }

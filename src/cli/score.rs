@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long, value_name = "METRIC", value_parser = sorted, allow_hyphen_values = true)]
     sort: Option<Sort>,
     /// Keep the first N rows of the sorted table
-    #[arg(long, value_name = "N", requires = "sort", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", requires = "sort", value_parser = kept)]
     top: Option<u64>,
     /// Turn the stone before viewer and light, one row a tilt, in degrees
     #[arg(long, value_name = "FROM:TO:STEP", value_parser = tilt, allow_hyphen_values = true)]
@@ -178,6 +178,11 @@ fn layout(specs: &[OsString], axes: &[f64]) -> Layout {
 fn sorted(text: &str) -> Result<Sort, String> {
     let name = text.strip_prefix('-').unwrap_or(text);
     Ok(Sort { metric: super::scoring::metric(name)?, ascending: text.starts_with('-') })
+}
+
+/// Value parser of `--top`.
+fn kept(text: &str) -> Result<u64, String> {
+    typed::whole(text, 1..=u64::MAX, "--top takes a whole number of rows")
 }
 
 /// Value parser of `--tilt-axis`.

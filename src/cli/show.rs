@@ -161,12 +161,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let stones = folders::expanded(&args.stones)?;
     let mut outputs = Outputs::beside(&stones, console);
-    for (path, draw) in [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)] {
-        let Some(path) = path else { continue };
+    let drawings = [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)];
+    let given = drawings.into_iter().filter_map(|(path, draw)| Some((path.as_ref()?, draw)));
+    // files first: what is refused has put nothing on standard output
+    let (streamed, filed): (Vec<_>, Vec<_>) = given.partition(|(path, _)| replace::is_stdout(path));
+    for (path, draw) in filed.iter().chain(&streamed) {
         draw(args, path, &mut outputs, console)?;
-        if replace::is_stdout(path) {
-            return Ok(Code::Done); // standard output is the drawing
-        }
+    }
+    if !streamed.is_empty() {
+        return Ok(Code::Done); // standard output is the drawing
     }
     let results = stones::each(&stones, console, "reading", |spec| match sheet(spec, args) {
         Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),

@@ -3,6 +3,7 @@
 use super::outcome::Failure;
 use super::stones::Substance;
 use crate::cut::Design;
+use crate::math::typed::{self, Unit};
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
 
@@ -79,8 +80,5 @@ fn nearest(n: f64) -> Option<&'static Material> {
 
 /// Value parser of `--carat`.
 pub fn carats(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(ct) if (1e-6..=1e6).contains(&ct) => Ok(ct),
-        _ => Err("a weight is a number of carats from 0.000001 to 1000000".into()),
-    }
+    typed::within(text, Unit::Carats, 1e-6..=1e6, "a weight is a number of carats")
 }

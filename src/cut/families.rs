@@ -158,10 +158,10 @@ pub fn family(name: &str) -> Result<&'static Family, CutError> {
     })
 }
 
-/// The unit of the parameter `key`, which all families have alike.
+/// The unit of the parameter or height `key`, which all families have alike.
 pub fn unit(key: &str) -> Unit {
-    let mut parameters = FAMILIES.iter().flat_map(|f| f.parameters);
-    parameters.find(|p| p.key == key).map_or(Unit::None, |p| Unit::of(p.unit))
+    let mut keys = FAMILIES.iter().flat_map(|f| f.keys());
+    keys.find(|p| p.key == key).map_or(Unit::None, |p| Unit::of(p.unit))
 }
 
 /// Builds a design of a family from the given values and the defaults of the rest.

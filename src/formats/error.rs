@@ -155,8 +155,9 @@ pub enum FormatError {
     },
     /// A format or extension that is not written.
     #[error(
-        "cannot write '{asked}': its ending must be one of {}; cutlab generate also draws diagrams (.svg, .png)",
-        .known.join(", ")
+        "cannot write '{asked}': its ending must be one of {}{}",
+        .known.join(", "),
+        also_drawn(.known)
     )]
     NoWriter {
         /// The file or format asked for.
@@ -194,6 +195,11 @@ pub(super) fn shown(text: &str) -> String {
 /// own words.
 pub(super) fn shortened(text: &str) -> String {
     cut(text, 3 * SHOWN)
+}
+
+/// Who draws diagrams, after a semicolon; nothing where the endings of diagrams are listed.
+fn also_drawn(known: &[&str]) -> &'static str {
+    if known.contains(&"svg") { "" } else { "; cutlab generate also draws diagrams (.svg, .pdf, .png)" }
 }
 
 /// `1 byte`, `2 bytes`.

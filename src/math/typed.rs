@@ -43,6 +43,8 @@ pub enum Unit {
     Percent,
     /// Millimetres.
     Millimetres,
+    /// Metric carats.
+    Carats,
 }
 
 impl Unit {
@@ -52,6 +54,7 @@ impl Unit {
             "°" => Unit::Degrees,
             "%" => Unit::Percent,
             "mm" => Unit::Millimetres,
+            "ct" => Unit::Carats,
             _ => Unit::None,
         }
     }
@@ -62,6 +65,7 @@ impl Unit {
             Unit::Degrees => &["°", "º", "degrees", "degree", "deg"],
             Unit::Percent => &["%", "percent"],
             Unit::Millimetres => &["mm", "millimetres", "millimeters"],
+            Unit::Carats => &["ct", "carats", "carat"],
         }
     }
 
@@ -71,6 +75,7 @@ impl Unit {
             Unit::Degrees => "degrees",
             Unit::Percent => "per cent",
             Unit::Millimetres => "millimetres",
+            Unit::Carats => "carats",
         }
     }
 }
@@ -200,6 +205,7 @@ mod tests {
             ("57%", Unit::Percent, 57.0),
             ("57 %", Unit::Percent, 57.0),
             ("8mm", Unit::Millimetres, 8.0),
+            ("1.5 ct", Unit::Carats, 1.5),
             ("\u{2212}3", Unit::None, -3.0),
             ("1e3", Unit::None, 1000.0),
         ] {

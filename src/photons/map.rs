@@ -3,8 +3,10 @@
 //! A map for each side of each surface: photons of two walls, or of the two sides of one, never mix.
 
 use super::cells::{self, Cell};
+use super::images::Edges;
 use super::{Photon, Shot, Spectrum};
 use crate::optics::colour::BANDS;
+use crate::scene::surface::{Plate, Shape};
 use crate::scene::{Scene, Surface};
 use crate::transport::SurfacePoint;
 use glam::Vec3;
@@ -15,8 +17,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A photon map: the irradiance of every part of every surface.
 ///
-/// Each photon spreads its own power over the surface around it, the wider the fewer photons there are,
-/// and what lies beyond an edge gets no share: so the light on a surface is the power of its photons,
+/// Each photon spreads its own power over the surface around it, the wider the fewer photons there are;
+/// the share beyond an edge is folded back. So the light on a surface is the power of its photons,
 /// however they lie, and what none reaches is dark. (Estimates that gather the nearest photons around
 /// places give light to the dark, and more of it the fewer photons they find.) The surface is divided
 /// into cells that are small beside that spread; a photon's power is shared out among their middles, so
@@ -130,7 +132,10 @@ impl Sheet {
             photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
         homes.par_sort_by_key(|(home, _)| *home); // stable
         let shares = Shares::new(photons, sheet.cells.len());
-        homes.par_chunk_by(|a, b| a.0 == b.0).for_each(|of_one| sheet.share_out(of_one, &shares));
+        let edges = plate(surface).and_then(Edges::new);
+        homes
+            .par_chunk_by(|a, b| a.0 == b.0)
+            .for_each(|of_one| sheet.share_out(of_one, edges.as_ref(), &shares));
         sheet.irradiance = shares.over_areas(&sheet.cells);
         Some(sheet)
     }
@@ -151,7 +156,9 @@ impl Sheet {
     }
 
     /// Shares out the power of photons that lie in the same cell among the cells around.
-    fn share_out(&self, photons: &[(u32, &Photon)], shares: &Shares) {
+    ///
+    /// - `edges`: of the surface, if it is a plate
+    fn share_out(&self, photons: &[(u32, &Photon)], edges: Option<&Edges>, shares: &Shares) {
         let Some((home, _)) = photons.first() else { return };
         let home = *home as usize;
         let Cell { point, radius, .. } = self.cells[home];
@@ -168,10 +175,13 @@ impl Sheet {
         let mut sums = vec![[0.0; BANDS]; around.len()];
         for (_, photon) in photons {
             let normal = photon.normal();
+            let (images, count) =
+                edges.map_or(([photon.point; 9], 1), |edges| edges.images(photon.point, radius));
             for (weight, i) in weights.iter_mut().zip(&around) {
                 let cell = &self.cells[*i];
-                let kernel = 1.0 - photon.point.distance_squared(cell.point) / (radius * radius);
-                *weight = cell.area * kernel.max(0.0) * cell.normal.dot(normal).max(0.0);
+                let of_one = |at: &Vec3| (1.0 - at.distance_squared(cell.point) / (radius * radius)).max(0.0);
+                let kernel: f32 = images[..count].iter().map(of_one).sum();
+                *weight = cell.area * kernel * cell.normal.dot(normal).max(0.0);
             }
             let mut total: f32 = weights.iter().sum();
             if total <= 0.0 {
@@ -187,8 +197,18 @@ impl Sheet {
     }
 }
 
+/// The surface as a plate, if it is one.
+fn plate(surface: &Surface) -> Option<&Plate> {
+    match &surface.shape {
+        Shape::Plate(plate) => Some(plate),
+        Shape::Mesh(_) => None,
+    }
+}
+
 /// Over how wide a disc the photons of a side are spread.
-struct Radii {
+struct Radii<'a> {
+    /// The surface, if it is a plate.
+    plate: Option<&'a Plate>,
     /// Every so-manieth photon; which they are depends on their order alone.
     pilots: Tree,
     /// How many of them are counted; none if each photon is spread over the whole side.
@@ -199,14 +219,15 @@ struct Radii {
     diagonal: f32,
 }
 
-impl Radii {
+impl<'a> Radii<'a> {
     /// None where no photon is.
-    fn new(surface: &Surface, photons: &[&Photon], nearest: usize) -> Option<Radii> {
+    fn new(surface: &'a Surface, photons: &[&Photon], nearest: usize) -> Option<Radii<'a>> {
         let (low, high) = surface.bounds();
         let every = (nearest / PILOTS).min(photons.len() / (2 * PILOTS)).max(1);
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
         let count = PILOTS.min(points.len() / 2);
         Some(Radii {
+            plate: plate(surface),
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
             factor: (nearest as f32 / (count * every) as f32).sqrt(),
@@ -218,9 +239,27 @@ impl Radii {
         let Some(counted) = self.counted else { return self.diagonal };
         let at = place.to_array();
         let found = self.pilots.query(&at).nearest_n::<SquaredEuclidean<f32>>(counted).unsorted().execute();
-        let distance2 = found.iter().map(|f| f.distance).fold(0.0, f32::max);
-        (self.factor * distance2.sqrt()).max(1e-6 * self.diagonal).min(self.diagonal)
+        let distance = found.iter().map(|f| f.distance).fold(0.0, f32::max).sqrt();
+        // at an edge a wider disc has as many photons, of which a part lies beyond
+        let share = self.plate.map_or(1.0, |plate| share_of_disc(plate, place, distance));
+        (self.factor * distance * share.sqrt()).max(1e-6 * self.diagonal).min(self.diagonal)
     }
+}
+
+/// Share of a disc about a place of a plate that lies on the plate, by a spiral of points of equal area.
+fn share_of_disc(plate: &Plate, place: Vec3, radius: f32) -> f32 {
+    const POINTS: usize = 32;
+    let u = plate.u.normalize();
+    let v = plate.normal().cross(u);
+    let tips = [u, -u, v, -v];
+    if tips.iter().all(|tip| plate.holds(place + *tip * radius)) {
+        return 1.0; // a disc whose four tips lie on a rectangle lies on it whole
+    }
+    let inside = |i: &usize| {
+        let (r, phi) = (radius * ((*i as f32 + 0.5) / POINTS as f32).sqrt(), *i as f32 * 2.399_963); // golden angle
+        plate.holds(place + u * (r * phi.cos()) + v * (r * phi.sin()))
+    };
+    (0..POINTS).filter(inside).count().max(1) as f32 / POINTS as f32
 }
 
 /// Power of each band that cells have got so far, in whole numbers: their sums do not depend on the order

@@ -74,7 +74,8 @@ impl Mesh {
     ///
     /// - `near`: meetings no farther than this do not count
     pub fn hit(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<Hit> {
-        let ray = Ray::new(origin.into(), direction.into(), near, f32::INFINITY);
+        // a meeting at the ray's least distance counts in the tree
+        let ray = Ray::new(origin.into(), direction.into(), near.next_up(), f32::INFINITY);
         let mut hit = RayHit::none();
         let met = self.tree.ray_traverse(ray, &mut hit, |ray, id| self.triangles[id].intersect(ray));
         if !met {

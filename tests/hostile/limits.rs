@@ -230,13 +230,19 @@ fn panoramas_cannot_claim_to_be_large() {
         panorama_refused(folder.path(), "bad.exr", "cannot read the panorama");
     }
     #[cfg(unix)]
-    panorama_refused(folder.path(), "/dev/zero", "it is no file");
+    {
+        panorama_refused(folder.path(), "/dev/zero", "is outside the scene's folder");
+        refused(folder.path(), &format!("{RENDER} --allow-outside"), "it is not a regular file");
+    }
 }
+
+/// A scene in as little work as there is.
+pub const RENDER: &str = "render --scene s.toml --width 4 --height 4 --spp 1 --photons 3";
 
 fn panorama_refused(folder: &Path, name: &str, says: &str) {
     let scene = "unit = \"stone\"\n[camera]\nat = [0, -5, 5]\nfield = 30\n[[stone]]\n[[light]]\nkind = \"dome\"\nradiance = 1\n";
     fs::write(folder.join("s.toml"), format!("{scene}panorama = \"{name}\"\n")).expect("written");
-    refused(folder, "render --scene s.toml --width 4 --height 4 --spp 1 --photons 3", says);
+    refused(folder, RENDER, says);
 }
 
 #[test]
@@ -257,16 +263,24 @@ fn scenes_are_limited_and_their_numbers_sensible() {
         (scene("").replace("-5", "-1e30"), "line 3: a number beyond"),
         (scene("").replace("30", "inf"), "line 4: a number beyond"),
         (scene("").replace("30", "9_000_000_000"), "line 4: a number beyond"),
-        (scene("").replace("\"cube\"", "\"/dev/zero\""), "line 6: cannot read /dev/zero: it is no file"),
-        (
-            scene(plate)
-                .replace("corner = [-9, -9, 0]\nu = [18, 0, 0]\nv = [0, 18, 0]", "mesh = \"/dev/zero\""),
-            "/dev/zero",
-        ),
         (scene(&format!("[[stone]]\ncut = {}{}\n", "[".repeat(9999), "]".repeat(9999))), "line 8"),
     ] {
         fs::write(folder.path().join("s.toml"), text).expect("written");
-        refused(folder.path(), "render --scene s.toml --width 4 --height 4 --spp 1 --photons 3", says);
+        refused(folder.path(), RENDER, says);
+    }
+    for (text, line) in [
+        (scene("").replace("\"cube\"", "\"/dev/zero\""), 6),
+        (
+            scene(plate)
+                .replace("corner = [-9, -9, 0]\nu = [18, 0, 0]\nv = [0, 18, 0]", "mesh = \"/dev/zero\""),
+            8,
+        ),
+    ] {
+        fs::write(folder.path().join("s.toml"), text).expect("written");
+        refused(folder.path(), RENDER, &format!("line {line}: "));
+        refused(folder.path(), RENDER, "is outside the scene's folder");
+        let says = format!("line {line}: cannot read /dev/zero: it is not a regular file");
+        refused(folder.path(), &format!("{RENDER} --allow-outside"), &says);
     }
     fs::write(folder.path().join("s.toml"), scene("size = 6_500.5e-3\n")).expect("written");
     let out =

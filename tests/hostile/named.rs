@@ -2,13 +2,11 @@
 //! no device, no pipe that nobody writes to, no folder. A stone on the command line may be a pipe.
 
 use super::cutlab;
-use super::limits::refused;
+use super::limits::{RENDER, refused};
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-const RENDER: &str = "render --scene s.toml --width 4 --height 4 --spp 1 --photons 3";
 
 /// A scene that names `name` as the cut, as a mesh, or as a panorama.
 fn scene(what: &str, name: &str) -> String {
@@ -59,16 +57,19 @@ fn scenes_name_regular_files() {
             let name =
                 if what == "cut" && !name.starts_with('/') { format!("./{name}") } else { name.into() };
             fs::write(folder.path().join("s.toml"), scene(what, &name)).expect("written");
-            refused(folder.path(), RENDER, says);
+            refused(folder.path(), &format!("{RENDER} --allow-outside"), says);
+            if name.ends_with("zero") {
+                refused(folder.path(), RENDER, "is outside the scene's folder");
+            }
         }
         fs::write(folder.path().join("s.toml"), scene(what, "./nowhere")).expect("written");
         refused(folder.path(), RENDER, "s.toml, line ");
     }
 }
 
-/// A scene is its owner's document: what it names may lie anywhere.
+/// What a scene names lies in its folder or below, unless the user allows more.
 #[test]
-fn scenes_name_files_in_any_folder() {
+fn scenes_name_files_in_any_folder_if_they_may() {
     let folder = traps();
     let at = |name: &str| folder.path().join(name);
     let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/octahedron.obj");
@@ -78,7 +79,8 @@ fn scenes_name_files_in_any_folder() {
     for (what, name) in [("cut", "stone.obj"), ("mesh", "stone.obj"), ("panorama", "sky.exr")] {
         for name in [format!("../{name}"), at(name).display().to_string()] {
             fs::write(at("folder/s.toml"), scene(what, &name)).expect("written");
-            let out = cutlab(&at("folder"), &format!("{RENDER} -q -o p.png"));
+            refused(&at("folder"), RENDER, "is outside the scene's folder");
+            let out = cutlab(&at("folder"), &format!("{RENDER} --allow-outside -q --force -o p.png"));
             assert!(out.status.success(), "{what} {name}: {}", String::from_utf8_lossy(&out.stderr));
         }
     }
@@ -120,8 +122,12 @@ fn designs_include_regular_files() {
         let pbrt = format!("WorldBegin\nInclude \"{name}\"\nWorldEnd\n");
         fs::write(folder.path().join("stone.pbrt"), pbrt).expect("written");
         ends_in_one_line(folder.path(), "show stone.pbrt", says);
+        // a buffer is fetched where a mesh needs it
         let gltf = format!(
-            "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":4,\"uri\":\"{name}\"}}]}}"
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"primitives\":\
+             [{{\"attributes\":{{\"POSITION\":0}}}}]}}],\"accessors\":[{{\"bufferView\":0,\"count\":3,\
+             \"componentType\":5126,\"type\":\"VEC3\"}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":36}}],\
+             \"buffers\":[{{\"byteLength\":36,\"uri\":\"{name}\"}}]}}"
         );
         fs::write(folder.path().join("stone.gltf"), gltf).expect("written");
         ends_in_one_line(folder.path(), "show stone.gltf", says);
@@ -169,9 +175,13 @@ fn pipes_in_the_places_of_its_own_files_are_not_waited_for() {
         assert!(made.success());
     };
     pipe(".t.csv.progress");
-    ends_in_one_line(folder.path(), "score -q octahedron --metrics weight_ratio -o t.csv", "is no file");
+    ends_in_one_line(
+        folder.path(),
+        "score -q octahedron --metrics weight_ratio -o t.csv",
+        "is not a regular file",
+    );
     pipe(".o.obj.partial");
-    ends_in_one_line(folder.path(), "generate -q octahedron -o o.obj", "is no file");
+    ends_in_one_line(folder.path(), "generate -q octahedron -o o.obj", "is not a regular file");
     let render =
         "render -q octahedron --width 8 --height 6 --spp 1 --photons 40 --nearest 5 -o p.png --photon-map";
     for (name, says) in [

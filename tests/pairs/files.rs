@@ -16,7 +16,7 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
     }
     match ending.as_str() {
         "png" | "apng" => png(bytes).and_then(|e| said(&e)),
-        "gif" => image::load_from_memory(bytes).err().and_then(|e| said(&e)),
+        "gif" | "jpg" | "webp" => image::load_from_memory(bytes).err().and_then(|e| said(&e)),
         "exr" => exr::prelude::read()
             .no_deep_data()
             .all_resolution_levels()

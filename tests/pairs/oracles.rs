@@ -139,13 +139,9 @@ fn is_there(name: &Path, ran: &Ran) -> bool {
 /// What standard output holds when it is a file, as an ending.
 fn streamed(case: &Case) -> &str {
     match case.command.as_str() {
-        "score" | "sweep" if case.has("json") => "json",
-        "score" | "sweep" => "csv",
-        "merge" => match case.values("parts").first().and_then(|p| Path::new(*p).extension()?.to_str()) {
-            Some("json") => "json",
-            Some("jsonl") => "jsonl",
-            _ => "csv",
-        },
+        // whatever form the parts of a whole have
+        "score" | "sweep" | "merge" if case.has("json") => "json",
+        "score" | "sweep" | "merge" => "csv",
         "show" => "svg",
         "render" => "png",
         "generate" => case.values("to").first().copied().unwrap_or("obj"),

@@ -78,7 +78,9 @@ fn of_scene(args: &Args, scene: &SceneFile) -> Option<String> {
         ));
     }
     if args.photon_map.is_some() && args.photon_map == args.output {
-        return Some("--photon-map and -o name one file: give the picture a name of its own".into());
+        return Some(
+            "--photon-map and -o are two outputs in one file: give the picture a name of its own".into(),
+        );
     }
     let of_stones = [
         ("--material", args.substance.material.is_some()),
