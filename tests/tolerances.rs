@@ -177,8 +177,9 @@ fn scans_with_noise_are_shown_and_scored_alike() {
         let (facets, volume, normals) = compared(&design, &back.design);
         println!("{what}: {facets} facets, volume off by {volume:.1e}, normals by {normals:.1e}");
         // flats of the girdle may go: they bend by no more than the noise is high
-        assert!(facets.abs_diff(design.facets().count()) <= 15, "{what}");
-        assert!(volume < 3e-3 && normals < 0.04, "{what}");
+        // and leftovers of it may stay
+        assert!(facets.abs_diff(design.facets().count()) <= 40, "{what}");
+        assert!(volume < 3e-3 && normals < 0.05, "{what}");
         assert!(back.warnings.iter().any(|w| w.contains("coarse mesh")), "{what}: {:?}", back.warnings);
     }
 }

@@ -108,7 +108,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if !to_output {
         if let Some(job) = jobs.first() {
             // nothing is read for a place where nothing can be written
-            place::tried(&job.target.with_file_name("x"))?;
+            place::tried(&job.target.with_file_name(".cutlab-import"))?;
         }
         outcome::goes_on();
     }
