@@ -19,7 +19,7 @@ fn doubted(design: &Design) -> Option<String> {
 fn every_cut_of_the_library_stands_upright() {
     for name in library::names() {
         assert_eq!(doubted(&cut(name)), None, "{name}");
-        let long = stone::open(&format!("{name}:length-to-width=1.6"));
+        let long = stone::open(format!("{name}:length-to-width=1.6"));
         assert_eq!(long.ok().and_then(|i| doubted(&i.design)), None, "{name}");
     }
 }

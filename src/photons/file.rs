@@ -246,7 +246,7 @@ mod tests {
             power: 0.25 * i as f32,
             surface: i as u16,
             tint: [i as u8; BANDS],
-            front: i % 2 == 0,
+            front: i.is_multiple_of(2),
             normal: [0, -127, i as i8],
         };
         let shots = Shots {

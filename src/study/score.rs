@@ -293,8 +293,8 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
     if exact {
         let make = || Quadrature::seen_from(stone, &medium, aspect);
         sheet.fill("quadrature", of_hemisphere, true, DIRECTION_COST, make)?;
-        let strongest = |m: &&Metric| of_view(m.reading).is_some_and(|s| by_beams::reads_strongest(&s));
-        let strongest = plan.metrics.iter().any(|m| strongest(m));
+        let reads_strongest = |m: &&Metric| of_view(m.reading).is_some_and(|s| by_beams::reads_strongest(&s));
+        let strongest = plan.metrics.iter().any(reads_strongest);
         sheet.finish("view by beams", of_view, true, |w| {
             by_beams::view(&beams, &medium, aspect, surroundings, strongest, w)
         })?;

@@ -127,8 +127,11 @@ const OF_NO_SHAPE: [&str; 8] = [
     "KHR_mesh_quantization",
 ];
 
-/// Reads the document of a glTF or GLB file; with it the buffer inside, and remarks.
-pub fn document<'s>(source: &Source<'s>) -> Result<(Document, Option<&'s [u8]>, Vec<String>), FormatError> {
+/// A document, the buffer inside its file, if there is one, and remarks.
+pub type Opened<'s> = (Document, Option<&'s [u8]>, Vec<String>);
+
+/// Reads the document of a glTF or GLB file.
+pub fn document<'s>(source: &Source<'s>) -> Result<Opened<'s>, FormatError> {
     let mut remarks = Vec::new();
     let (json, inside): (Cow<str>, _) = if source.bytes.starts_with(b"glTF") {
         let (json, inside) = chunks(source, &mut remarks)?;
