@@ -209,7 +209,7 @@ fn a_folder_below_that_cannot_be_listed_fails_alone() {
         bench.good(&["generate", "-q", "octahedron", "-o", file]);
     }
     let locked = bench.path("d/locked");
-    std::fs::set_permissions(&locked, PermissionsExt::from_mode(0)).expect("locks");
+    std::fs::set_permissions(&locked, PermissionsExt::from_mode(0o0)).expect("locks");
     if std::fs::read_dir(&locked).is_err() {
         // not for root
         let (table, said) = bench.ends(1, &[&["score", "d"], &SPREAD[..]].concat());

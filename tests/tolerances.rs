@@ -100,7 +100,7 @@ fn divided(design: &Design, every: usize) -> (String, usize) {
             let b = face.corners[(i + 1) % face.corners.len()];
             let _ = write!(faces, " {}", a + 1);
             let first = seen.insert((a.min(b), a.max(b)));
-            if first && seen.len() % every == 0 {
+            if first && seen.len().is_multiple_of(every) {
                 vertices.push(vertices[a].lerp(vertices[b], 0.3));
                 let _ = write!(faces, " {}", vertices.len());
                 count += 1;

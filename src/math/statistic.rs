@@ -13,10 +13,10 @@ pub enum Statistic<T> {
     /// of samples. By the jackknife; but where nothing was seen, that is not certain ([`nothing_seen`]).
     Mean(fn(&T) -> [f64; 2], f64),
     /// The share of samples that are of a kind: their number, and that of all. By Wilson's interval
-    /// ([`share`]).
+    /// (`share` in this file).
     Share(fn(&T) -> [f64; 2]),
     /// The median of a quantity with a histogram of weights, whose classes are so wide: by a
-    /// confidence interval ([`error_of_median`]).
+    /// confidence interval (`error_of_median` in this file).
     Median(fn(&T) -> &Histogram, f64),
 }
 

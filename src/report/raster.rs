@@ -71,7 +71,7 @@ pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
     png_of(svg, width, None)
 }
 
-/// As [`png`].
+/// As [`png()`].
 ///
 /// - `command`: what made it, for the picture's text `Command`
 pub fn png_of(svg: &str, width: u32, command: Option<&str>) -> Result<Vec<u8>, RasterError> {
