@@ -19,6 +19,10 @@ use rayon::prelude::*;
 /// tens of thousands are followed, which hold 97 % of its streaks.
 const AREA: f64 = 5e-5;
 
+/// Fewest photons of a batch: with fewer, visible exits are so rare that their spread is not known, and
+/// the stated error with it.
+const FEWEST_OF_A_BATCH: usize = 64;
+
 /// Lines that are compared, D first.
 const LINES: [f64; 3] = [lines::D, lines::B, lines::G];
 
@@ -103,7 +107,8 @@ fn sums<const K: usize>(
     let least = beam::least_seen(greatest);
     let crown = entrance::crown_flags(beams.stone());
     let rules = Rules { crown: &crown, direction, index: indices[0], of: &of };
-    let remainder = Remainder::new(effort.seed, BATCHES, effort.photons / BATCHES).ending_at(least as f32);
+    let of_a_batch = (effort.photons / BATCHES).max(FEWEST_OF_A_BATCH);
+    let remainder = Remainder::new(effort.seed, BATCHES, of_a_batch).ending_at(least as f32);
     let mut seen = Seen { rules, sum: 0.0, remainder };
     let until = Until { beams: MOST_BEAMS, left: f64::NEG_INFINITY, ..Until::power(AREA) };
     if medium.polarised {
