@@ -132,7 +132,7 @@ fn check_on(paper: Paper, name: &str, design: &Design) {
         let mut taken = vec![false; facets.len()];
         for text in names.children().filter(Node::is_element) {
             let corners = corners(&text);
-            let holds = |polygon: &Vec<DVec2>| corners.iter().all(|c| inside(*c, polygon, 0.03));
+            let holds = |polygon: &Vec<DVec2>| corners.iter().all(|c| inside(*c, polygon, 0.05));
             let own: Vec<usize> = (0..facets.len()).filter(|i| holds(&facets[*i])).collect();
             assert_eq!(own.len(), 1, "{name}: {view}: {:?} at {}", text.text(), corners[0]);
             assert!(!std::mem::replace(&mut taken[own[0]], true), "{name}: {view}: two names in one facet");

@@ -161,9 +161,13 @@ fn seen(scene: &Scene, shot: &Shot, nearest: usize) -> [f64; 7] {
 #[ignore = "half a minute: .ci/run runs it"]
 fn light_is_where_its_photons_are() {
     for material in ["diamond", "quartz"] {
-        for (photons, nearest, blur) in
-            [(10_000, 500, 1.0), (10_000, 100, 0.15), (100_000, 500, 0.15), (100_000, 100, 0.05)]
-        {
+        // how far rings may be off: of the photons as they are spread, and as they fell
+        for (photons, nearest, off, blur) in [
+            (10_000, 500, 0.12, 1.0),
+            (10_000, 100, 0.06, 0.15),
+            (100_000, 500, 0.06, 0.15),
+            (100_000, 100, 0.06, 0.05),
+        ] {
             let (scene, shot) = table(material, photons);
             let seen = seen(&scene, &shot, nearest);
             let ratios =
@@ -172,7 +176,7 @@ fn light_is_where_its_photons_are() {
                 (ratios(spread(&scene, &shot, nearest)), ratios(points(&scene, &shot)));
             println!("{material} {photons} {nearest}: spread {of_spread:.3?}, points {of_points:.3?}");
             assert!((of_points[6] - 1.0).abs() < 0.01, "{material} {photons} {nearest}: {of_points:?}");
-            assert!(of_spread.iter().all(|r| (r - 1.0).abs() < 0.03), "{material} {photons}: {of_spread:?}");
+            assert!(of_spread.iter().all(|r| (r - 1.0).abs() < off), "{material} {photons}: {of_spread:?}");
             assert!(of_points.iter().all(|r| (r - 1.0).abs() < blur), "{material} {photons}: {of_points:?}");
         }
     }

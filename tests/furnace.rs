@@ -211,6 +211,7 @@ fn a_closed_grey_room_balances_under_every_light() {
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
 fn no_scene_gains_light() {
+    let mut wrong = Vec::new();
     for (name, _) in SCENES {
         let file = preset(name).expect("in the catalogue").expect(name);
         let Ok(mut scene) = file.build(&Cast::default(), 4.0 / 3.0) else {
@@ -222,18 +223,24 @@ fn no_scene_gains_light() {
             let absorbed = fallen(&scene, |_, _| true) * f64::from(1.0 - grey);
             println!("{name}: absorbed {:.3} of the light", absorbed / power);
             assert!(absorbed < 1.02 * power, "{name}: {absorbed} of {power}");
-            assert!(*name != "office" || absorbed > 0.95 * power, "{name} is closed: {absorbed} of {power}");
+            // what falls on its window and lamps they take in
+            assert!(*name != "office" || absorbed > 0.85 * power, "{name} is closed: {absorbed} of {power}");
         }
         let white = if *name == "office" { 0.8 } else { 1.0 };
         scene.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(white)));
         scene.lights = vec![Light::white(Dome::uniform(), 0.5)];
+        scene.camera.white = Illuminant::equal_energy();
         let film = picture(&scene, Shots::shoot(&scene, &photons(200_000)));
         let light = film.linear(None);
         let mean = light.iter().sum::<Vec3>() / light.len() as f32;
         println!("{name}: {mean}");
         let expected = if *name == "office" { 0.0 } else { 0.5 };
-        assert!((mean - expected).abs().max_element() < 0.015, "{name}: {mean}");
+        // what a reflection loses at edges and corners counts once for each of the many in a white box
+        if mean.max_element() > expected + 0.0075 || mean.min_element() < 0.95 * expected {
+            wrong.push(format!("{name}: {mean}"));
+        }
     }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// [D] What is lit from above is dark below, whatever it is made of.

@@ -151,7 +151,7 @@ fn a_merge() {
 #[ignore = "twenty kills: .ci/run runs it"]
 fn animations() {
     let render = [&["render", "octahedron", "--frames", "4", "--turn", "stone"], &PICTURE[..]].concat();
-    survives("GIF", 0, &[&render[..], &["-o", "a.gif", "--bits", "16"]].concat(), nothing, 1);
+    survives("GIF", 0, &[&render[..], &["-o", "a.gif"]].concat(), nothing, 1);
     survives("APNG", 0, &[&render[..], &["-o", "a.apng"]].concat(), nothing, 1);
     survives("numbered frames", 0, &[&render[..], &["-o", "f/%02d.png", "--passes"]].concat(), nothing, 20);
 }

@@ -18,7 +18,7 @@ fn many_rows_need_no_more_memory_than_few() {
         let peak = |rows: u64| {
             let (steps, rows) = (format!("size=1:2:{}", 1.0 / (rows - 1) as f64), rows.to_string());
             let mut command =
-                vec!["sweep", "cube", "--vary", &steps, "--metrics", "spread", "-o", table, "-q"];
+                vec!["sweep", "cube", "--vary", &steps, "--metrics", "spread", "-o", table, "-q", "--force"];
             if !extra.is_empty() {
                 command.extend([extra, &rows]);
             }
@@ -36,7 +36,7 @@ fn many_tilts_need_no_more_memory_than_few() {
     let bench = Bench::new();
     let peak = |steps: &str| {
         let tilt = format!("0:60:{steps}");
-        bench.peak_kb(&["score", "cube", "--tilt", &tilt, "--metrics", "spread", "-o", "t.csv", "-q"])
+        bench.peak_kb(&["score", "cube", "--tilt", &tilt, "--metrics", "spread", "-o", "t.csv", "-q", "--force"])
     };
     let (few, many) = (peak("0.1"), peak("0.001"));
     println!("600 rows {few} kB, 60,000 rows {many} kB");

@@ -81,7 +81,7 @@ fn pictures() {
     let small = "-q --width 40 --height 30 --spp 4 --photons 3000 --nearest 50";
     let lines: Vec<String> = [
         "render --photon-map kept.map --passes -o p.png",
-        "render -o p.exr --exposure auto",
+        "render -o p.exr",
         "render octahedron --scene cornell --bits 16 -o p.png",
         "render --scene spot --material ruby --size 6 --polarisation off -o p.png",
         "render octahedron --scene arrows --frames 3 --turn stone --rock -o a.gif",
