@@ -209,7 +209,7 @@ fn plate(surface: &Surface) -> Option<&Plate> {
 struct Radii<'a> {
     /// The surface, if it is a plate.
     plate: Option<&'a Plate>,
-    /// Every so-manieth photon; which they are depends on their order alone.
+    /// Every n-th photon in the order of emission, n the same for the whole side.
     pilots: Tree,
     /// How many of them are counted; none if each photon is spread over the whole side.
     counted: Option<NonZero<usize>>,
