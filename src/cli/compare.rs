@@ -11,9 +11,8 @@ use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::report::{Request, versus};
 use crate::store::replace;
-use crate::study::batch::Summary;
 use crate::study::compare::{Comparison, RUNS, compare};
-use crate::study::identity::{BUILD, Identity};
+use crate::study::identity::Identity;
 use crate::study::meta::Meta;
 use crate::study::score::{Plan, Subject};
 use crate::study::table::Form;
@@ -185,21 +184,9 @@ impl Output {
 fn write_table(compared: &Compared, path: &Path, form: Form, command: String) -> Result<(), Failure> {
     let bytes = compared.table(form)?;
     if !replace::is_stream(path) {
-        let meta = Meta {
-            program: "cutlab".into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            build: BUILD.into(),
-            seed: compared.plan.seed,
-            study: Identity::of(&command).hex(),
-            command,
-            columns: written::COLUMNS.map(String::from).into(),
-            layout: None,
-            total: 0,
-            shard: None,
-            summary: Summary::default(),
-            crc32: format!("{:08x}", crc32fast::hash(&bytes)),
-            metrics: Meta::definitions(compared.plan),
-        };
+        let (study, columns) = (Identity::of(&command).hex(), written::COLUMNS.map(String::from).into());
+        let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
+        let meta = Meta { crc32, ..Meta::new(compared.plan, command, study, columns) };
         let meta = meta.bytes().map_err(|e| Failure::input(e.to_string()))?;
         replace::write(&Meta::beside(path), &meta)?;
     }

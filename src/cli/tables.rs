@@ -8,7 +8,6 @@ use super::readable;
 use crate::store::progress::Remark;
 use crate::store::replace;
 use crate::study::batch::{Batch, BatchError, Event, Line, Order, Summary};
-use crate::study::identity::BUILD;
 use crate::study::merge::Part;
 use crate::study::meta::{Layout, Meta};
 use crate::study::score::{Plan, Row};
@@ -229,20 +228,14 @@ impl Study<'_> {
     }
 
     fn meta(&self, shard: Shard, summary: &Summary, crc32: u32) -> Meta {
+        let (command, study) = (self.command.clone(), self.identity.clone());
         Meta {
-            program: "cutlab".into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            build: BUILD.into(),
-            command: self.command.clone(),
-            seed: self.plan.seed,
-            study: self.identity.clone(),
-            columns: self.columns.clone(),
             layout: self.layout.clone(),
             total: self.total,
             shard: (shard != Shard::WHOLE).then_some(shard),
             summary: summary.clone(),
             crc32: format!("{crc32:08x}"),
-            metrics: Meta::definitions(self.plan),
+            ..Meta::new(self.plan, command, study, self.columns.clone())
         }
     }
 }

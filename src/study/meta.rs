@@ -4,6 +4,7 @@
 //! `NAME.meta.json` among the tables of one name, which is still read.
 
 use super::batch::Summary;
+use super::identity::BUILD;
 use super::score::Plan;
 use super::shard::Shard;
 use super::table::Form;
@@ -88,6 +89,27 @@ pub struct Definition {
 }
 
 impl Meta {
+    /// The companion of a whole table of a plan's scores, without rows, layout and checksum.
+    ///
+    /// - `study`: digest of build, command and inputs
+    pub fn new(plan: &Plan, command: String, study: String, columns: Vec<String>) -> Meta {
+        Meta {
+            program: "cutlab".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            build: BUILD.into(),
+            command,
+            seed: plan.seed,
+            study,
+            columns,
+            layout: None,
+            total: 0,
+            shard: None,
+            summary: Summary::default(),
+            crc32: String::new(),
+            metrics: Meta::definitions(plan),
+        }
+    }
+
     /// Where the companion of `table` is written.
     pub fn beside(table: &Path) -> PathBuf {
         let mut name = table.as_os_str().to_owned();
