@@ -88,7 +88,8 @@ pub fn all<T: Sum>(batches: &[T]) -> T {
 ///
 /// - `sums`: of all batches; `of`: what was estimated of them
 pub fn with_given_up<T: Sum>(found: Estimate, sums: &T, of: impl Fn(&T) -> f64) -> Estimate {
-    let change = |other: &T| (of(other) - found.value).abs();
+    let value = of(sums);
+    let change = |other: &T| (of(other) - value).abs();
     let given_up = sums.if_followed().iter().map(change).filter(|x| x.is_finite()).fold(0.0, f64::max);
     Estimate { error: found.error.hypot(given_up), ..found }
 }
