@@ -52,6 +52,8 @@ pub struct Args {
 struct Entry<'a> {
     metric: &'static str,
     unit: &'static str,
+    /// `more` or `less`, if either is better by itself.
+    better: Option<&'static str>,
     /// Differences up to this are never significant.
     negligible: f64,
     scores: Vec<Scored<'a>>,
@@ -135,7 +137,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             Output::Markdown(_) => {
                 replace::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
             }
-            Output::Table(_, form) => write_table(&compared, path, *form, command)?,
+            Output::Table(_, form) => {
+                compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
+                write_table(&compared, path, *form, command)?;
+            }
         }
         if !replace::is_stdout(path) {
             console.note(&format!("wrote {}", path.display()));
@@ -227,6 +232,7 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
     let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| Entry {
         metric: metric.name,
         unit: metric.unit,
+        better: Some(metric.better.word()).filter(|word| !word.is_empty()),
         negligible: comparison.negligible[m],
         scores: rows
             .iter()

@@ -8,10 +8,11 @@ use super::outputs::{self, Outputs};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use super::values;
-use super::weight::{self, Weight};
+use super::weight;
 use crate::cut::{Design, families};
 use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::store::replace;
 use std::ffi::OsString;
@@ -100,8 +101,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let mut size = args.size.filter(|_| !has_size);
     if let Some(carats) = args.carat {
-        let weight = Weight::of(&args.substance, &imported.design);
-        let mm = weight.width_mm(&imported.design, carats)?;
+        let weight = Weight::of(&args.substance.of(&imported.design));
+        let mm = weight::width_mm(&weight, &imported.design, carats)?;
         console
             .note(&format!("note: {carats} ct in {} is {mm:.3} mm wide", weight.name().unwrap_or_default()));
         size = Some(mm);

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
-use super::plots::{self, Plots};
+use super::plots::{self, Look, Plots};
 use super::tables;
 use crate::store::progress::Progress;
 use crate::store::replace;
@@ -29,10 +29,12 @@ pub struct Args {
     /// Where to write the whole table: .csv, .jsonl or .ndjson, .json; - is standard output
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
-    /// Draw the curves or the map of the whole table, .svg or .png; a file called METRIC.svg shows that
+    /// Draw the curves or the map of the whole table, .svg, .pdf or .png; a file called METRIC.svg shows that
     /// metric, of any other name one is drawn for each, NAME-METRIC.svg
     #[arg(long, value_name = "FILE")]
     plot: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
 }
 
 /// Joins the parts.
@@ -45,11 +47,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let count = parts.len();
     let mut parts = Parts::of(parts)?;
     let command = parts.meta.command.clone();
-    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta))?;
-    let layout = match plots.is_empty() {
+    let layout = match args.plot.is_empty() {
         true => Default::default(),
         false => plots::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
     };
+    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta), &args.look, &layout.axes)?;
     plots.claim(&command, &mut outputs)?;
     let drawn = |parts: &Parts| match plots.is_empty() {
         true => Ok(Vec::new()),

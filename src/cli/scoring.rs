@@ -182,11 +182,19 @@ impl Scoring {
 
 /// Says what is to be said of a row's scores, once for all rows of which it is.
 pub fn tell(stone: &str, row: &Row, console: &Console) {
-    static TOLD: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
-    let Some(note) = row.note else { return };
-    let first = TOLD.lock().is_ok_and(|mut told| told.insert(note));
+    if let Some(note) = row.note {
+        once(&format!("{stone}: {note}"), note, console);
+    }
+}
+
+/// Says something of one stone, once for all of which the same is to be said.
+///
+/// - `key`: what is the same
+pub fn once(said: &str, key: &str, console: &Console) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let first = TOLD.lock().is_ok_and(|mut told| told.insert(key.to_owned()));
     if first {
-        console.note(&format!("note: {stone}: {note} (not said of others)"));
+        console.note(&format!("note: {said} (not said of others)"));
     }
 }
 

@@ -10,13 +10,14 @@ use super::folders;
 use super::outcome::{Code, Failure, Shape};
 use super::outputs::Outputs;
 use super::stones;
-use super::weight::{self, Weight};
+use super::weight;
 use crate::cut::Unit;
 use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Ratios};
 use crate::cut::symmetry::Symmetry;
 use crate::formats;
 use crate::optics::fresnel::critical_angle_deg;
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::report::pattern;
 use crate::store::replace;
@@ -256,9 +257,9 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
     let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let p = proportions::measure(&solid);
     let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
-    let weight = Weight::of(&substance, &design);
+    let weight = Weight::of(&material);
     let size = match args.carat {
-        Some(carats) => Some(weight.width_mm(&design, carats)?),
+        Some(carats) => Some(weight::width_mm(&weight, &design, carats)?),
         None => args.size,
     };
     Ok(Sheet {

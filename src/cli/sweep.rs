@@ -4,12 +4,13 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
 use super::parameters::Parameters;
-use super::plots::Plots;
+use super::plots::{Look, Plots};
 use super::scoring::{self, Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
 use crate::math::typed;
+use crate::optics::weight::Weight;
 use crate::store::replace;
 use crate::study::batch::Line;
 use crate::study::meta::Layout;
@@ -42,10 +43,12 @@ pub struct Args {
     /// So many points spread evenly between the ends of the ranges, in place of the grid
     #[arg(long, value_name = "N", value_parser = scattered)]
     scatter: Option<u64>,
-    /// Draw a curve (one --vary) or a map (two), .svg or .png; a file called METRIC.svg shows that
+    /// Draw a curve (one --vary) or a map (two), .svg, .pdf or .png; a file called METRIC.svg shows that
     /// metric, of any other name one is drawn for each, NAME-METRIC.svg
     #[arg(long, value_name = "FILE")]
     plot: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
     #[command(flatten)]
     table: Table,
     #[command(flatten)]
@@ -75,10 +78,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
     let total = sweep.count().ok_or_else(|| Failure::input("the grid has too many points to count"))?;
-    let plots = Plots::of(&args.plot, &plan.metrics)?;
+    let axes: Vec<String> = sweep.varied.iter().map(|v| v.key.clone()).collect();
+    let plots = Plots::of(&args.plot, &plan.metrics, &args.look, &axes)?;
     let layout = Layout {
         stone: args.stone.clone(),
-        axes: sweep.varied.iter().map(|v| v.key.clone()).collect(),
+        is_diamond: is_diamond(args)?,
+        axes,
         curves: Vec::new(),
         scattered: sweep.scatter.is_some(),
     };
@@ -128,6 +133,13 @@ fn at(args: &Args, point: &[f64]) -> (String, Scoring) {
         }
     }
     (given.applied_to(&args.stone), scoring)
+}
+
+/// Whether the stone is of diamond at every point.
+fn is_diamond(args: &Args) -> Result<bool, Failure> {
+    let design = stones::open(&args.stone)?.design;
+    let material = args.scoring.substance.within(&args.stone)?.of(&design);
+    Ok(Weight::of(&material).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
 }
 
 /// Whether the stone's family has the parameter `key`.

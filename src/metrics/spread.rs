@@ -1,7 +1,7 @@
 //! Spread.
 
 use super::weight_ratio::tolkowsky;
-use super::{Metric, Reading};
+use super::{Better, Metric, Reading};
 use crate::solid::Polyhedron;
 use crate::solid::measure::polygon_area;
 
@@ -12,6 +12,7 @@ pub static SPREAD: Metric = Metric {
     unit: "%",
     range: (-100.0, 10000.0),
     scale: 100.0,
+    better: Better::More,
     observer: None,
     by_beams: false,
     dented: false,

@@ -5,6 +5,7 @@ use super::scopes::Picture;
 use super::tilts::Plot;
 use crate::cut::proportions::Proportions;
 use crate::math::stats::Estimate;
+use crate::metrics::Better;
 use base64::Engine;
 use std::fmt::Write;
 
@@ -17,6 +18,8 @@ pub struct Score {
     pub name: String,
     /// One line on what it means.
     pub about: String,
+    /// Which values are the better.
+    pub better: Better,
     /// `%`, `°` or empty.
     pub unit: String,
     /// Value with standard error; none if the metric has no value here.
@@ -53,6 +56,8 @@ pub struct Page<'a> {
     pub material: String,
     /// Width and weight, in words.
     pub weight: String,
+    /// What must be known about the weight.
+    pub weight_note: Option<String>,
     /// Its proportions.
     pub proportions: &'a Proportions,
     /// The picture on the table as PNG, and a line under it.
@@ -67,6 +72,8 @@ pub struct Page<'a> {
     pub tilts: &'a [Plot],
     /// The stone on the contour map as SVG, and a line under it; for round brilliants.
     pub map: Option<(String, String)>,
+    /// What the reference stones are of.
+    pub references: &'a str,
     /// How the scores were traced, in words.
     pub traced: String,
     /// The command that made the page.
@@ -167,15 +174,24 @@ impl Score {
     /// The score's row beside the reference stones.
     fn row(&self) -> String {
         let mut out = format!(
-            "<tr><th scope=\"row\"><code>{}</code><span>{}</span></th><td class=\"value\">{}</td>",
+            "<tr><th scope=\"row\"><code>{}</code><span>{}{}</span></th><td class=\"value\">{}</td>",
             escaped(&self.name),
             escaped(&self.about),
+            self.better_html(),
             self.value_html()
         );
         for ((name, ..), value) in STONES.iter().zip(self.references) {
             let _ = write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", cell(value, ""));
         }
         out + "</tr>\n"
+    }
+
+    /// `; more is better`, or nothing.
+    fn better_html(&self) -> String {
+        match self.better.said() {
+            "" => String::new(),
+            said => format!("; <em>{said}</em>"),
+        }
     }
 
     fn value_html(&self) -> String {
@@ -252,6 +268,9 @@ impl Page<'_> {
             let _ = writeln!(out, "<tr><th scope=\"row\">{label}</th><td>{}</td></tr>", escaped(&value));
         }
         *out += "</tbody></table>\n";
+        if let Some(note) = &self.weight_note {
+            let _ = writeln!(out, "<p class=\"note\">Weight: {}</p>", escaped(note));
+        }
         if !self.source.is_empty() {
             let _ = writeln!(out, "<p class=\"note\">Source: {}</p>", escaped(self.source));
         }
@@ -301,8 +320,9 @@ impl Page<'_> {
         let _ = writeln!(
             out,
             "<section><p class=\"note\">{} After ± stands one standard error. The five reference stones are round brilliants \
-             (table/crown/pavilion) in diamond.</p></section>",
-            escaped(&self.traced)
+             (table/crown/pavilion) in {}.</p></section>",
+            escaped(&self.traced),
+            escaped(self.references)
         );
     }
 

@@ -127,7 +127,17 @@ fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut Strin
         .for_each(|name| *out += &format!("<th>{} less {}</th>", escaped(name), escaped(&names[0])));
     *out += "</tr></thead>\n<tbody>\n";
     for (m, metric) in plan.metrics.iter().enumerate() {
-        let _ = write!(out, "<tr title=\"{}\"><th scope=\"row\">{}</th>", escaped(metric.about), metric.name);
+        let better = match metric.better.said() {
+            "" => String::new(),
+            said => format!("<br><span class=\"se\">{said}</span>"),
+        };
+        let _ = write!(
+            out,
+            "<tr title=\"{}\"><th scope=\"row\">{}{}</th>",
+            escaped(&metric.about_and_better()),
+            metric.name,
+            better
+        );
         let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", cell(value, ""));
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
         for (other, differences) in comparison.differences.iter().enumerate() {

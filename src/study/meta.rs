@@ -63,6 +63,9 @@ pub struct Layout {
     /// Whether the points are spread over the axes and form no grid.
     #[serde(default)]
     pub scattered: bool,
+    /// Whether the stone is of diamond at every point.
+    #[serde(default)]
+    pub is_diamond: bool,
 }
 
 /// One metric of the table.

@@ -93,7 +93,7 @@ impl Cell {
 }
 
 /// Columns whose cells are words, even those that look like numbers.
-const TEXT_COLUMNS: [&str; 4] = ["stone", "material", "name", "error"];
+const TEXT_COLUMNS: [&str; 5] = ["stone", "material", "name", "weighed_as", "error"];
 
 impl From<&str> for Cell {
     fn from(text: &str) -> Cell {
