@@ -68,7 +68,7 @@ struct Scored<'a> {
     score: Option<Estimate>,
     /// Why there is no score.
     #[serde(skip_serializing_if = "Option::is_none")]
-    left_out: Option<&'static str>,
+    left_out: Option<&'a str>,
 }
 
 #[derive(Serialize)]

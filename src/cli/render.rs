@@ -13,7 +13,7 @@ mod target;
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
-use super::{stones, values};
+use super::{scoring, stones, values};
 use crate::math::typed;
 use crate::photons;
 use crate::render::animation::Turn;
@@ -212,6 +212,14 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
         imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
         let substance = args.substance.within(spec)?;
         let material = substance.of(&imported.design);
+        if substance.asked().is_none() && material.bare_index().is_some() {
+            let why = material.no_dispersion();
+            scoring::once(
+                &format!("{}: a picture without fire and colour, for {why}", stones::shown(spec)),
+                &why,
+                console,
+            );
+        }
         materials.push(substance.asked());
         designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
     }

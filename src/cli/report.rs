@@ -11,7 +11,7 @@ use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::optics::dispersion::VISIBLE_UM;
 use crate::report::bundle::{self, Bundle, STEPS};
-use crate::report::page::number;
+use crate::report::page::{Section, number};
 use crate::report::{self, ReportError, Request};
 use crate::store::progress::Progress;
 use crate::study::identity::BUILD;
@@ -57,7 +57,7 @@ struct Summary {
     /// `more` or `less` for scores of which either is better by itself.
     better: BTreeMap<String, &'static str>,
     /// Why scores that are null are.
-    left_out: BTreeMap<String, &'static str>,
+    left_out: BTreeMap<String, String>,
 }
 
 /// Makes the reports and writes them.
@@ -142,7 +142,7 @@ fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<S
         .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
     let every = bundle.sections.iter().flat_map(|s| &s.scores);
     let better = every.clone().map(|score| (score.name.clone(), score.better.word()));
-    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out?)));
+    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out.clone()?)));
     Ok(Summary {
         better: better.filter(|(_, word)| !word.is_empty()).collect(),
         left_out: left_out.collect(),
@@ -162,7 +162,7 @@ fn text(bundle: &Bundle, folder: &Path) -> String {
             let value = match score.value.map(number) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
-                None => format!("– ({})", score.left_out.unwrap_or("does not apply")),
+                None => "–".into(),
             };
             let better = match score.better.said() {
                 "" => String::new(),
@@ -170,6 +170,9 @@ fn text(bundle: &Bundle, folder: &Path) -> String {
             };
             text += &format!("  {:<16} {value}{better}\n", score.name);
         }
+    }
+    for said in bundle.sections.iter().filter_map(Section::omissions) {
+        text += &format!("{said}\n");
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
     text + &format!("{}: {}", folder.display(), names.join(", "))

@@ -115,7 +115,7 @@ impl Study<'_> {
                     bar.suspend(|| console.complain(complaint));
                 }
                 if let Some(note) = &line.note
-                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(note.clone())
+                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(kind_of(note).to_owned())
                 {
                     bar.suspend(|| console.note(&format!("note: {note}")));
                 }
@@ -344,4 +344,9 @@ impl From<BatchError> for Failure {
             BatchError::Table(error) => error.into(),
         }
     }
+}
+
+/// What a note has in common with those of other stones that differ in their index alone.
+fn kind_of(note: &str) -> &str {
+    note.split(" (n = ").next().unwrap_or(note)
 }

@@ -1,12 +1,7 @@
 //! The material that a stone is weighed as.
 
 use super::Material;
-use super::dispersion::Dispersion;
-use super::materials::MATERIALS;
-
-/// Refractive indices at the D line that differ by less than this are taken for one material's: designs
-/// state them to two decimals, and a stone's own varies by about as much.
-const NEAR: f64 = 0.01;
+use super::materials::{MATERIALS, NEAR};
 
 /// A material to weigh by, or why there is none.
 #[derive(Debug, Clone)]
@@ -19,7 +14,7 @@ pub struct Weight {
 impl Weight {
     /// The stone's own material; of a bare index the known material nearest to it.
     pub fn of(material: &Material) -> Weight {
-        match bare_index(material) {
+        match material.bare_index() {
             Some(n) => Weight { material: nearest(n).cloned(), index: Some(n) },
             None => Weight { material: Some(material.clone()), index: None },
         }
@@ -60,24 +55,9 @@ impl Weight {
     }
 }
 
-/// The index of a material of which nothing else is known.
-fn bare_index(material: &Material) -> Option<f64> {
-    let Dispersion::Constant(n) = material.dispersion else { return None };
-    (*material == Material::of_index(n)).then_some(n)
-}
-
-/// The known materials whose index at the D line is `n`, or near enough to be meant by it, the nearest
-/// first.
-pub fn of_index(n: f64) -> Vec<&'static Material> {
-    let off = |m: &Material| (m.index_d() - n).abs();
-    let mut known: Vec<&Material> = MATERIALS.iter().copied().filter(|m| off(m) <= NEAR).collect();
-    known.sort_by(|a, b| off(a).total_cmp(&off(b)));
-    known
-}
-
 /// The material of known density whose index is nearest to `n`.
 fn nearest(n: f64) -> Option<&'static Material> {
-    of_index(n).into_iter().find(|m| m.specific_gravity.is_some())
+    Material::near(n).into_iter().find(|m| m.specific_gravity.is_some())
 }
 
 #[cfg(test)]

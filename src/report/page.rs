@@ -25,7 +25,7 @@ pub struct Score {
     /// Value with standard error; none if the metric has no value here.
     pub value: Option<Estimate>,
     /// Why it has none.
-    pub left_out: Option<&'static str>,
+    pub left_out: Option<String>,
     /// The same of the reference stones.
     pub references: [Option<Estimate>; STONES.len()],
 }
@@ -41,6 +41,23 @@ pub struct Section {
     pub large: usize,
     /// The scores.
     pub scores: Vec<Score>,
+}
+
+impl Section {
+    /// Which scores are left out and why, each reason once; none if all are there.
+    pub fn omissions(&self) -> Option<String> {
+        let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+        for score in &self.scores {
+            let Some(why) = score.left_out.as_deref() else { continue };
+            match reasons.iter_mut().find(|(reason, _)| *reason == why) {
+                Some((_, names)) => names.push(&score.name),
+                None => reasons.push((why, vec![&score.name])),
+            }
+        }
+        let said = reasons.iter().map(|(why, names)| format!("{} left out: {why}", names.join(", ")));
+        let said: Vec<String> = said.collect();
+        (!said.is_empty()).then(|| said.join("; "))
+    }
 }
 
 /// Everything the page shows.
@@ -196,8 +213,8 @@ impl Score {
 
     fn value_html(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
-        match self.left_out {
-            Some(why) => format!("<span title=\"{0}\">–</span> <span class=\"se\">{0}</span>", escaped(why)),
+        match &self.left_out {
+            Some(why) => format!("<span title=\"{}\">–</span>", escaped(why)),
             None => cell(self.value, &unit),
         }
     }
@@ -315,7 +332,11 @@ impl Page<'_> {
             }
             *out += "</tr></thead>\n<tbody>\n";
             section.scores.iter().for_each(|score| *out += &score.row());
-            *out += "</tbody></table>\n</section>\n";
+            *out += "</tbody></table>\n";
+            if let Some(said) = section.omissions() {
+                let _ = writeln!(out, "<p class=\"note\">{}.</p>", escaped(&said));
+            }
+            *out += "</section>\n";
         }
         let _ = writeln!(
             out,
@@ -362,6 +383,25 @@ mod tests {
         assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
         assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));
         assert_eq!(shown(0.25, 0.0), ("0.2500".into(), None));
+    }
+
+    #[test]
+    fn a_reason_is_said_once_under_a_head() {
+        let score = |name: &str, why: Option<&str>| Score {
+            name: name.into(),
+            about: String::new(),
+            better: Better::More,
+            unit: String::new(),
+            value: None,
+            left_out: why.map(String::from),
+            references: Default::default(),
+        };
+        let scores = vec![score("a", Some("no x")), score("b", None), score("c", Some("no x"))];
+        let section = Section { head: "", about: "", large: 1, scores };
+        assert_eq!(section.omissions().as_deref(), Some("a, c left out: no x"));
+        assert_eq!(section.scores[0].value_html(), "<span title=\"no x\">–</span>");
+        let whole = Section { scores: vec![score("b", None)], ..section };
+        assert_eq!(whole.omissions(), None);
     }
 
     #[test]

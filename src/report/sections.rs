@@ -71,7 +71,7 @@ pub fn sections(metrics: &[&'static Metric], row: &Row, references: &References)
         better: metric.better,
         unit: metric.unit.into(),
         value,
-        left_out: row.why_left_out(metric),
+        left_out: row.why_left_out(metric).map(String::from),
         references: references.of(metric),
     };
     let home = |m: &Metric| HEADS.iter().position(|head| (head.takes)(m));
