@@ -4,12 +4,12 @@ use super::batch::Summary;
 use super::meta::{Meta, checksum};
 use super::shard::Shard;
 use super::table::{Form, RowReader, TableError};
-use crate::store::limits;
 use crate::store::progress::Progress;
 use crate::store::replace::{self, WriteError};
-use std::fs::File;
-use std::io::BufReader;
+use crate::store::{limits, text};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One part: a table and what its companion says of it.
 #[derive(Debug, Clone)]
@@ -20,6 +20,8 @@ pub struct Part {
     pub meta: Meta,
     /// How it is written.
     pub form: Form,
+    /// Its text, if the file has that in another encoding or with other ends of lines.
+    decoded: Option<Arc<str>>,
 }
 
 /// Parts that cannot be joined.
@@ -91,18 +93,37 @@ impl Part {
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
         let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let text = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
-        let text = text.map_err(|e| wrong(e.to_string()))?;
-        let meta: Meta = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
-        if meta.crc32 != sum {
-            return Err(MergeError::Changed(table.to_owned(), beside));
+        let bytes = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
+        let bytes = bytes.map_err(|e| wrong(e.to_string()))?;
+        let meta: Meta = serde_json::from_str(&text::of(&bytes)).map_err(|e| wrong(e.to_string()))?;
+        let mut part = Part { table: table.to_owned(), meta, form, decoded: None };
+        if part.meta.crc32 != sum {
+            // an editor may have saved the same text anew
+            let text = text::of(&part.bytes()?).replace("\r\n", "\n");
+            if format!("{:08x}", crc32fast::hash(text.as_bytes())) != part.meta.crc32 {
+                return Err(MergeError::Changed(table.to_owned(), beside));
+            }
+            part.decoded = Some(text.into());
         }
-        Ok(Part { table: table.to_owned(), meta, form })
+        Ok(part)
     }
 
     /// All bytes of the table.
     pub fn bytes(&self) -> Result<Vec<u8>, MergeError> {
+        if let Some(text) = &self.decoded {
+            return Ok(text.as_bytes().to_vec());
+        }
         std::fs::read(&self.table).map_err(|cause| MergeError::Read { path: self.table.clone(), cause })
+    }
+
+    /// A reader of the table.
+    fn reader(&self) -> Result<Box<dyn BufRead + '_>, MergeError> {
+        if let Some(text) = &self.decoded {
+            return Ok(Box::new(text.as_bytes()));
+        }
+        let file = limits::regular(&self.table);
+        let file = file.map_err(|cause| MergeError::Read { path: self.table.clone(), cause })?;
+        Ok(Box::new(BufReader::new(file)))
     }
 
     fn shard(&self) -> Shard {
@@ -173,9 +194,7 @@ impl Parts {
         let (columns, total) = (&self.meta.columns, self.meta.total);
         let mut readers = Vec::new();
         for part in &self.parts {
-            let open = File::open(&part.table);
-            let file = open.map_err(|cause| MergeError::Read { path: part.table.clone(), cause })?;
-            readers.push((part, RowReader::new(part.form, BufReader::new(file))?));
+            readers.push((part, RowReader::new(part.form, part.reader()?)?));
         }
         put(&form.head(columns)?)?;
         for i in 0..total {

@@ -7,7 +7,7 @@ use super::batch::Summary;
 use super::score::Plan;
 use super::shard::Shard;
 use super::table::Form;
-use crate::store::limits;
+use crate::store::{limits, text};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Read;
@@ -127,7 +127,7 @@ impl Meta {
     /// The companion in the file at `path`.
     pub fn read(path: &Path) -> std::io::Result<Meta> {
         let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
-        Ok(serde_json::from_slice(&bytes)?)
+        Ok(serde_json::from_str(&text::of(&bytes))?)
     }
 
     /// The definitions of a plan's metrics.
