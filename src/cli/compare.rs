@@ -162,12 +162,14 @@ enum Output {
 impl Output {
     fn of(path: &Path) -> Result<Output, Failure> {
         let path = path.to_owned();
-        if replace::is_stream(&path) {
-            return Ok(Output::Table(path, Form::Csv));
+        let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
+        if replace::is_stream(&path) && !is_markdown {
+            let form = Form::of(&path).unwrap_or(Form::Csv);
+            return Ok(Output::Table(path, form));
         }
         let ending = path.extension().filter(|_| !path.is_dir());
         Ok(match ending {
-            Some(ending) if ending.eq_ignore_ascii_case("md") => Output::Markdown(path),
+            Some(_) if is_markdown => Output::Markdown(path),
             Some(_) => {
                 let form = Form::of(&path).map_err(|_| {
                     let path = path.display();

@@ -118,12 +118,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
     }
     let encode = |file: &PathBuf| {
-        let drawing = if replace::is_stream(file) { Drawing::named(&args.to) } else { Drawing::of(file) };
+        // the name of a pipe may have an ending that tells, that of a device has none
+        let is_nameless = replace::is_stream(file) && formats::written_to(file).is_err();
+        let drawing = Drawing::of(file).or_else(|| Drawing::named(&args.to).filter(|_| is_nameless));
         if let Some(drawing) = drawing {
             return drawing.bytes(&design, index, args.paper);
         }
-        let format =
-            if replace::is_stream(file) { formats::written_as(&args.to) } else { formats::written_to(file) };
+        let format = if is_nameless { formats::written_as(&args.to) } else { formats::written_to(file) };
         encoded(&design, asked.as_ref(), format.map_err(with_drawings)?.name, console)
     };
     let encoded: Vec<Vec<u8>> = files.iter().map(encode).collect::<Result<_, Failure>>()?;

@@ -157,7 +157,10 @@ fn plan(args: &Args) -> Result<(Vec<Job>, Written), Failure> {
     }
     let format = match &args.to {
         Some(asked) => Written::named(asked)?,
-        None if to_file && !replace::is_stream(&args.output) => Written::to(&args.output)?,
+        None if replace::is_stream(&args.output) => {
+            Written::to(&args.output).or_else(|_| Written::named("toml"))?
+        }
+        None if to_file => Written::to(&args.output)?,
         None => Written::named("toml")?,
     };
     if to_file {
@@ -179,8 +182,7 @@ fn import(
     if job.by_chance {
         return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
     }
-    // a pipe may have no reader: it is not waited for unless that is asked for
-    let to_stream = replace::is_stream(&job.target) && (console.force || !is_pipe(&job.target));
+    let to_stream = replace::is_stream(&job.target);
     if !to_stream {
         outputs.check_inputs(&job.target)?;
         if console.force {
@@ -235,20 +237,6 @@ fn import(
         return Ok(Row { file, outcome: THERE, ..read });
     }
     Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
-}
-
-/// Whether `path` leads to a named pipe.
-fn is_pipe(path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        path.metadata().is_ok_and(|m| m.file_type().is_fifo())
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = path;
-        false
-    }
 }
 
 /// The rows in columns, then how many had which outcome.

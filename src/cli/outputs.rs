@@ -81,12 +81,6 @@ impl Outputs {
             None => Ok(()),
         }
     }
-
-    /// Writes a file that was quickly made: over another only with `--force`.
-    pub fn write(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-        self.claim(path, |there| holds(there, bytes))?;
-        Ok(replace::write(path, bytes)?)
-    }
 }
 
 /// Whether there is a file at `path` of just these bytes.

@@ -19,6 +19,7 @@ use crate::photons;
 use crate::render::animation::Turn;
 use crate::render::{self, Curve, Tone};
 use crate::scene::{self, Cast, Pose, SCENES, SceneFile};
+use crate::store::replace;
 use background::Background;
 use choices::Exposure;
 use std::ffi::{OsStr, OsString};
@@ -154,7 +155,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let tone = Tone { curve, ..Tone::default() };
     let settings = render::Settings { width, height, rays: args.rays(), round: 0, tone, seed: args.seed };
     let files = frames::take(args, &scene, settings, &target, console)?;
-    if output == Path::new("-") {
+    if replace::is_stdout(&output) {
         return Ok(Code::Done); // the picture is the whole of what standard output gets
     }
     if console.json {

@@ -94,9 +94,11 @@ impl Target {
         let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         let several = args.frames.is_some();
         let shown = path.display();
-        let stdout = path == Path::new("-");
-        if stdout && (several || args.passes) {
-            return Err(Failure::input("several pictures cannot go to standard output: name a file with -o"));
+        // the name of a pipe may have an ending that tells, that of a device or an open file has none
+        let nameless = replace::is_stream(path) && ending.is_empty();
+        if nameless && (several || args.passes) {
+            let what = if replace::is_stdout(path) { "standard output" } else { "a stream" };
+            return Err(Failure::input(format!("several pictures cannot go to {what}: name a file with -o")));
         }
         let places = path.file_name().map_or(0, |n| n.to_string_lossy().matches('%').count());
         let numbered = numbered(path, 0).is_some();
@@ -109,7 +111,7 @@ impl Target {
             return Err(Failure::input(format!("{shown}: the name has a place for numbers of --frames N")));
         }
         let kind = match (ending.as_str(), several) {
-            _ if stdout => Kind::Png,
+            _ if nameless => Kind::Png,
             ("png", true) if numbered => Kind::Numbered,
             ("png" | "apng", true) => Kind::Apng,
             ("gif", true) => Kind::Gif,
