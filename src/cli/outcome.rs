@@ -134,6 +134,14 @@ impl Failure {
         self.shape.as_deref()
     }
 
+    /// The same with the mesh that it holds, if it is closed, changed.
+    pub fn with_body(mut self, change: impl FnOnce(Body) -> Body) -> Failure {
+        if let Some(shape) = &mut self.shape {
+            shape.body = shape.body.take().map(change);
+        }
+        self
+    }
+
     /// Says it on standard error and gives the exit code.
     pub fn report(&self) -> ExitCode {
         if !self.message.is_empty() {

@@ -147,6 +147,7 @@ impl Scoring {
         };
         let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
         let body = body.ok_or(failure)?;
+        standing::note_body(&stones::shown(spec), &body);
         let material = substance.drawn_for(None);
         let size = self.size.or((!material.is_clear()).then_some(stones::USUAL_SIZE));
         let scale = size.map_or(1.0, |mm| mm / body.width());

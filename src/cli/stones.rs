@@ -122,7 +122,8 @@ pub fn open(argument: impl AsRef<OsStr>) -> Result<Imported, Failure> {
             "{name} is a folder, and here one stone is named: name a file in it"
         )));
     }
-    let mut imported = standing::stood(stone::open(spec.base())?)?;
+    let mut imported =
+        standing::stood(stone::open(spec.base()).map_err(|e| standing::stood_body(e.into()))?)?;
     if let Some(material) = spec.substance.asked() {
         imported.design.refractive_index = Some(material.index_d());
     }
