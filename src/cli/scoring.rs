@@ -78,6 +78,12 @@ impl Scoring {
             (false, false) => (lines::D, lines::D),
         };
         self.substance.note_range(from, to, console);
+        if let Some(n) = self.substance.ri.filter(|n| *n > HIGH_INDEX) {
+            console.note(&format!(
+                "note: light stays in a stone of n = {n} for thousands of facets: its scores take long, a tenth as \
+                 long with --error 0.01"
+            ));
+        }
         if !sized && self.size.is_none() && coloured {
             let mm = stones::USUAL_SIZE;
             console
@@ -180,6 +186,9 @@ impl Scoring {
         (row, outcome)
     }
 }
+
+/// No material has a higher index; beyond it a score takes up to a hundred times as long as a diamond's.
+const HIGH_INDEX: f64 = 4.0;
 
 /// Says what is to be said of a row's scores, once for all rows of which it is.
 pub fn tell(stone: &str, row: &Row, console: &Console) {

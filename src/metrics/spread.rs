@@ -24,6 +24,6 @@ pub static SPREAD: Metric = Metric {
 
 /// Outline area per that of the Tolkowsky stone of equal mass.
 fn spread(solid: &Polyhedron) -> Option<f64> {
-    let area = |s: &Polyhedron| polygon_area(&s.outline()) / s.volume().powf(2.0 / 3.0);
+    let area = |s: &Polyhedron| polygon_area(&s.hull()) / s.volume().powf(2.0 / 3.0);
     Some(area(solid) / area(tolkowsky()?))
 }
