@@ -57,9 +57,11 @@ fn a_picture_without_fire_says_why() {
     let quick = ["--width", "8", "--spp", "1", "--photons", "100", "--scene", "table"];
     let render =
         |stones: &[&str]| bench.good(&[&["render"], stones, &quick, &["-o", "x.png", "--force"]].concat());
-    let said = render(&["d/t.asc", "d/t.gem"]);
-    assert_eq!(said.matches(WAY_OUT).count(), 1, "{said}");
-    assert!(said.contains("without fire and colour") && said.contains("diamond"), "{said}");
+    for file in ["d/t.asc", "d/t.gem", "d/t.gcs"] {
+        let said = render(&[file]);
+        assert_eq!(said.matches(WAY_OUT).count(), 1, "{said}");
+        assert!(said.contains("without fire and colour") && said.contains("diamond"), "{said}");
+    }
     for other in [&["d/t.asc", "--material", "diamond"][..], &["d/t.asc", "--ri", "2.4"], &["tolkowsky"]] {
         assert!(!render(other).contains(WAY_OUT), "{other:?}");
     }

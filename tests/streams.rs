@@ -38,6 +38,7 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
     bench.good(&[&sweep[..], &["-o", "p1.csv", "--shard", "1/2"]].concat());
     bench.good(&[&sweep[..], &["-o", "p2.csv", "--shard", "2/2"]].concat());
     bench.good(&[&sweep[..], &["-o", "t.csv"]].concat());
+    bench.good(&["sweep", "-q", "cube", "--vary", "size=4:6:1", "--metrics", "spread", "-o", "one.csv"]);
     bench.good(&["generate", "-q", "classic", "-o", "c.asc"]);
     let cases: Vec<(&str, Vec<&str>)> = vec![
         ("g.stl", vec!["generate", "-q", "cube", "-o"]),
@@ -49,7 +50,7 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
         ("s.jsonl", vec!["score", "-q", "cube", "--metrics", "spread", "-o"]),
         ("w.json", [&sweep[..], &["-o"]].concat()),
         ("m.csv", vec!["merge", "-q", "p1.csv", "p2.csv", "-o"]),
-        ("plot.svg", vec!["plot", "-q", "t.csv", "--title", "T", "--range", "iso=0:9", "-o"]),
+        ("plot.svg", vec!["plot", "-q", "one.csv", "--title", "T", "--range", "spread=0:9", "-o"]),
         ("x.json", vec!["compare", "-q", "cube", "prism", "--metrics", "spread", "-o"]),
         ("x.md", vec!["compare", "-q", "cube", "prism", "--metrics", "spread", "-o"]),
         ("r.jpg", [&["render", "-q", "cube"], &quick[..], &["-o"]].concat()),
@@ -82,6 +83,9 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
         // again, for it is no file that is there
         assert_eq!(through(&bench, &pipe, &[&words[..], &[&pipe]].concat()), came, "{name}");
     }
+    // one pipe holds no two plots
+    let said = bench.ends(2, &["plot", "-q", "t.csv", "-o", "pipe-plot.svg"]).1;
+    assert!(said.contains("takes one plot"), "{said}");
     let beside: Vec<String> =
         bench.names().into_iter().filter(|n| n.contains("pipe-") && !n.starts_with("pipe-")).collect();
     assert!(beside.is_empty(), "nothing is kept beside a pipe: {beside:?}");

@@ -143,7 +143,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             }
         }
         if !replace::is_stdout(path) {
-            console.note(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", stones::shown(&path)));
         }
     }
     Ok(if short { Code::SomeFailed } else { Code::Done })
@@ -172,7 +172,7 @@ impl Output {
             Some(_) if is_markdown => Output::Markdown(path),
             Some(_) => {
                 let form = Form::of(&path).map_err(|_| {
-                    let path = path.display();
+                    let path = stones::shown(&path);
                     Failure::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
                 })?;
                 Output::Table(path, form)

@@ -66,7 +66,7 @@ struct Made {
     name: String,
     facets: usize,
     made_up_of: String,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// Makes the stone and writes it.
@@ -78,11 +78,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = args
-        .stone
-        .to_str()
-        .and_then(stones::family)
-        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
+    let is_given = |key: &str| parameters.0.contains_key(key);
+    let has_size = args.stone.to_str().is_some_and(|stone| stones::size_is_parameter(stone, is_given));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
@@ -115,7 +112,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 
     let mut files = args.output.clone();
     if files.is_empty() {
-        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
+        let mut name = stones::file_stem(&args.stone);
+        name.push(format!("-{facets}.obj"));
+        files.push(name.into());
     }
     let encode = |file: &PathBuf| {
         // the name of a pipe may have an ending that tells, that of a device has none
@@ -135,13 +134,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for (file, bytes) in files.iter().zip(&encoded) {
         replace::write(file, bytes)?;
         if !replace::is_stdout(file) {
-            console.note(&format!("wrote {}", file.display()));
+            console.note(&format!("wrote {}", stones::shown(&file)));
         }
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
     if files.iter().any(|f| replace::is_stdout(f)) {
         console.note(&summary);
     } else if console.json {
+        let files = files.iter().map(stones::shown).collect();
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
     } else {
         console.tell(&summary)?;

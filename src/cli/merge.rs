@@ -5,6 +5,7 @@ use super::folders;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
 use super::plots::{self, Look, Plots};
+use super::stones;
 use super::tables;
 use crate::store::progress::Progress;
 use crate::store::replace;
@@ -59,7 +60,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     };
     if replace::is_stream(&args.output) {
         parts.write(form, &args.output)?;
-        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
         return Ok(tables::code(&parts.meta.summary));
     }
     let begun = Progress::is_of(&Progress::beside(&args.output), &parts.identity());
@@ -74,7 +75,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 impl From<MergeError> for Failure {
     fn from(error: MergeError) -> Failure {
         match error {
-            MergeError::Read { path, cause } => Failure::reading(&path.display().to_string(), &cause),
+            MergeError::Read { path, cause } => Failure::reading(&stones::shown(&path), &cause),
             MergeError::Write(cause) => cause.into(),
             other => Failure::input(other.to_string()),
         }

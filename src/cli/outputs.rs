@@ -62,7 +62,7 @@ impl Outputs {
         let real = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let place = real.join(path.file_name().unwrap_or_default());
         if let Some(other) = self.claimed.insert(place, path.to_owned()) {
-            let other = other.display();
+            let other = stones::shown(&other);
             return Err(Failure::input(format!(
                 "{other} is given for two outputs: name another file for one"
             )));

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::{Outputs, record};
 use super::plots::{self, Look, Plots};
+use super::stones;
 use crate::study::merge::Part;
 use std::path::PathBuf;
 
@@ -31,7 +32,7 @@ pub struct Args {
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let part = Part::open(&args.table)?;
     if let Some(shard) = part.meta.shard {
-        let table = args.table.display();
+        let table = stones::shown(&args.table);
         return Err(Failure::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));
     }
     let layout = plots::layout_of(&args.table, &part.meta)?;

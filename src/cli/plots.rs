@@ -42,12 +42,22 @@ impl Plots {
         let mut files = Vec::new();
         for path in paths {
             let Some(ending) = ending_of(path) else {
-                return Err(Failure::input(format!("{}: plots are .svg, .pdf or .png", path.display())));
+                return Err(Failure::input(format!(
+                    "{}: plots are .svg, .pdf or .png",
+                    stones::shown(&path)
+                )));
             };
             let stem = stones::shown(path.file_stem().unwrap_or_default());
             let own = metrics.iter().find(|m| m.name == stem);
             match (own, metrics) {
                 (Some(metric), _) | (None, [metric]) => files.push((path.clone(), *metric)),
+                _ if replace::is_stream(path) => {
+                    return Err(Failure::input(format!(
+                        "{} takes one plot, and there are {} scores: name a file",
+                        stones::shown(path),
+                        metrics.len()
+                    )));
+                }
                 _ => files.extend(metrics.iter().map(|metric| {
                     let name = format!("{stem}-{}.{ending}", metric.name);
                     (path.with_file_name(name), *metric)
@@ -109,7 +119,7 @@ impl Plots {
 /// What a table's companion says of its axes.
 pub fn layout_of(table: &Path, meta: &Meta) -> Result<Layout, Failure> {
     let why = || {
-        let table = table.display();
+        let table = stones::shown(&table);
         match meta.build.is_empty() {
             true => format!("{table} is of an older cutlab, which did not note its axes: make it anew"),
             false => {
@@ -134,8 +144,8 @@ fn ending_of(path: &Path) -> Option<&'static str> {
 /// Says which files were drawn.
 pub fn tell(files: &[PathBuf], console: &Console) -> Result<(), Failure> {
     if console.json {
-        return console.print_json(&files);
+        return console.print_json(&files.iter().map(stones::shown).collect::<Vec<_>>());
     }
-    files.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+    files.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
     Ok(())
 }

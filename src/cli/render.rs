@@ -44,7 +44,7 @@ pub struct Args {
     stones: Vec<OsString>,
     /// What is around it: a name of `cutlab list scenes`, or a TOML file
     #[arg(long, default_value = "table", value_name = "NAME|FILE")]
-    scene: String,
+    scene: OsString,
     /// Let a scene file name stones, meshes and panoramas outside its own folder
     #[arg(long)]
     allow_outside: bool,
@@ -159,9 +159,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         return Ok(Code::Done); // the picture is the whole of what standard output gets
     }
     if console.json {
-        console.print_json(&files)?;
+        console.print_json(&files.iter().map(stones::shown).collect::<Vec<_>>())?;
     } else {
-        files.iter().for_each(|f| console.note(&format!("wrote {}", f.display())));
+        files.iter().for_each(|f| console.note(&format!("wrote {}", stones::shown(&f))));
     }
     Ok(Code::Done)
 }
@@ -192,15 +192,16 @@ fn stone_name(spec: &OsStr) -> String {
 }
 
 /// A scene of the catalogue, or a file.
-fn scene_file(name: &str) -> Result<SceneFile, Failure> {
-    if let Some(file) = scene::preset(name) {
+fn scene_file(name: &OsStr) -> Result<SceneFile, Failure> {
+    if let Some(file) = name.to_str().and_then(scene::preset) {
         return Ok(file?);
     }
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e == "toml") || path.exists() {
         return Ok(SceneFile::open(path)?);
     }
-    let near = typed::suggestion(typed::nearest(name, SCENES.iter().map(|(n, _)| *n)));
+    let name = stones::shown(name);
+    let near = typed::suggestion(typed::nearest(&name, SCENES.iter().map(|(n, _)| *n)));
     Err(Failure::input(format!(
         "no scene and no file is called '{name}'{near} (all scenes: cutlab list scenes)"
     )))

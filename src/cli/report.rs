@@ -51,8 +51,8 @@ pub struct Args {
 /// The numbers that matter, for `--json`.
 #[derive(Serialize)]
 struct Summary {
-    folder: PathBuf,
-    files: Vec<PathBuf>,
+    folder: String,
+    files: Vec<String>,
     scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
     /// `more` or `less` for scores of which either is better by itself.
     better: BTreeMap<String, &'static str>,
@@ -146,8 +146,8 @@ fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<S
     Ok(Summary {
         better: better.filter(|(_, word)| !word.is_empty()).collect(),
         left_out: left_out.collect(),
-        folder: folder.to_owned(),
-        files: bundle.files.iter().map(|(name, _)| folder.join(name)).collect(),
+        folder: stones::shown(folder),
+        files: bundle.files.iter().map(|(name, _)| stones::shown(folder.join(name))).collect(),
         scores: scores.collect(),
     })
 }
@@ -175,7 +175,7 @@ fn text(bundle: &Bundle, folder: &Path) -> String {
         text += &format!("{said}\n");
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", folder.display(), names.join(", "))
+    text + &format!("{}: {}", stones::shown(&folder), names.join(", "))
 }
 
 impl From<ReportError> for Failure {

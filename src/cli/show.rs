@@ -21,6 +21,7 @@ use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::report::pattern;
 use crate::store::replace;
+use crate::store::terminal::in_line;
 use crate::walk::Stone;
 use measured::Measured;
 use mesh::MeshSheet;
@@ -154,8 +155,7 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let is_stdout = |path: &&PathBuf| replace::is_stdout(path);
-    if [&args.beams, &args.diagram].into_iter().flatten().filter(is_stdout).count() > 1 {
+    if [&args.beams, &args.diagram].into_iter().flatten().filter(|p| replace::is_stdout(p)).count() > 1 {
         return Err(Failure::input(
             "one drawing at a time goes to standard output: name a file for the other",
         ));
@@ -234,7 +234,7 @@ fn draw_diagram(args: &Args, path: &Path) -> Result<Drawn, Failure> {
         Some(drawing) => drawing,
         None if replace::is_stream(path) => Drawing::Svg,
         None => {
-            let path = path.display();
+            let path = stones::shown(&path);
             return Err(Failure::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
         }
     };
@@ -242,20 +242,20 @@ fn draw_diagram(args: &Args, path: &Path) -> Result<Drawn, Failure> {
     let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
     let bytes = drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?;
-    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", path.display()) })
+    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stones::shown(&path)) })
 }
 
 /// Draws the virtual facets of the only stone.
 fn draw_beams(args: &Args, path: &Path) -> Result<Drawn, Failure> {
     let spec = only(args, "--beams")?;
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !replace::is_stream(path) {
-        return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
+        return Err(Failure::input(format!("{}: --beams draws SVG alone", stones::shown(&path))));
     }
     let design = stones::open(spec)?.design;
     let index = args.substance.within(spec)?.of(&design).index_d();
     let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
-    let said = format!("{}: {} virtual facets", path.display(), pattern.polygons);
+    let said = format!("{}: {} virtual facets", stones::shown(&path), pattern.polygons);
     Ok(Drawn { path: path.into(), bytes: pattern.svg.into_bytes(), said })
 }
 
@@ -304,12 +304,12 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
 
 impl Sheet {
     fn text(&self) -> String {
-        let mut out = format!("{} ({})\n", self.file, self.format);
+        let mut out = format!("{} ({})\n", in_line(&self.file), self.format);
         let mut line = |label: &str, value: String| {
             let _ = writeln!(out, "  {label:<15} {value}");
         };
         if !self.name.is_empty() && self.name != self.file {
-            line("name", self.name.clone());
+            line("name", in_line(&self.name));
         }
         let kinds: Vec<String> = ["table", "crown", "girdle", "pavilion", "culet"]
             .iter()

@@ -5,6 +5,7 @@ use super::diagram::projection::{self, View};
 use super::page::{cell, data_uri, escaped, head, number, scope_figure, tilt_section};
 use super::{scopes, tilts};
 use crate::solid::{Polyhedron, SolidError};
+use crate::store::terminal::in_line;
 use crate::study::compare::Comparison;
 use crate::study::score::{Plan, Row};
 use crate::walk::Stone;
@@ -24,7 +25,7 @@ const LONGEST: usize = 24;
 /// What stands for each stone in tables: its name, or a number if that is long.
 pub fn labels(names: &[&str]) -> Vec<String> {
     let label = |(i, name): (usize, &&str)| {
-        if name.chars().count() > LONGEST { format!("stone {}", i + 1) } else { name.to_string() }
+        if name.chars().count() > LONGEST { format!("stone {}", i + 1) } else { in_line(name) }
     };
     names.iter().enumerate().map(label).collect()
 }
@@ -32,13 +33,14 @@ pub fn labels(names: &[&str]) -> Vec<String> {
 /// Which names the labels stand for, where they are not the names themselves.
 pub fn explained(names: &[&str]) -> Vec<String> {
     let labels = labels(names);
-    let other = labels.iter().zip(names).filter(|(label, name)| label != *name);
+    let names = names.iter().map(|name| in_line(name));
+    let other = labels.iter().zip(names).filter(|(label, name)| *label != name);
     other.map(|(label, name)| format!("{label}: {name}")).collect()
 }
 
 /// What has no score, and why, stone by stone.
 pub fn left_out(comparison: &Comparison) -> Vec<String> {
-    let said = |row: &Row| Some(format!("{}: {}", row.stone, row.omissions()?));
+    let said = |row: &Row| Some(format!("{}: {}", in_line(&row.stone), row.omissions()?));
     comparison.rows.iter().filter_map(said).collect()
 }
 

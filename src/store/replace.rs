@@ -2,6 +2,7 @@
 
 use super::lock;
 use super::terminal::Terminal;
+use super::text::shown;
 use std::ffi::{OsStr, OsString};
 use std::fs::{File, Metadata};
 use std::io::{IsTerminal, Write};
@@ -10,7 +11,7 @@ use tempfile::TempPath;
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {cause}")]
+#[error("cannot write {}: {cause}", shown(.path))]
 pub struct WriteError {
     /// The file that was asked for.
     pub path: PathBuf,

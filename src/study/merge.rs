@@ -28,7 +28,7 @@ pub struct Part {
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// The operating system refused.
-    #[error("cannot read {path}: {cause}")]
+    #[error("cannot read {}: {cause}", text::shown(.path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -36,28 +36,28 @@ pub enum MergeError {
         cause: std::io::Error,
     },
     /// A companion that is none.
-    #[error("{0} is not the companion of a table that cutlab wrote: {1}")]
+    #[error("{} is not the companion of a table that cutlab wrote: {}", text::shown(.0), .1)]
     Meta(PathBuf, String),
     /// A table that is not what its companion says.
-    #[error("{0} is not as it was written: its checksum is not the one in {1}")]
+    #[error("{} is not as it was written: its checksum is not the one in {}", text::shown(.0), text::shown(.1))]
     Changed(PathBuf, PathBuf),
     /// A whole table.
-    #[error("{0} is a whole table already, no part of one")]
+    #[error("{} is a whole table already, no part of one", text::shown(.0))]
     Whole(PathBuf),
     /// Parts of different tables.
-    #[error("{0} and {1} are parts of different tables: {2}")]
+    #[error("{} and {} are parts of different tables: {}", text::shown(.0), text::shown(.1), .2)]
     Strangers(PathBuf, PathBuf, String),
     /// The same part twice.
-    #[error("{0} and {1} are both shard {2}")]
+    #[error("{} and {} are both shard {}", text::shown(.0), text::shown(.1), .2)]
     Twice(PathBuf, PathBuf, Shard),
     /// Parts that are not there.
     #[error("{}", missing(.0, *.1))]
     Missing(Vec<Shard>, u64),
     /// A row that is none.
-    #[error("{0}: {1}")]
+    #[error("{}: {}", text::shown(.0), .1)]
     Row(PathBuf, String),
     /// A part with fewer rows than its companion says.
-    #[error("{0} ends before its rows do")]
+    #[error("{} ends before its rows do", text::shown(.0))]
     Short(PathBuf),
     /// The operating system refused.
     #[error(transparent)]

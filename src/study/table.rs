@@ -3,6 +3,7 @@
 use super::score::Row;
 use crate::metrics::Metric;
 use crate::store::limits;
+use crate::store::text;
 use serde::ser::{SerializeMap, Serializer};
 use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
@@ -120,7 +121,7 @@ impl Form {
             return Ok(Form::Csv);
         };
         let known = ENDINGS.iter().find(|(e, _)| *e == ending).map(|(_, form)| *form);
-        known.ok_or_else(|| TableError::Ending(path.display().to_string()))
+        known.ok_or_else(|| TableError::Ending(text::shown(path)))
     }
 
     /// What stands before the first row.

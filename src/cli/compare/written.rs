@@ -7,6 +7,7 @@ use crate::metrics::Better;
 use crate::optics::weight::Weight;
 use crate::report::page::number;
 use crate::report::{Request, versus};
+use crate::store::terminal::in_line;
 use crate::study::compare::Comparison;
 use crate::study::score::Plan;
 use crate::study::table::{Cell, Form, TableError};
@@ -61,7 +62,9 @@ impl Compared<'_> {
 
     /// What must be known about the weights, a line each.
     pub fn weight_notes(&self) -> Vec<String> {
-        let said = |r: &Request| Some(format!("weight of {}: {}", r.stone, Weight::of(&r.material).note()?));
+        let said = |r: &Request| {
+            Some(format!("weight of {}: {}", in_line(&r.stone), Weight::of(&r.material).note()?))
+        };
         self.requests.iter().filter_map(said).collect()
     }
 
@@ -129,7 +132,7 @@ impl Compared<'_> {
         let mut head = vec!["stone".to_owned(), "material".to_owned()];
         head.extend(self.plan.metrics.iter().map(|m| m.name.to_owned()));
         let line = |s: usize| {
-            let mut line = vec![self.requests[s].stone.clone(), self.requests[s].material.name.to_string()];
+            let mut line = vec![in_line(&self.requests[s].stone), self.requests[s].material.name.to_string()];
             let cell = |m| format!("{}{}", self.score(s, m), self.mark(s, m));
             line.extend((0..self.plan.metrics.len()).map(cell));
             line
@@ -178,8 +181,10 @@ impl Compared<'_> {
     pub fn markdown(&self) -> String {
         let (head, lines) = self.grid();
         let row = |cells: &[String]| {
-            let cells: Vec<String> =
-                cells.iter().map(|c| c.replace('\\', "\\\\").replace('|', "\\|")).collect();
+            let cells: Vec<String> = cells
+                .iter()
+                .map(|c| c.replace('\\', "\\\\").replace('|', "\\|").replace('<', "&lt;"))
+                .collect();
             format!("| {} |\n", cells.join(" | "))
         };
         let rule = format!("|{}\n", " --- |".repeat(head.len()));

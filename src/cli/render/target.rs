@@ -4,6 +4,7 @@ use super::{Args, command};
 use crate::cli::console::Console;
 use crate::cli::outcome::{self, Failure};
 use crate::cli::outputs::{Outputs, record};
+use crate::cli::stones;
 use crate::render::animation;
 use crate::render::{Pass, mp4};
 use crate::scene::SceneFile;
@@ -93,7 +94,7 @@ impl Target {
     pub fn of(path: &Path, args: &Args) -> Result<Target, Failure> {
         let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         let several = args.frames.is_some();
-        let shown = path.display();
+        let shown = stones::shown(&path);
         // the name of a pipe may have an ending that tells, that of a device or an open file has none
         let nameless = replace::is_stream(path) && ending.is_empty();
         if nameless && (several || args.passes) {
@@ -210,7 +211,7 @@ impl Target {
             outcome::goes_on();
         }
         let waiting = || {
-            let path = self.path.display();
+            let path = stones::shown(&self.path);
             console.note(&format!("another cutlab is making {path}: waiting for it to end"));
         };
         let path = lock::hidden(&self.path, "lock");
