@@ -51,6 +51,8 @@ pub struct Args {
 struct Entry<'a> {
     metric: &'static str,
     unit: &'static str,
+    /// `more` or `less`, if either is better by itself.
+    better: Option<&'static str>,
     /// Differences up to this are never significant.
     negligible: f64,
     scores: Vec<Scored<'a>>,
@@ -65,7 +67,7 @@ struct Scored<'a> {
     score: Option<Estimate>,
     /// Why there is no score.
     #[serde(skip_serializing_if = "Option::is_none")]
-    left_out: Option<&'static str>,
+    left_out: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -134,10 +136,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             Output::Markdown(_) => {
                 replace::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
             }
-            Output::Table(_, form) => write_table(&compared, path, *form, command)?,
+            Output::Table(_, form) => {
+                compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
+                write_table(&compared, path, *form, command)?;
+            }
         }
         if !replace::is_stdout(path) {
-            console.note(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", stones::shown(&path)));
         }
     }
     Ok(if short { Code::SomeFailed } else { Code::Done })
@@ -156,15 +161,17 @@ enum Output {
 impl Output {
     fn of(path: &Path) -> Result<Output, Failure> {
         let path = path.to_owned();
-        if replace::is_stream(&path) {
-            return Ok(Output::Table(path, Form::Csv));
+        let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
+        if replace::is_stream(&path) && !is_markdown {
+            let form = Form::of(&path).unwrap_or(Form::Csv);
+            return Ok(Output::Table(path, form));
         }
         let ending = path.extension().filter(|_| !path.is_dir());
         Ok(match ending {
-            Some(ending) if ending.eq_ignore_ascii_case("md") => Output::Markdown(path),
+            Some(_) if is_markdown => Output::Markdown(path),
             Some(_) => {
                 let form = Form::of(&path).map_err(|_| {
-                    let path = path.display();
+                    let path = stones::shown(&path);
                     Failure::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
                 })?;
                 Output::Table(path, form)
@@ -214,6 +221,7 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
     let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| Entry {
         metric: metric.name,
         unit: metric.unit,
+        better: Some(metric.better.word()).filter(|word| !word.is_empty()),
         negligible: comparison.negligible[m],
         scores: rows
             .iter()

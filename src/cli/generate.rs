@@ -8,10 +8,11 @@ use super::outputs::{self, Outputs};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use super::values;
-use super::weight::{self, Weight};
+use super::weight;
 use crate::cut::{Design, families};
 use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::store::replace;
 use std::ffi::OsString;
@@ -65,7 +66,7 @@ struct Made {
     name: String,
     facets: usize,
     made_up_of: String,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// Makes the stone and writes it.
@@ -77,11 +78,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = args
-        .stone
-        .to_str()
-        .and_then(stones::family)
-        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
+    let is_given = |key: &str| parameters.0.contains_key(key);
+    let has_size = args.stone.to_str().is_some_and(|stone| stones::size_is_parameter(stone, is_given));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
@@ -100,8 +98,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
     let mut size = args.size.filter(|_| !has_size);
     if let Some(carats) = args.carat {
-        let weight = Weight::of(&args.substance, &imported.design);
-        let mm = weight.width_mm(&imported.design, carats)?;
+        let weight = Weight::of(&args.substance.of(&imported.design));
+        let mm = weight::width_mm(&weight, &imported.design, carats)?;
         console
             .note(&format!("note: {carats} ct in {} is {mm:.3} mm wide", weight.name().unwrap_or_default()));
         size = Some(mm);
@@ -114,15 +112,18 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 
     let mut files = args.output.clone();
     if files.is_empty() {
-        files.push(format!("{}-{facets}.obj", stones::file_stem(&args.stone).display()).into());
+        let mut name = stones::file_stem(&args.stone);
+        name.push(format!("-{facets}.obj"));
+        files.push(name.into());
     }
     let encode = |file: &PathBuf| {
-        let drawing = if replace::is_stream(file) { Drawing::named(&args.to) } else { Drawing::of(file) };
+        // the name of a pipe may have an ending that tells, that of a device has none
+        let is_nameless = replace::is_stream(file) && formats::written_to(file).is_err();
+        let drawing = Drawing::of(file).or_else(|| Drawing::named(&args.to).filter(|_| is_nameless));
         if let Some(drawing) = drawing {
             return drawing.bytes(&design, index, args.paper);
         }
-        let format =
-            if replace::is_stream(file) { formats::written_as(&args.to) } else { formats::written_to(file) };
+        let format = if is_nameless { formats::written_as(&args.to) } else { formats::written_to(file) };
         encoded(&design, asked.as_ref(), format.map_err(with_drawings)?.name, console)
     };
     let encoded: Vec<Vec<u8>> = files.iter().map(encode).collect::<Result<_, Failure>>()?;
@@ -133,13 +134,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for (file, bytes) in files.iter().zip(&encoded) {
         replace::write(file, bytes)?;
         if !replace::is_stdout(file) {
-            console.note(&format!("wrote {}", file.display()));
+            console.note(&format!("wrote {}", stones::shown(&file)));
         }
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
     if files.iter().any(|f| replace::is_stdout(f)) {
         console.note(&summary);
     } else if console.json {
+        let files = files.iter().map(stones::shown).collect();
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
     } else {
         console.tell(&summary)?;

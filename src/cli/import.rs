@@ -10,6 +10,7 @@ use super::stones;
 use crate::cut::Unit;
 use crate::formats::{self, Encoded, Format};
 use crate::report::diagram::Paper;
+use crate::store::terminal::in_line;
 use crate::store::{place, replace};
 use plan::Job;
 use serde::Serialize;
@@ -50,7 +51,7 @@ struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
     facets: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    wrote: Option<PathBuf>,
+    wrote: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -129,9 +130,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     } else {
         rows.iter().filter_map(|r| r.error.as_ref()).for_each(|e| console.complain(e));
         if to_output {
-            console.note(&table(&rows));
+            table(&rows).lines().for_each(|line| console.note(line));
         } else if rows.iter().any(|r| [WRITTEN, THERE].contains(&r.outcome)) {
-            console.print(&table(&rows))?;
+            console.tell(&table(&rows))?;
         }
     }
     if results.is_empty() {
@@ -152,12 +153,15 @@ fn plan(args: &Args) -> Result<(Vec<Job>, Written), Failure> {
     if to_file && !alone {
         return Err(Failure::input(format!(
             "several stones do not fit into the one file {}: give a folder and --to FORMAT",
-            args.output.display()
+            stones::shown(&args.output)
         )));
     }
     let format = match &args.to {
         Some(asked) => Written::named(asked)?,
-        None if to_file && !replace::is_stream(&args.output) => Written::to(&args.output)?,
+        None if replace::is_stream(&args.output) => {
+            Written::to(&args.output).or_else(|_| Written::named("toml"))?
+        }
+        None if to_file => Written::to(&args.output)?,
         None => Written::named("toml")?,
     };
     if to_file {
@@ -179,8 +183,7 @@ fn import(
     if job.by_chance {
         return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
     }
-    // a pipe may have no reader: it is not waited for unless that is asked for
-    let to_stream = replace::is_stream(&job.target) && (console.force || !is_pipe(&job.target));
+    let to_stream = replace::is_stream(&job.target);
     if !to_stream {
         outputs.check_inputs(&job.target)?;
         if console.force {
@@ -234,21 +237,7 @@ fn import(
         }
         return Ok(Row { file, outcome: THERE, ..read });
     }
-    Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
-}
-
-/// Whether `path` leads to a named pipe.
-fn is_pipe(path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        path.metadata().is_ok_and(|m| m.file_type().is_fifo())
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = path;
-        false
-    }
+    Ok(Row { file, outcome: WRITTEN, wrote: Some(stones::shown(&job.target)), ..read })
 }
 
 /// The rows in columns, then how many had which outcome.
@@ -257,9 +246,9 @@ fn table(rows: &[Row]) -> String {
         .iter()
         .filter(|r| r.outcome != PASSED_OVER)
         .map(|r| {
-            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |w| w.display().to_string());
+            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |wrote| in_line(wrote));
             let facets = r.facets.map_or_else(String::new, |n| n.to_string());
-            [r.file.clone(), r.format.unwrap_or_default().into(), facets, wrote]
+            [in_line(&r.file), r.format.unwrap_or_default().into(), facets, wrote]
         })
         .collect();
     let heads = ["file", "format", "facets", "wrote"].map(String::from);

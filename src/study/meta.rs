@@ -8,7 +8,7 @@ use super::identity::BUILD;
 use super::score::Plan;
 use super::shard::Shard;
 use super::table::Form;
-use crate::store::limits;
+use crate::store::{limits, text};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Read;
@@ -64,6 +64,9 @@ pub struct Layout {
     /// Whether the points are spread over the axes and form no grid.
     #[serde(default)]
     pub scattered: bool,
+    /// Whether the stone is of diamond at every point.
+    #[serde(default)]
+    pub is_diamond: bool,
 }
 
 /// One metric of the table.
@@ -146,7 +149,7 @@ impl Meta {
     /// The companion in the file at `path`.
     pub fn read(path: &Path) -> std::io::Result<Meta> {
         let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
-        Ok(serde_json::from_slice(&bytes)?)
+        Ok(serde_json::from_str(&text::of(&bytes))?)
     }
 
     /// The definitions of a plan's metrics.
