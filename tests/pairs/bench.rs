@@ -1,5 +1,6 @@
 //! The real program in a fresh folder.
 
+use crate::tables::{self, Row};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,12 @@ pub struct Ran {
     pub files: Files,
     /// Input files that are gone or hold something else.
     pub harmed: Vec<PathBuf>,
+    /// How long it took.
+    pub took: Duration,
 }
+
+/// The whole of the table whose parts are `p1.csv`, `q1.jsonl`, `r1.json` and so on.
+pub const WHOLE: &str = "s.csv";
 
 /// A scene that is quick to take.
 const SCENE: &str = "about = \"a cube under a dome\"\nunit = \"stone\"\npicture = [8, 6]\n\n\
@@ -52,43 +58,38 @@ impl Inputs {
         make(&["generate", "cube", "-o", "a.asc", "-o", "d/one.asc"]);
         make(&["generate", "classic", "-o", "b.gem", "-o", "d/two.obj"]);
         make(&["generate", "octahedron", "--size", "5", "-o", "o.stl"]);
+        let scored = ["--metrics", "iso,spread", "--error", "0.05"];
+        let table = |words: &[&str], output: &str| make(&[words, &scored, &["-o", output]].concat());
+        let stones = ["score", "cube", "classic", "a.asc"];
+        table(&stones, WHOLE);
         for (ending, number) in [("csv", "p"), ("jsonl", "q"), ("json", "r")] {
-            for shard in ["1", "2"] {
-                let (part, shard) = (format!("{number}{shard}.{ending}"), format!("{shard}/2"));
-                make(&[
-                    "score",
-                    "cube",
-                    "classic",
-                    "a.asc",
-                    "--metrics",
-                    "spread,iso",
-                    "--error",
-                    "0.05",
-                    "--shard",
-                    &shard,
-                    "-o",
-                    &part,
-                ]);
+            for shard in ["1/2", "2/2"] {
+                table(
+                    &[&stones[..], &["--shard", shard]].concat(),
+                    &format!("{number}{}.{ending}", &shard[..1]),
+                );
             }
         }
-        make(&[
-            "sweep",
-            "round-brilliant:facets=73",
-            "--vary",
-            "crown-angle=34:35:1",
-            "--metrics",
-            "iso,spread",
-            "--error",
-            "0.05",
-            "-o",
-            "w.csv",
-        ]);
+        let sweep = ["sweep", "round-brilliant:facets=73", "--vary", "crown-angle=34:35:1"];
+        table(&sweep, "w.csv");
+        for shard in ["1/2", "2/2"] {
+            table(&[&sweep[..], &["--shard", shard]].concat(), &format!("v{}.csv", &shard[..1]));
+        }
+        table(&["sweep", "oval", "--vary", "table=55:57:2", "--vary", "size=2:4:2"], "m.json");
+        table(&["score", "cube", "--tilt", "-20:20:20", "--tilt-axis", "0,90"], "t.jsonl");
         let sky =
             image::ImageBuffer::<image::Rgb<f32>, Vec<f32>>::from_fn(8, 4, |x, _| image::Rgb([x as f32; 3]));
         sky.save(folder.path().join("sky.hdr")).expect("writes a panorama");
         let made = Inputs { files: read(folder.path()) };
-        assert!(made.files.len() >= 18, "{:?}", made.files.keys());
+        assert!(made.files.len() >= 30, "{:?}", made.files.keys());
         made
+    }
+}
+
+impl Inputs {
+    /// The rows of an input that is a table in CSV.
+    pub fn rows(&self, name: &Path) -> Vec<Row> {
+        tables::rows(self.files.get(name).map_or(&[], Vec::as_slice), "csv").expect("a table")
     }
 }
 
@@ -122,6 +123,11 @@ impl Bench {
 
     /// Runs the program on so many threads; standard input is a design.
     pub fn run(&self, words: &[String], threads: u32) -> Ran {
+        self.run_for(words, threads, LONGEST)
+    }
+
+    /// The same; it is stopped when that time is over.
+    pub fn run_for(&self, words: &[String], threads: u32, longest: Duration) -> Ran {
         let said = tempfile::tempdir().expect("a temporary folder");
         let (out, err) = (said.path().join("out"), said.path().join("err"));
         let create = |path: &Path| fs::File::create(path).expect("a file for what is said");
@@ -144,18 +150,20 @@ impl Bench {
             if let Some(status) = child.try_wait().expect("the program is there") {
                 break status.code();
             }
-            if start.elapsed() > LONGEST {
+            if start.elapsed() > longest {
                 child.kill().expect("the program is stopped");
                 child.wait().expect("the program is there");
                 break None;
             }
             std::thread::sleep(Duration::from_millis(2));
         };
+        let took = start.elapsed();
         let now = read(self.path());
         let files = now.iter().filter(|(name, bytes)| self.before.get(*name) != Some(bytes));
         let harmed = self.before.iter().filter(|(name, bytes)| now.get(*name) != Some(bytes));
         Ran {
             code,
+            took,
             stdout: fs::read(out).expect("what was said"),
             stderr: String::from_utf8_lossy(&fs::read(err).expect("what was said")).into_owned(),
             harmed: harmed.map(|(name, _)| name.clone()).collect(),

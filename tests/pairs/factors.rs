@@ -72,3 +72,14 @@ fn parameters(factors: &mut [Factor]) {
     }
     stone.positional = false;
 }
+
+#[test]
+fn an_option_without_values_to_try_is_named() {
+    let known = Arg::new("seed").long("seed").value_name("N");
+    let new = Arg::new("sparkle").long("sparkle").value_name("AMOUNT");
+    let flag = Arg::new("shiny").long("shiny").action(clap::ArgAction::SetTrue);
+    let command = Command::new("score").arg(known).arg(flag);
+    let factors = of(&command).expect("both have values");
+    assert_eq!(factors.iter().map(|f| f.levels.len()).collect::<Vec<_>>(), [2, 2]);
+    assert!(of(&command.arg(new)).is_err_and(|e| e.contains("--sparkle")));
+}

@@ -12,6 +12,7 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("score", "error"),
     ("sweep", "metrics"),
     ("sweep", "error"),
+    ("report", "stones"),
     ("compare", "metrics"),
     ("compare", "error"),
     ("validate", "only"),
@@ -24,7 +25,11 @@ type Sample = (&'static str, &'static str, &'static [&'static [&'static str]]);
 
 const SAMPLES: &[Sample] = &[
     // stones
-    ("generate", "stone", &[&["round-brilliant"], &["a.asc"], &["-"], &["classic"], &["oval:table=55"]]),
+    (
+        "generate",
+        "stone",
+        &[&["round-brilliant"], &["a.asc"], &["-"], &["classic"], &["oval:table=55"], &["d"]],
+    ),
     ("import", "files", &[&["b.gem"], &["d"], &["a.asc", "o.stl"], &["cube"]]),
     ("show", "stones", &[&["a.asc"], &["round-brilliant", "b.gem"], &["o.stl"], &["-"], &["d"]]),
     ("render", "stones", &[&["a.asc"], &["octahedron"], &["classic"], &["-"]]),
@@ -40,15 +45,21 @@ const SAMPLES: &[Sample] = &[
         ],
     ),
     ("sweep", "stone", &[&["round-brilliant:facets=73"], &["a.asc"], &["oval"]]),
-    ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"]]),
-    ("report", "stones", &[&["b.gem"], &["cube", "o.stl"]]),
+    ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"], &["d"]]),
+    ("report", "stones", &[&["a.asc"], &["cube", "o.stl"]]),
     (
         "merge",
         "parts",
-        &[&["p1.csv", "p2.csv"], &["p*.csv"], &["q1.jsonl", "q2.jsonl"], &["r2.json", "r1.json"]],
+        &[
+            &["p1.csv", "p2.csv"],
+            &["p*.csv"],
+            &["q1.jsonl", "q2.jsonl"],
+            &["r2.json", "r1.json"],
+            &["v1.csv", "v2.csv"],
+        ],
     ),
     // where to write
-    ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"]]),
+    ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"], &["out"]]),
     ("import", "output", &[&["x.asc"], &["out"], &["-"]]),
     (
         "render",
@@ -66,7 +77,7 @@ const SAMPLES: &[Sample] = &[
         ],
     ),
     ("*", "output", &[&["x.csv"], &["x.jsonl"], &["x.json"], &["-"]]),
-    ("compare", "output", &[&["out"], &["x.md"], &["x.csv"]]),
+    ("compare", "output", &[&["out"], &["x.md"], &["x.csv"], &["-"]]),
     ("report", "output", &[&["out"]]),
     ("validate", "output", &[&["out"]]),
     ("show", "beams", &[&["beams.svg"], &["-"]]),
@@ -75,7 +86,7 @@ const SAMPLES: &[Sample] = &[
     ("sweep", "plot", &[&["plot.svg"], &["iso.png", "spread.svg"]]),
     ("score", "plot", &[&["tilt.svg"]]),
     ("merge", "plot", &[&["plot.svg"]]),
-    ("plot", "table", &[&["w.csv"]]),
+    ("plot", "table", &[&["w.csv"], &["m.json"], &["t.jsonl"]]),
     ("plot", "output", &[&["w.svg"], &["iso.png", "spread.svg"]]),
     // formats
     ("import", "to", &[&["stl"], &["asc"], &["gem"], &["gltf"]]),
