@@ -2,6 +2,7 @@
 
 use super::scoring::Scoring;
 use super::stones;
+use super::weight::Weight;
 use crate::cut::{Unit, proportions};
 use crate::study::table::Cell;
 use std::ffi::OsStr;
@@ -28,7 +29,7 @@ pub fn cells(spec: &OsStr, scoring: &Scoring) -> Vec<Cell> {
 
 fn of(spec: &OsStr, scoring: &Scoring) -> Option<Vec<Cell>> {
     let design = stones::open(spec).ok()?.design;
-    let material = scoring.substance.within(spec).ok()?.of(&design);
+    let weight = Weight::of(&scoring.substance.within(spec).ok()?, &design);
     let p = proportions::of(&design).ok()?;
     let to_mm = scoring.size.map(|mm| mm / p.width).or((design.unit == Unit::Millimetre).then_some(1.0));
     let number = |x: Option<f64>| x.map_or(Cell::Empty(()), Cell::number);
@@ -43,6 +44,6 @@ fn of(spec: &OsStr, scoring: &Scoring) -> Option<Vec<Cell>> {
         Cell::number(p.pavilion_depth_percent),
         Cell::number(p.girdle_percent),
         Cell::number(p.depth_percent),
-        number(to_mm.and_then(|k| material.carats(p.volume * k.powi(3)))),
+        number(to_mm.and_then(|k| weight.carats(p.volume * k.powi(3)))),
     ])
 }
