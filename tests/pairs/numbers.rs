@@ -18,7 +18,7 @@ pub fn faults(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
         "score" | "sweep" | "merge" => table(case, ran, inputs),
         "compare" => compared(case, ran, inputs),
         "report" => reported(case, ran),
-        "validate" => validated(case, ran),
+        "validate" => validated(case, ran).into_iter().collect(),
         _ => Vec::new(),
     }
 }
