@@ -81,7 +81,6 @@ struct Differs<'a> {
 /// Compares the stones.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(false, console);
     let specs = folders::expanded(&args.stones)?;
     if specs.len() < 2 {
         return Err(Failure::input("a comparison needs two stones or more"));
@@ -101,6 +100,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
     let subjects: Vec<Subject> = requests.iter().map(subject).collect::<Result<_, Failure>>()?;
+    args.scoring.notes(false).iter().for_each(|note| console.note(note));
     let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");
     let comparison = compare(&subjects, &plan, &|| bar.inc(1));
     bar.finish_and_clear();

@@ -36,7 +36,13 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
             let text = String::from_utf8_lossy(bytes);
             roxmltree::Document::parse(&text).err().and_then(|e| said(&e))
         }
-        "html" => (!text(bytes).trim_end().ends_with("</html>")).then(|| "html: no end".into()),
+        "html" => {
+            // behind the end the page records the command that made it
+            let text = text(bytes);
+            let (page, record) = text.rsplit_once("</html>").unwrap_or_default();
+            let ends = record.trim().is_empty() || record.trim().starts_with("<?cutlab-command ");
+            (page.is_empty() || !ends).then(|| "html: no end".into())
+        }
         "pdf" => {
             let whole = bytes.starts_with(b"%PDF") && text(bytes).trim_end().ends_with("%%EOF");
             (!whole).then(|| "pdf: no begin or no end".into())
