@@ -9,7 +9,9 @@ use std::path::Path;
 ///
 /// - `inputs`: in a folder of which designs and meshes are shown
 pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
-    let ending = name.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+    // a file without ending is what it begins as
+    let ending =
+        name.extension().map_or_else(|| sniffed(bytes, "").into(), |e| e.to_string_lossy().to_lowercase());
     let said = |e: &dyn std::fmt::Display| Some(format!("{ending}: {e}"));
     if bytes.is_empty() {
         return Some(format!("{ending}: empty"));
