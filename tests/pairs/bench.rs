@@ -35,11 +35,14 @@ pub struct Ran {
     pub took: Duration,
 }
 
+/// What standard input is.
+const STANDARD_INPUT: &str = "a.asc";
+
 /// The whole of the table whose parts are `p1.csv`, `q1.jsonl`, `r1.json` and so on.
 pub const WHOLE: &str = "s.csv";
 
 /// A scene that is quick to take.
-const SCENE: &str = "about = \"a cube under a dome\"\nunit = \"stone\"\npicture = [8, 6]\n\n\
+const SCENE: &str = "about = \"a cube under a dome\"\nunit = \"stone\"\npicture = [16, 16]\n\n\
     [camera]\nat = [0, 0, 12]\nwidth = 2.2\n\n[[stone]]\ncut = \"cube\"\npose = \"table-up\"\n\n\
     [[light]]\nkind = \"dome\"\nradiance = 0.9\n";
 
@@ -48,7 +51,7 @@ impl Inputs {
     pub fn made() -> Inputs {
         let mut files = Files::new();
         files.insert("scene.toml".into(), SCENE.into());
-        let folder = Bench::new(&Inputs { files: files.clone() });
+        let folder = Bench::of(files);
         let make = |words: &[&str]| {
             let words: Vec<String> = words.iter().map(|w| w.to_string()).collect();
             let ran = folder.run(&words, 2);
@@ -105,15 +108,32 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// A new one.
-    pub fn new(inputs: &Inputs) -> Bench {
+    /// A new one with the inputs that the words name, and what standard input is.
+    pub fn new(inputs: &Inputs, words: &[String]) -> Bench {
+        // of a pattern and of a stone with parameters the beginning
+        let begins = |word: &String| word.split(['*', ':']).next().unwrap_or_default().to_owned();
+        let begins: Vec<String> = words.iter().map(begins).filter(|w| !w.is_empty()).collect();
+        let is_named = |name: &Path| {
+            let name = name.to_string_lossy();
+            name == STANDARD_INPUT || begins.iter().any(|begin| name.starts_with(begin))
+        };
+        let named = inputs.files.iter().filter(|(name, _)| is_named(name));
+        Bench::of(named.map(|(name, bytes)| (name.clone(), bytes.clone())).collect())
+    }
+
+    fn of(files: Files) -> Bench {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        for (name, bytes) in &inputs.files {
+        for (name, bytes) in &files {
             let path = folder.path().join(name);
             fs::create_dir_all(path.parent().expect("below the folder")).expect("makes a folder");
             fs::write(path, bytes).expect("writes an input");
         }
-        Bench { folder, before: inputs.files.clone() }
+        Bench { folder, before: files }
+    }
+
+    /// Runs the program in a new folder with what the words name.
+    pub fn once(inputs: &Inputs, words: &[String], threads: u32) -> Ran {
+        Bench::new(inputs, words).run(words, threads)
     }
 
     /// The folder.
@@ -131,7 +151,7 @@ impl Bench {
         let said = tempfile::tempdir().expect("a temporary folder");
         let (out, err) = (said.path().join("out"), said.path().join("err"));
         let create = |path: &Path| fs::File::create(path).expect("a file for what is said");
-        let stdin = match fs::File::open(self.path().join("a.asc")) {
+        let stdin = match fs::File::open(self.path().join(STANDARD_INPUT)) {
             Ok(file) => Stdio::from(file),
             Err(_) => Stdio::null(), // while the inputs are made
         };

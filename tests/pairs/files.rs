@@ -81,7 +81,7 @@ fn png(bytes: &[u8]) -> Option<String> {
 
 /// What `show` says against a design or a mesh.
 fn shown(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
-    let bench = Bench::new(inputs);
+    let bench = Bench::new(inputs, &[]);
     let file = Path::new("written").with_extension(name.extension().unwrap_or_default());
     std::fs::write(bench.path().join(&file), bytes).expect("writes");
     // a glTF has its numbers in itself or beside it, and is read alike

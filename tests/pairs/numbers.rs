@@ -25,7 +25,7 @@ pub fn faults(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
 
 /// The rows that were printed, or what is wrong with them.
 fn printed(case: &Case, inputs: &Inputs) -> Result<Vec<Row>, String> {
-    let ran = Bench::new(inputs).run(&case.words(), 2);
+    let ran = Bench::once(inputs, &case.words(), 2);
     tables::rows(&ran.stdout, "csv").map_err(|e| format!("{e}: {}", ran.stderr.trim()))
 }
 
@@ -119,8 +119,8 @@ fn whole(case: &Case, rows: &[Row], inputs: &Inputs) -> Option<Fault> {
 fn joined(case: &Case, shard: &str, name: &Path, inputs: &Inputs) -> Option<String> {
     let of: u32 = shard.split('/').nth(1)?.parse().ok()?;
     let ending = name.extension()?.to_str()?;
-    let whole = Bench::new(inputs).run(&case.without(&["shard"]).words(), 2);
-    let bench = Bench::new(inputs);
+    let whole = Bench::once(inputs, &case.without(&["shard"]).words(), 2);
+    let bench = Bench::new(inputs, &case.words());
     let mut merge = vec!["merge".to_string()];
     for i in 1..=of {
         let part = format!("part{i}.{ending}");
@@ -171,7 +171,7 @@ fn compared(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     }
     let json = match case.has("json") && !case.streams() {
         true => ran.stdout.clone(),
-        false => Bench::new(inputs).run(&plain.with("json", &["--json"]).words(), 2).stdout,
+        false => Bench::once(inputs, &plain.with("json", &["--json"]).words(), 2).stdout,
     };
     match serde_json::from_slice(&json).map_err(|e| e.to_string()).and_then(|v| tables::of_comparison(&v)) {
         Ok(rows) if rows.is_empty() => faults.extend(wrong("JSON has no rows".into())),

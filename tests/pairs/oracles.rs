@@ -42,7 +42,7 @@ const DEAR_AGAIN: usize = 4;
 ///
 /// - `number`: of the case, which chooses the dear ones that are run again
 pub fn judge(case: &Case, number: usize, inputs: &Inputs) -> Verdict {
-    let bench = Bench::new(inputs);
+    let bench = Bench::new(inputs, &case.words());
     let ran = bench.run(&case.words(), 1);
     let mut faults = ends(case, &ran);
     if ran.code == Some(2) && faults.is_empty() {
@@ -103,7 +103,7 @@ fn ends(case: &Case, ran: &Ran) -> Vec<Fault> {
 /// The same on two threads, and again in the same folder.
 fn repeated(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let bench = Bench::new(inputs);
+    let bench = Bench::new(inputs, &case.words());
     let two = bench.run(&case.words(), 2);
     if (two.code, &two.stdout, &two.files) != (ran.code, &ran.stdout, &ran.files) {
         faults.push(fault("the same on two threads", differing(ran, &two)));

@@ -18,6 +18,9 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("validate", "only"),
 ];
 
+/// Heights of a brilliant that go together.
+pub const HEIGHTS: [(&str, &str); 3] = [("depth", "61.5"), ("crown-height", "15"), ("pavilion-depth", "43")];
+
 /// Values of an option: of that command, or of every command (`*`), by the option's name or by the
 /// name of its value. Arguments without a name have several words a value; of an option each word is
 /// given with its flag, and an empty word is the flag alone.
@@ -128,15 +131,16 @@ const SAMPLES: &[Sample] = &[
     ("*", "seed", &[&["7"]]),
     ("*", "threads", &[&["2"]]),
     // pictures
-    ("render", "scene", &[&["scene.toml"], &["table"], &["spot"]]),
+    ("render", "scene", &[&["scene.toml"], &["table"], &["daylight"]]),
     ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),
-    ("render", "width", &[&["8"], &["12"]]),
-    ("render", "height", &[&["9"]]),
+    ("render", "width", &[&["16"], &["24"]]),
+    ("render", "height", &[&["18"]]),
     ("render", "spp", &[&["1"], &["2"]]),
     ("render", "photons", &[&["100"], &["200"]]),
     ("render", "nearest", &[&["20"]]),
     ("render", "rounds", &[&["2"]]),
-    ("render", "time", &[&["1ms"]]),
+    // over with the first round: how many rounds a longer time has is of no command line
+    ("render", "time", &[&["1us"]]),
     ("render", "noise", &[&["400%"]]),
     ("render", "frames", &[&["2"]]),
     ("render", "fps", &[&["5"]]),

@@ -61,7 +61,8 @@ impl<'a> Search<'a> {
     /// Whether the program refuses the command line, which it does at once.
     fn is_refused(&self, row: &[usize]) -> bool {
         let words = self.case(row).words();
-        self.is_misspelt(row) || Bench::new(self.inputs).run_for(&words, 1, oracles::AT_ONCE).code == Some(2)
+        self.is_misspelt(row)
+            || Bench::new(self.inputs, &words).run_for(&words, 1, oracles::AT_ONCE).code == Some(2)
     }
 
     /// Runs the cases that are kept, by command and number.
