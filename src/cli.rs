@@ -6,6 +6,7 @@ mod compare;
 mod console;
 mod drawing;
 mod folders;
+mod form;
 mod generate;
 mod heartbeat;
 mod import;

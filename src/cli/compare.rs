@@ -39,7 +39,7 @@ pub struct Args {
     #[arg(required = true, value_name = "STONE")]
     stones: Vec<OsString>,
     /// A folder for a page that shows them beside each other, which is made; or a file for the table with
-    /// the proportions: .csv, .jsonl, .json or .md
+    /// the proportions: .csv, .jsonl, .json or .md; - is standard output, CSV or with --json JSON
     #[arg(long, short, value_name = "DIR|FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -82,12 +82,11 @@ struct Differs<'a> {
 /// Compares the stones.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(false, console);
     let specs = folders::expanded(&args.stones)?;
     if specs.len() < 2 {
         return Err(Failure::input("a comparison needs two stones or more"));
     }
-    let output = args.output.as_deref().map(Output::of).transpose()?;
+    let output = args.output.as_deref().map(|path| Output::of(path, console)).transpose()?;
     let mut outputs = Outputs::beside(&specs, console);
     let command = record::own_command();
     match &output {
@@ -102,6 +101,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
     let subjects: Vec<Subject> = requests.iter().map(subject).collect::<Result<_, Failure>>()?;
+    args.scoring.notes(false).iter().for_each(|note| console.note(note));
     let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");
     let comparison = compare(&subjects, &plan, &|| bar.inc(1));
     bar.finish_and_clear();
@@ -116,9 +116,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
     }
     let compared = Compared { requests: &requests, comparison: &comparison, plan: &plan };
-    if console.json {
+    let table_is_printed = output.as_ref().is_some_and(|o| replace::is_stdout(o.path()));
+    if !table_is_printed && console.json {
         console.print_json(&entries(&comparison, &plan))?;
-    } else if !output.as_ref().is_some_and(|o| replace::is_stdout(o.path())) {
+    } else if !table_is_printed {
         console.print(&compared.text())?;
     }
     if let Some(output) = &output {
@@ -159,11 +160,11 @@ enum Output {
 }
 
 impl Output {
-    fn of(path: &Path) -> Result<Output, Failure> {
+    fn of(path: &Path, console: &Console) -> Result<Output, Failure> {
         let path = path.to_owned();
         let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
         if replace::is_stream(&path) && !is_markdown {
-            let form = Form::of(&path).unwrap_or(Form::Csv);
+            let form = tables::form_of(&path, console)?;
             return Ok(Output::Table(path, form));
         }
         let ending = path.extension().filter(|_| !path.is_dir());

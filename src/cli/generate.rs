@@ -1,7 +1,8 @@
 //! `cutlab generate`: a stone from its parameters.
 
 use super::console::Console;
-use super::drawing::{self, Drawing};
+use super::drawing;
+use super::form::Form;
 use super::import;
 use super::outcome::{Code, Failure};
 use super::outputs::{self, Outputs};
@@ -9,9 +10,8 @@ use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use super::values;
 use super::weight;
-use crate::cut::{Design, families};
-use crate::formats::{self, FormatError};
-use crate::optics::Material;
+use crate::cut::families;
+use crate::formats::Encoded;
 use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::store::replace;
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  cutlab generate --facets 153                    round-brilliant-153.obj in this folder
+  cutlab generate --facets 153                    round-brilliant-153.obj in this folder; or --to stl
   cutlab generate --table 57 --crown-angle 35 -o stone.obj -o stone.toml
   cutlab generate prism --sides 6 --height 5      also bipyramid, octahedron
   cutlab generate round-brilliant:depth=61.5,crown-height=15,pavilion-depth=43 --carat 1 -o stone.glb
@@ -46,9 +46,10 @@ pub struct Args {
     /// given several times
     #[arg(long, short, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Format for `-o -` and for a folder: a name or ending from `cutlab list formats`, svg, pdf or png
-    #[arg(long, value_name = "FORMAT", default_value = "obj")]
-    to: String,
+    /// Format for `-o -` and for a folder, or where the ending of a file says none: a name or ending from
+    /// `cutlab list formats`, svg, pdf or png [obj]
+    #[arg(long, value_name = "FORMAT")]
+    to: Option<String>,
     /// Paper of the cutting diagram
     #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
     paper: Paper,
@@ -59,6 +60,9 @@ pub struct Args {
     #[command(flatten)]
     parameters: Parameters,
 }
+
+/// What goes to standard output and into a folder unless it is said.
+const USUAL_FORMAT: &str = "obj";
 
 /// What was made, for `--json`.
 #[derive(serde::Serialize)]
@@ -74,6 +78,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if Path::new(&args.stone).is_dir() {
         return folder(args, console);
     }
+    // refused before the work, and before anything is said
+    let usual = Form::named(args.to.as_deref().unwrap_or(USUAL_FORMAT))?;
+    let to_stream = args.output.iter().any(|file| replace::is_stream(file));
+    let form = |file: &PathBuf| match replace::is_stream(file) {
+        true => Form::for_stream(file, args.to.as_deref(), USUAL_FORMAT),
+        // beside a stream --to is the stream's
+        false => Form::of(file, args.to.as_deref().filter(|_| !to_stream)),
+    };
+    let mut forms: Vec<Form> = args.output.iter().map(form).collect::<Result<_, _>>()?;
     let mut parameters = args.parameters.clone();
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
@@ -95,42 +108,38 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         Some(text) => stones::open(parameters.applied_to(text))?,
         None => stones::open(&args.stone)?,
     };
-    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
+    let mut notes: Vec<String> = imported.warnings.iter().map(|w| format!("note: {w}")).collect();
     let mut size = args.size.filter(|_| !has_size);
+    let substance = args.substance.within(&args.stone)?;
     if let Some(carats) = args.carat {
-        let weight = Weight::of(&args.substance.of(&imported.design));
+        let weight = Weight::of(&substance.of(&imported.design));
         let mm = weight::width_mm(&weight, &imported.design, carats)?;
-        console
-            .note(&format!("note: {carats} ct in {} is {mm:.3} mm wide", weight.name().unwrap_or_default()));
+        let name = weight.name().unwrap_or_default();
+        notes.push(format!("note: {carats} ct in {name} is {mm:.3} mm wide"));
         size = Some(mm);
     }
     let design = stones::sized(imported.design, size)?;
     let (made_up_of, facets) = families::made_up_of(&design)?;
 
-    let asked = args.substance.asked();
-    let index = asked.as_ref().map(Material::index_d).or(design.refractive_index);
-
+    let asked = substance.asked();
     let mut files = args.output.clone();
     if files.is_empty() {
         let mut name = stones::file_stem(&args.stone);
-        name.push(format!("-{facets}.obj"));
+        name.push(format!("-{facets}.{}", usual.ending()));
         files.push(name.into());
+        forms.push(usual);
     }
-    let encode = |file: &PathBuf| {
-        // the name of a pipe may have an ending that tells, that of a device has none
-        let is_nameless = replace::is_stream(file) && formats::written_to(file).is_err();
-        let drawing = Drawing::of(file).or_else(|| Drawing::named(&args.to).filter(|_| is_nameless));
-        if let Some(drawing) = drawing {
-            return drawing.bytes(&design, index, args.paper);
-        }
-        let format = if is_nameless { formats::written_as(&args.to) } else { formats::written_to(file) };
-        encoded(&design, asked.as_ref(), format.map_err(with_drawings)?.name, console)
-    };
-    let encoded: Vec<Vec<u8>> = files.iter().map(encode).collect::<Result<_, Failure>>()?;
+    let mut encoded: Vec<Vec<u8>> = Vec::new();
+    for form in forms {
+        let Encoded { bytes, remarks } = form.encoded(&design, asked.as_ref(), args.paper)?;
+        notes.extend(remarks.iter().map(|said| format!("note: {}: {said}", form.ending())));
+        encoded.push(bytes);
+    }
     let mut outputs = Outputs::beside([&args.stone], console);
     for (file, bytes) in files.iter().zip(&encoded) {
         outputs.claim(file, |there| outputs::holds(there, bytes))?;
     }
+    notes.iter().for_each(|note| console.note(note));
     for (file, bytes) in files.iter().zip(&encoded) {
         replace::write(file, bytes)?;
         if !replace::is_stdout(file) {
@@ -149,29 +158,6 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(Code::Done)
 }
 
-/// The bytes of a file of the stone; what had no room in it is noted.
-fn encoded(
-    design: &Design,
-    material: Option<&Material>,
-    format: &str,
-    console: &Console,
-) -> Result<Vec<u8>, Failure> {
-    let encoded = formats::encode_as(design, material, format)?;
-    encoded.remarks.iter().for_each(|said| console.note(&format!("note: {format}: {said}")));
-    Ok(encoded.bytes)
-}
-
-/// The same error with the endings of diagrams among those that are written.
-fn with_drawings(error: FormatError) -> FormatError {
-    match error {
-        FormatError::NoWriter { asked, mut known } => {
-            known.extend(drawing::ENDINGS);
-            FormatError::NoWriter { asked, known }
-        }
-        error => error,
-    }
-}
-
 /// Writes every stone of a folder into another.
 fn folder(args: &Args, console: &Console) -> Result<Code, Failure> {
     let stone = stones::shown(&args.stone);
@@ -181,5 +167,8 @@ fn folder(args: &Args, console: &Console) -> Result<Code, Failure> {
     if args.facets.is_some() || !args.parameters.0.is_empty() {
         return Err(Failure::input(format!("{stone} is a folder: its stones have no parameters to set")));
     }
-    import::run(&import::Args::of_folder(args.stone.clone(), output.clone(), &args.to, args.size), console)
+    let made = import::Made { carat: args.carat, paper: Some(args.paper), substance: args.substance };
+    let to = args.to.as_deref().unwrap_or(USUAL_FORMAT);
+    let args = import::Args::of_folder(args.stone.clone(), output.clone(), to, args.size, made);
+    import::run(&args, console)
 }

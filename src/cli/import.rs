@@ -3,12 +3,14 @@
 pub mod plan;
 
 use super::console::Console;
-use super::drawing::Drawing;
+use super::form::Form;
 use super::outcome::{self, Code, Failure};
 use super::outputs::{self, Outputs};
-use super::stones;
+use super::stones::{self, Substance};
+use super::weight;
 use crate::cut::Unit;
-use crate::formats::{self, Encoded, Format};
+use crate::formats::{self, Encoded};
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::store::terminal::in_line;
 use crate::store::{place, replace};
@@ -39,6 +41,20 @@ pub struct Args {
     /// Scale to this girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
     size: Option<f64>,
+    /// What `generate` sets beside, for the stones of a folder.
+    #[arg(skip)]
+    made: Made,
+}
+
+/// What `generate` sets, of which `import` has no options.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Made {
+    /// Weight in carats, in place of a size.
+    pub carat: Option<f64>,
+    /// Paper of cutting diagrams.
+    pub paper: Option<Paper>,
+    /// What the stones are made of.
+    pub substance: Substance,
 }
 
 /// What happened to one file.
@@ -60,40 +76,8 @@ struct Row {
 
 impl Args {
     /// Of everything in one folder into another.
-    pub fn of_folder(folder: OsString, output: PathBuf, to: &str, size: Option<f64>) -> Args {
-        Args { files: vec![folder], output, to: Some(to.to_owned()), size }
-    }
-}
-
-/// What a stone is written as.
-#[derive(Clone, Copy)]
-enum Written {
-    Format(&'static Format),
-    Drawing(Drawing),
-}
-
-impl Written {
-    fn named(name: &str) -> Result<Written, Failure> {
-        match Drawing::named(name) {
-            Some(drawing) => Ok(Written::Drawing(drawing)),
-            None => Ok(Written::Format(formats::written_as(name)?)),
-        }
-    }
-
-    fn to(path: &Path) -> Result<Written, Failure> {
-        match Drawing::of(path) {
-            Some(drawing) => Ok(Written::Drawing(drawing)),
-            None => Ok(Written::Format(formats::written_to(path)?)),
-        }
-    }
-
-    fn ending(self) -> &'static str {
-        match self {
-            Written::Format(format) => format.extensions.first().copied().unwrap_or(format.name),
-            Written::Drawing(Drawing::Svg) => "svg",
-            Written::Drawing(Drawing::Pdf) => "pdf",
-            Written::Drawing(Drawing::Png) => "png",
-        }
+    pub fn of_folder(folder: OsString, output: PathBuf, to: &str, size: Option<f64>, made: Made) -> Args {
+        Args { files: vec![folder], output, to: Some(to.to_owned()), size, made }
     }
 }
 
@@ -104,7 +88,7 @@ const PASSED_OVER: &str = "passed over";
 /// Reads every file and writes it again.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let to_output = replace::is_stdout(&args.output);
-    let (jobs, format) = plan(args)?;
+    let (jobs, form) = plan(args)?;
     let outputs = Outputs::beside(jobs.iter().map(|job| &job.stone), console);
     if !to_output {
         if let Some(job) = jobs.first() {
@@ -113,7 +97,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
         outcome::goes_on();
     }
-    let work = |job: &Job| import(job, args, format, &outputs, console);
+    let work = |job: &Job| import(job, args, form, &outputs, console);
     let mut results = stones::each(&jobs, console, "importing", work);
     let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
         Ok(row) => row.clone(),
@@ -145,7 +129,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// What is to be imported, and the format to write it in.
-fn plan(args: &Args) -> Result<(Vec<Job>, Written), Failure> {
+fn plan(args: &Args) -> Result<(Vec<Job>, Form), Failure> {
     let alone = args.files.len() == 1 && !Path::new(&args.files[0]).is_dir();
     let is_folder =
         args.output.is_dir() || (args.output.extension().is_none() && !replace::is_stream(&args.output));
@@ -156,29 +140,20 @@ fn plan(args: &Args) -> Result<(Vec<Job>, Written), Failure> {
             stones::shown(&args.output)
         )));
     }
-    let format = match &args.to {
-        Some(asked) => Written::named(asked)?,
-        None if replace::is_stream(&args.output) => {
-            Written::to(&args.output).or_else(|_| Written::named("toml"))?
-        }
-        None if to_file => Written::to(&args.output)?,
-        None => Written::named("toml")?,
+    let to = args.to.as_deref();
+    let form = match to_file && !replace::is_stream(&args.output) {
+        true => Form::of(&args.output, to)?,
+        false => Form::for_stream(&args.output, to, "toml")?,
     };
     if to_file {
         let job =
             |stone: &OsString| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
-        return Ok((args.files.iter().map(job).collect(), format));
+        return Ok((args.files.iter().map(job).collect(), form));
     }
-    Ok((plan::into_folder(&args.files, &args.output, format.ending())?, format))
+    Ok((plan::into_folder(&args.files, &args.output, form.ending())?, form))
 }
 
-fn import(
-    job: &Job,
-    args: &Args,
-    format: Written,
-    outputs: &Outputs,
-    console: &Console,
-) -> Result<Row, Failure> {
+fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Console) -> Result<Row, Failure> {
     let file = stones::shown(&job.stone);
     if job.by_chance {
         return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
@@ -197,7 +172,7 @@ fn import(
                 let unit = if scale.is_some() { Unit::Millimetre } else { Unit::Free };
                 let scale = scale.unwrap_or(1.0);
                 let name = stones::shown(stones::file_stem(&job.stone));
-                let Written::Format(format) = format else { return Err(failure) };
+                let (Form::Format(format), None) = (form, args.made.carat) else { return Err(failure) };
                 let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
                 let said = failure.message();
                 let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
@@ -215,16 +190,20 @@ fn import(
         },
         Ok(imported) => {
             let facets = imported.design.solid()?.faces.len();
-            let design = stones::sized(imported.design, args.size)?;
-            let mut warnings = imported.warnings;
-            let bytes = match format {
-                Written::Format(format) => {
-                    let Encoded { bytes, remarks } = formats::encode_as(&design, None, format.name)?;
-                    warnings.extend(remarks);
-                    bytes
+            let Made { carat, paper, substance } = args.made;
+            let substance = substance.within(&job.stone)?;
+            let size = match carat {
+                Some(carats) => {
+                    let weight = Weight::of(&substance.of(&imported.design));
+                    Some(weight::width_mm(&weight, &imported.design, carats)?)
                 }
-                Written::Drawing(drawing) => drawing.bytes(&design, design.refractive_index, Paper::A4)?,
+                None => args.size,
             };
+            let design = stones::sized(imported.design, size)?;
+            let paper = paper.unwrap_or(Paper::A4);
+            let mut warnings = imported.warnings;
+            let Encoded { bytes, remarks } = form.encoded(&design, substance.asked().as_ref(), paper)?;
+            warnings.extend(remarks);
             (bytes, Row { format: Some(imported.format), facets: Some(facets), warnings, ..Row::default() })
         }
     };

@@ -68,11 +68,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         _ => plan::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
     };
     let mut outputs = Outputs::beside(&specs, console);
-    args.substance.note_range(VISIBLE_UM.0, VISIBLE_UM.1, console);
     // every place is tried before the first report, which takes half a minute
     for folder in &folders {
         claim(folder, &mut outputs)?;
     }
+    let range = args.substance.range_note(VISIBLE_UM.0, VISIBLE_UM.1);
+    range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<Summary, Failure>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
         let result = one(stone, folder, args, console);

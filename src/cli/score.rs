@@ -81,7 +81,6 @@ struct Sort {
 /// Scores every stone and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(false, console);
     let order = order(args, &plan.metrics)?;
     let specs = folders::expanded(&args.stones)?;
     let mut outputs = Outputs::beside(&specs, console);
@@ -124,6 +123,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         total: specs.len() as u64 * each,
         layout: args.tilt.map(|_| layout(&specs, &axes)),
         order,
+        notes: args.scoring.notes(false),
         what: "scoring",
         line: &|i, form| {
             let spec = &specs[(i / each) as usize];

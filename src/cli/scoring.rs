@@ -65,11 +65,11 @@ impl Scoring {
         self.exact
     }
 
-    /// Says once what of the material asked for is a guess: its index, or the size of stones that
-    /// have none.
+    /// What of the material asked for is a guess: its index, or the size of stones that have none.
+    /// Commands say it once nothing is refused any more.
     ///
     /// - `sized`: whether all stones have a size
-    pub fn notes(&self, sized: bool, console: &Console) {
+    pub fn notes(&self, sized: bool) -> Vec<String> {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
         let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
@@ -77,18 +77,18 @@ impl Scoring {
             (false, true) => (lines::G, lines::B),
             (false, false) => (lines::D, lines::D),
         };
-        self.substance.note_range(from, to, console);
-        if let Some(n) = self.substance.ri.filter(|n| *n > HIGH_INDEX) {
-            console.note(&format!(
+        let range = self.substance.range_note(from, to);
+        let high = self.substance.ri.filter(|n| *n > HIGH_INDEX).map(|n| {
+            format!(
                 "note: light stays in a stone of n = {n} for thousands of facets: its scores take long, a tenth as \
                  long with --error 0.01"
-            ));
-        }
-        if !sized && self.size.is_none() && coloured {
+            )
+        });
+        let size = (!sized && self.size.is_none() && coloured).then(|| {
             let mm = stones::USUAL_SIZE;
-            console
-                .note(&format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it"));
-        }
+            format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it")
+        });
+        range.into_iter().chain(high).chain(size).collect()
     }
 
     /// The plan that was asked for.

@@ -223,11 +223,9 @@ impl Substance {
         Ok(if own.material.is_some() || own.ri.is_some() { own } else { *self })
     }
 
-    /// Says once if the index of the material asked for is a guess within `from`..=`to` (µm).
-    pub fn note_range(&self, from: f64, to: f64, console: &Console) {
-        if let Some(guess) = self.material.and_then(|m| m.extrapolated(from, to)) {
-            console.note(&format!("note: {guess}"));
-        }
+    /// What to say if the index of the material asked for is a guess within `from`..=`to` (µm).
+    pub fn range_note(&self, from: f64, to: f64) -> Option<String> {
+        Some(format!("note: {}", self.material?.extrapolated(from, to)?))
     }
 
     /// What was asked for on the command line, if anything.

@@ -63,7 +63,6 @@ fn scattered(text: &str) -> Result<u64, String> {
 /// Scores every point and writes the table.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
-    args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE), console);
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
     let mut command = format!("cutlab sweep {}", quoted(&stones::shown(&args.stone)));
@@ -95,6 +94,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         total,
         layout: Some(layout),
         order: None,
+        notes: args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE)),
         what: "sweeping",
         line: &|i, form| {
             let point = sweep.point(i);

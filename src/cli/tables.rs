@@ -68,6 +68,8 @@ pub struct Study<'a> {
     pub layout: Option<Layout>,
     /// How its rows are sorted, if they are.
     pub order: Option<Order>,
+    /// What to say before the work.
+    pub notes: Vec<String>,
     /// Word for the progress bar.
     pub what: &'static str,
     /// Makes a row.
@@ -132,11 +134,14 @@ impl Study<'_> {
             line: &|i| (self.line)(i, form),
             tell: &tell,
         };
+        let say_notes = || self.notes.iter().for_each(|note| console.note(note));
         if replace::is_stream(output) {
+            say_notes();
             return self.stream(&batch, output, plots, console, &bar);
         }
         let begun = batch.is_begun(output);
         self.claim(table, begun, outputs)?;
+        say_notes();
         if let Some(part) = self.already(table, begun, console) {
             return self.reused(&part, plots, console);
         }

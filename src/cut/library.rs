@@ -5,6 +5,7 @@ use super::document::{Document, DocumentError};
 use super::families::FAMILIES;
 use crate::math::typed;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 include!(concat!(env!("OUT_DIR"), "/embedded_cuts.rs"));
 
@@ -30,12 +31,21 @@ pub fn source(name: &str) -> Option<&'static str> {
 
 /// The cut that is the family called `family` as it comes, with no parameter changed.
 pub fn plain(family: &str) -> Option<&'static str> {
-    let is_plain = |name: &&str| match document(name) {
-        Some(Ok(document)) => document.family.as_deref() == Some(family) && document.parameters.is_empty(),
-        _ => false,
-    };
-    names().find(is_plain)
+    PLAIN.iter().find(|(own, _)| own == family).map(|(_, name)| *name)
 }
+
+/// The families that are cuts as they come, each with its first; found once, as every start asks for all
+/// of them.
+static PLAIN: LazyLock<Vec<(String, &str)>> = LazyLock::new(|| {
+    // the other cuts are long, and are not parsed for this
+    let names_family = |text: &str| text.lines().any(|line| line.trim_start().starts_with("family"));
+    let of_family = EMBEDDED_CUTS.iter().filter(|(_, text)| names_family(text));
+    let plain = of_family.filter_map(|(name, text)| {
+        let document = Document::parse(text).ok()?;
+        Some((document.family.filter(|_| document.parameters.is_empty())?, *name))
+    });
+    plain.collect()
+});
 
 /// Names that no cut can have: what is asked for, why not, and the cut nearest to it.
 const IMPOSSIBLE: &[(&str, &str, &str)] = &[(

@@ -71,6 +71,21 @@ impl Case {
         by_default || ["output", "beams", "diagram"].iter().any(|id| self.values(id).contains(&"-"))
     }
 
+    /// The same without some options.
+    pub fn without(&self, ids: &[&str]) -> Case {
+        ids.iter().fold(self.clone(), |case, id| case.with(id, &[]))
+    }
+
+    /// Whether it takes seconds: a page.
+    pub fn is_dear(&self) -> bool {
+        self.command == "report" || (self.command == "compare" && self.values("output").contains(&"out"))
+    }
+
+    /// Whether its rows have scores, of which some may be missing.
+    pub fn gives_scores(&self) -> bool {
+        self.makes_table() || self.command == "compare"
+    }
+
     /// Whether it makes or joins a table of scores.
     pub fn makes_table(&self) -> bool {
         ["score", "sweep", "merge"].contains(&self.command.as_str())

@@ -38,16 +38,56 @@ pub fn is_in(row: &[usize], pair: &(Choice, Choice)) -> bool {
     row[pair.0.0] == pair.0.1 && row[pair.1.0] == pair.1.1
 }
 
-/// Rows that hold all of `open` together, none of which holds one of `refused`. What no row can hold is
-/// taken out of `open`.
+/// Choices that no row may have together.
+#[derive(Debug, Default)]
+pub struct Refused {
+    pairs: HashSet<(Choice, Choice)>,
+    /// Three and more.
+    larger: Vec<Vec<Choice>>,
+}
+
+impl Refused {
+    /// Adds a pair; whether it is new.
+    pub fn pair(&mut self, a: Choice, b: Choice) -> bool {
+        self.pairs.insert(pair(a, b))
+    }
+
+    /// Adds two choices or more; whether they are new.
+    pub fn all_of(&mut self, mut choices: Vec<Choice>) -> bool {
+        choices.sort_unstable();
+        if let [a, b] = choices[..] {
+            return self.pair(a, b);
+        }
+        let new = !self.larger.contains(&choices);
+        self.larger.extend(new.then_some(choices));
+        new
+    }
+
+    /// Whether the pair alone is refused.
+    pub fn has(&self, pair: &(Choice, Choice)) -> bool {
+        self.pairs.contains(pair)
+    }
+
+    /// Whether a row has choices that are refused together.
+    pub fn refuses(&self, row: &[usize]) -> bool {
+        pairs_in(row).any(|p| self.has(&p))
+            || self.larger.iter().any(|all| all.iter().all(|c| row[c.0] == c.1))
+    }
+
+    /// Whether `choice` may stand beside what is chosen.
+    fn allows(&self, chosen: &[Option<usize>], choice: Choice) -> bool {
+        let is_chosen = |c: &Choice| *c == choice || chosen[c.0] == Some(c.1);
+        let mut others = chosen.iter().enumerate().filter_map(|(f, level)| level.map(|l| (f, l)));
+        others.all(|o| !self.has(&pair(o, choice)))
+            && !self.larger.iter().any(|all| all.contains(&choice) && all.iter().all(is_chosen))
+    }
+}
+
+/// Rows that hold all of `open` together, none of which is refused. What no row can hold is left out.
 ///
 /// Greedy: each row begins with the first open pair, and every further factor takes the level that
 /// closes the most.
-pub fn rows(
-    factors: &[Factor],
-    open: &HashSet<(Choice, Choice)>,
-    refused: &HashSet<(Choice, Choice)>,
-) -> Vec<Row> {
+pub fn rows(factors: &[Factor], open: &HashSet<(Choice, Choice)>, refused: &Refused) -> Vec<Row> {
     let mut open = open.clone();
     let mut rows = Vec::new();
     while let Some(first) = open.iter().min().copied() {
@@ -64,15 +104,14 @@ fn row(
     factors: &[Factor],
     first: (Choice, Choice),
     open: &HashSet<(Choice, Choice)>,
-    refused: &HashSet<(Choice, Choice)>,
+    refused: &Refused,
 ) -> Option<Row> {
+    if refused.has(&first) {
+        return None;
+    }
     let mut chosen: Vec<Option<usize>> = vec![None; factors.len()];
     let mut order: Vec<usize> = vec![first.0.0, first.1.0];
     order.extend((0..factors.len()).filter(|f| *f != first.0.0 && *f != first.1.0));
-    let fits = |chosen: &[Option<usize>], choice: Choice| {
-        let other = |(f, level): (usize, &Option<usize>)| level.map(|l| (f, l));
-        chosen.iter().enumerate().filter_map(other).all(|o| !refused.contains(&pair(o, choice)))
-    };
     let gain = |chosen: &[Option<usize>], choice: Choice| {
         let other = |(f, level): (usize, &Option<usize>)| level.map(|l| (f, l));
         chosen.iter().enumerate().filter_map(other).filter(|o| open.contains(&pair(*o, choice))).count()
@@ -92,7 +131,7 @@ fn row(
             Some(level) => vec![level],
             None => (0..factors[factor].levels.len()).collect(),
         };
-        levels.retain(|l| !tried[at].contains(l) && fits(&chosen, (factor, *l)));
+        levels.retain(|l| !tried[at].contains(l) && refused.allows(&chosen, (factor, *l)));
         let best = levels.into_iter().max_by_key(|l| (gain(&chosen, (factor, *l)), usize::MAX - l));
         match best {
             Some(level) => {
@@ -120,18 +159,24 @@ fn arrays_hold_every_pair_but_the_refused() {
     let factors = [factor("a", 3), factor("b", 2), factor("c", 4), factor("d", 2)];
     let all = pairs(&factors);
     assert_eq!(all.len(), 3 * 2 + 3 * 4 + 3 * 2 + 2 * 4 + 2 * 2 + 4 * 2);
-    let refused: HashSet<_> = [((0, 1), (1, 0)), ((1, 1), (2, 3))].into();
-    let open = all.difference(&refused).copied().collect();
+    let mut refused = Refused::default();
+    refused.pair((0, 1), (1, 0));
+    refused.pair((2, 3), (1, 1));
+    refused.all_of(vec![(3, 1), (2, 0), (0, 2)]);
+    let open: HashSet<_> = all.iter().copied().filter(|p| !refused.has(p)).collect();
     let made = rows(&factors, &open, &refused);
     let held: HashSet<_> = made.iter().flat_map(|r| pairs_in(r)).collect();
-    // the pairs of all the rows without a refused pair, one row after another
+    // the pairs of all the rows that are not refused, one row after another
     let of = |n: usize| -> Row { vec![n % 3, n / 3 % 2, n / 6 % 4, n / 24] };
-    let allowed = (0..3 * 2 * 4 * 2).map(of).filter(|r| pairs_in(r).all(|p| !refused.contains(&p)));
+    let allowed = (0..3 * 2 * 4 * 2).map(of).filter(|r| !refused.refuses(r));
     let possible: HashSet<_> = allowed.flat_map(|r| pairs_in(&r).collect::<Vec<_>>()).collect();
     // a = 1 leaves b = 1 alone and c = 3 leaves b = 0 alone, so that no row can hold both
     let impossible: HashSet<_> = open.difference(&possible).copied().collect();
     assert_eq!(impossible, HashSet::from([((0, 1), (2, 3))]));
     assert_eq!(held, possible);
+    assert!(made.iter().all(|r| !refused.refuses(r)));
+    // three are refused together, and each two of them are held
+    assert!([((0, 2), (2, 0)), ((2, 0), (3, 1)), ((0, 2), (3, 1))].iter().all(|p| held.contains(p)));
     // each of the 11 pairs of a and c that are possible needs a row of its own
     assert!((11..=15).contains(&made.len()), "{}", made.len());
 }

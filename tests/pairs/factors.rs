@@ -36,7 +36,7 @@ pub fn of(command: &Command) -> Result<Vec<Factor>, String> {
         factors.push(Factor { id: id.into(), levels, positional: arg.is_positional() });
     }
     if command.get_arguments().any(|a| a.get_help_heading() == Some(OF_THE_CUT)) {
-        parameters(&mut factors);
+        parameters(command, &mut factors)?;
     }
     Ok(factors)
 }
@@ -60,15 +60,38 @@ fn values(command: &str, arg: &Arg) -> Option<Vec<Vec<String>>> {
     (!words.is_empty()).then(|| words.iter().map(|word| given(&[word])).collect())
 }
 
-/// The stone of `generate`, with each parameter that its family has: all but a few pairs of parameters
-/// belong to different families, and are refused.
-fn parameters(factors: &mut [Factor]) {
-    let Some(stone) = factors.iter_mut().find(|f| f.id == "stone") else { return };
+/// The stone of `generate` as each family, with all of its parameters: those of different families do not go
+/// together, and one by one they would have more pairs than all other options.
+fn parameters(command: &Command, factors: &mut [Factor]) -> Result<(), String> {
+    let Some(stone) = factors.iter_mut().find(|f| f.id == "stone") else { return Ok(()) };
+    stone.positional = false;
+    let flag = |key: &str| format!("--{key}");
     for family in FAMILIES {
-        for parameter in family.parameters.iter().filter(|p| p.key != "size") {
-            let flag = format!("--{}", parameter.key);
-            stone.levels.push(vec![family.name.into(), flag, parameter.default.to_string()]);
+        let own = family.parameters.iter().filter(|p| p.key != "size");
+        let values = own.flat_map(|p| [flag(p.key), p.default.to_string()]);
+        stone.levels.push(std::iter::once(family.name.into()).chain(values).collect());
+        if !family.heights.is_empty() {
+            let values = samples::HEIGHTS.iter().flat_map(|(key, value)| [flag(key), value.to_string()]);
+            stone.levels.push(std::iter::once(family.name.into()).chain(values).collect());
         }
     }
-    stone.positional = false;
+    let of_the_cut = command.get_arguments().filter(|a| a.get_help_heading() == Some(OF_THE_CUT));
+    let mut flags = of_the_cut.filter_map(|a| a.get_long()).map(flag);
+    let untried = flags.find(|f| !stone.levels.iter().any(|words| words.contains(f)));
+    untried.map_or(Ok(()), Err)
+}
+
+#[test]
+fn an_option_without_values_to_try_is_named() {
+    let known = Arg::new("seed").long("seed").value_name("N");
+    let new = Arg::new("sparkle").long("sparkle").value_name("AMOUNT");
+    let flag = Arg::new("shiny").long("shiny").action(clap::ArgAction::SetTrue);
+    let built = |args: &[&Arg]| {
+        let mut command = Command::new("score").args(args.iter().copied().cloned());
+        command.build();
+        command
+    };
+    let factors = of(&built(&[&known, &flag])).expect("both have values");
+    assert_eq!(factors.iter().map(|f| f.levels.len()).collect::<Vec<_>>(), [2, 2]);
+    assert!(of(&built(&[&known, &flag, &new])).is_err_and(|e| e.contains("--sparkle")));
 }

@@ -9,7 +9,9 @@ use std::path::Path;
 ///
 /// - `inputs`: in a folder of which designs and meshes are shown
 pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
-    let ending = name.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+    // a file without ending is what it begins as
+    let ending =
+        name.extension().map_or_else(|| sniffed(bytes, "").into(), |e| e.to_string_lossy().to_lowercase());
     let said = |e: &dyn std::fmt::Display| Some(format!("{ending}: {e}"));
     if bytes.is_empty() {
         return Some(format!("{ending}: empty"));
@@ -36,7 +38,13 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
             let text = String::from_utf8_lossy(bytes);
             roxmltree::Document::parse(&text).err().and_then(|e| said(&e))
         }
-        "html" => (!text(bytes).trim_end().ends_with("</html>")).then(|| "html: no end".into()),
+        "html" => {
+            // behind the end the page records the command that made it
+            let text = text(bytes);
+            let (page, record) = text.rsplit_once("</html>").unwrap_or_default();
+            let ends = record.trim().is_empty() || record.trim().starts_with("<?cutlab-command ");
+            (page.is_empty() || !ends).then(|| "html: no end".into())
+        }
         "pdf" => {
             let whole = bytes.starts_with(b"%PDF") && text(bytes).trim_end().ends_with("%%EOF");
             (!whole).then(|| "pdf: no begin or no end".into())
@@ -73,7 +81,7 @@ fn png(bytes: &[u8]) -> Option<String> {
 
 /// What `show` says against a design or a mesh.
 fn shown(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
-    let bench = Bench::new(inputs);
+    let bench = Bench::new(inputs, &[]);
     let file = Path::new("written").with_extension(name.extension().unwrap_or_default());
     std::fs::write(bench.path().join(&file), bytes).expect("writes");
     // a glTF has its numbers in itself or beside it, and is read alike

@@ -14,12 +14,16 @@ mod case;
 mod covering;
 mod factors;
 mod files;
+mod numbers;
 mod oracles;
+mod outputs;
+mod report;
 mod samples;
 mod search;
 mod tables;
 
-use search::{Report, Search};
+use report::Report;
+use search::Search;
 
 /// The commands to run: those that the environment names, or all.
 fn commands() -> Vec<clap::Command> {

@@ -12,10 +12,14 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("score", "error"),
     ("sweep", "metrics"),
     ("sweep", "error"),
+    ("report", "stones"),
     ("compare", "metrics"),
     ("compare", "error"),
     ("validate", "only"),
 ];
+
+/// Heights of a brilliant that go together.
+pub const HEIGHTS: [(&str, &str); 3] = [("depth", "61.5"), ("crown-height", "15"), ("pavilion-depth", "43")];
 
 /// Values of an option: of that command, or of every command (`*`), by the option's name or by the
 /// name of its value. Arguments without a name have several words a value; of an option each word is
@@ -24,7 +28,11 @@ type Sample = (&'static str, &'static str, &'static [&'static [&'static str]]);
 
 const SAMPLES: &[Sample] = &[
     // stones
-    ("generate", "stone", &[&["round-brilliant"], &["a.asc"], &["-"], &["classic"], &["oval:table=55"]]),
+    (
+        "generate",
+        "stone",
+        &[&["round-brilliant"], &["a.asc"], &["-"], &["classic"], &["oval:table=55"], &["d"]],
+    ),
     ("import", "files", &[&["b.gem"], &["d"], &["a.asc", "o.stl"], &["cube"]]),
     ("show", "stones", &[&["a.asc"], &["round-brilliant", "b.gem"], &["o.stl"], &["-"], &["d"]]),
     ("render", "stones", &[&["a.asc"], &["octahedron"], &["classic"], &["-"]]),
@@ -40,15 +48,21 @@ const SAMPLES: &[Sample] = &[
         ],
     ),
     ("sweep", "stone", &[&["round-brilliant:facets=73"], &["a.asc"], &["oval"]]),
-    ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"]]),
-    ("report", "stones", &[&["b.gem"], &["cube", "o.stl"]]),
+    ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"], &["d"]]),
+    ("report", "stones", &[&["a.asc"], &["cube", "o.stl"]]),
     (
         "merge",
         "parts",
-        &[&["p1.csv", "p2.csv"], &["p*.csv"], &["q1.jsonl", "q2.jsonl"], &["r2.json", "r1.json"]],
+        &[
+            &["p1.csv", "p2.csv"],
+            &["p*.csv"],
+            &["q1.jsonl", "q2.jsonl"],
+            &["r2.json", "r1.json"],
+            &["v1.csv", "v2.csv"],
+        ],
     ),
     // where to write
-    ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"]]),
+    ("generate", "output", &[&["x.obj"], &["x.svg"], &["x.toml", "x.png"], &["-"], &["x.glb"], &["out"]]),
     ("import", "output", &[&["x.asc"], &["out"], &["-"]]),
     (
         "render",
@@ -66,7 +80,7 @@ const SAMPLES: &[Sample] = &[
         ],
     ),
     ("*", "output", &[&["x.csv"], &["x.jsonl"], &["x.json"], &["-"]]),
-    ("compare", "output", &[&["out"], &["x.md"], &["x.csv"]]),
+    ("compare", "output", &[&["out"], &["x.md"], &["x.csv"], &["-"]]),
     ("report", "output", &[&["out"]]),
     ("validate", "output", &[&["out"]]),
     ("show", "beams", &[&["beams.svg"], &["-"]]),
@@ -75,7 +89,7 @@ const SAMPLES: &[Sample] = &[
     ("sweep", "plot", &[&["plot.svg"], &["iso.png", "spread.svg"]]),
     ("score", "plot", &[&["tilt.svg"]]),
     ("merge", "plot", &[&["plot.svg"]]),
-    ("plot", "table", &[&["w.csv"]]),
+    ("plot", "table", &[&["w.csv"], &["m.json"], &["t.jsonl"]]),
     ("plot", "output", &[&["w.svg"], &["iso.png", "spread.svg"]]),
     // formats
     ("import", "to", &[&["stl"], &["asc"], &["gem"], &["gltf"]]),
@@ -123,15 +137,16 @@ const SAMPLES: &[Sample] = &[
     ("*", "seed", &[&["7"]]),
     ("*", "threads", &[&["2"]]),
     // pictures
-    ("render", "scene", &[&["scene.toml"], &["table"], &["spot"]]),
+    ("render", "scene", &[&["scene.toml"], &["table"], &["daylight"]]),
     ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),
-    ("render", "width", &[&["8"], &["12"]]),
-    ("render", "height", &[&["9"]]),
+    ("render", "width", &[&["16"], &["24"]]),
+    ("render", "height", &[&["18"]]),
     ("render", "spp", &[&["1"], &["2"]]),
     ("render", "photons", &[&["100"], &["200"]]),
     ("render", "nearest", &[&["20"]]),
     ("render", "rounds", &[&["2"]]),
-    ("render", "time", &[&["1ms"]]),
+    // over with the first round: how many rounds a longer time has is of no command line
+    ("render", "time", &[&["1us"]]),
     ("render", "noise", &[&["400%"]]),
     ("render", "frames", &[&["2"]]),
     ("render", "fps", &[&["5"]]),

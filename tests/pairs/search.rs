@@ -1,54 +1,18 @@
-//! Which cases are run, which pairs are refused, and which choices a failure needs.
+//! Which cases are run, which choices are refused, and which choices a failure needs.
 
-use crate::bench::Inputs;
+use crate::bench::{Bench, Inputs};
 use crate::case::Case;
-use crate::covering::{self, Choice, Row};
+use crate::covering::{self, Choice, Refused, Row};
 use crate::factors::Factor;
 use crate::oracles::{self, Verdict};
+use crate::report::Report;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
-/// Rounds of finding refused pairs: each finds all that the last one's rows ran into.
+/// Rounds of finding what is refused: each finds all that the last one's rows ran into.
 const ROUNDS: usize = 12;
-
-/// What was found over all commands.
-#[derive(Debug, Default)]
-pub struct Report {
-    cases: usize,
-    pairs: usize,
-    refused: usize,
-    failures: usize,
-    /// Each kind of failure: how many cases have it, and the smallest command that shows it.
-    pub kinds: BTreeMap<String, (usize, String)>,
-}
-
-impl Report {
-    /// Counts a failure.
-    pub fn failed(&mut self, command: &str, oracle: &str, example: &str) {
-        self.failures += 1;
-        self.kinds.entry(format!("{command}: {oracle}")).or_insert((0, example.into())).0 += 1;
-    }
-
-    /// The figures in one line.
-    pub fn summary(&self) -> String {
-        format!(
-            "{} pairs, {} refusals, {} cases, {} failures of {} kinds",
-            self.pairs,
-            self.refused,
-            self.cases,
-            self.failures,
-            self.kinds.len()
-        )
-    }
-
-    /// The kinds, one a line.
-    pub fn text(&self) -> String {
-        let line =
-            |(kind, (n, example)): (&String, &(usize, String))| format!("{n:4} × {kind}\n       {example}\n");
-        format!("{}\n{}", self.summary(), self.kinds.iter().map(line).collect::<String>())
-    }
-}
 
 /// A failure of a kind that is known: it needs these choices.
 struct Known {
@@ -62,7 +26,7 @@ pub struct Search<'a> {
     factors: Vec<Factor>,
     inputs: &'a Inputs,
     parser: clap::Command,
-    refused: HashSet<(Choice, Choice)>,
+    refused: Refused,
     /// The smallest refused rows.
     refusals: Vec<Row>,
     known: Vec<Known>,
@@ -78,7 +42,7 @@ impl<'a> Search<'a> {
             factors,
             inputs,
             parser,
-            refused: HashSet::new(),
+            refused: Refused::default(),
             refusals: Vec::new(),
             known: Vec::new(),
         }
@@ -94,16 +58,19 @@ impl<'a> Search<'a> {
         self.parser.clone().try_get_matches_from(words).is_err()
     }
 
+    /// Whether the program refuses the command line, which it does at once.
     fn is_refused(&self, row: &[usize]) -> bool {
-        self.is_misspelt(row) || oracles::judge(&self.case(row), self.inputs) == Verdict::Refused
+        let words = self.case(row).words();
+        self.is_misspelt(row)
+            || Bench::new(self.inputs, &words).run_for(&words, 1, oracles::AT_ONCE).code == Some(2)
     }
 
     /// Runs the cases that are kept, by command and number.
     pub fn run(mut self, keep: &impl Fn(&str, usize) -> bool, report: &mut Report) {
-        let all = covering::pairs(&self.factors);
-        report.pairs += all.len();
+        let start = Instant::now();
+        let mut open = covering::pairs(&self.factors);
+        report.begins(self.command, open.len());
         let whole = keep(self.command, 0) && keep(self.command, 1);
-        let mut open = all;
         let mut number = 0;
         for _ in 0..ROUNDS {
             let rows = self.spelt(&open);
@@ -115,12 +82,12 @@ impl<'a> Search<'a> {
                 })
                 .collect();
             let verdicts = self.judged(&kept);
-            report.cases += kept.len();
+            report.ran(kept.len());
             let mut learned = false;
             for (row, verdict) in kept.iter().zip(verdicts) {
                 match verdict {
                     Verdict::Refused if whole => {
-                        let held = covering::pairs_in(row).any(|p| self.refused.contains(&p));
+                        let held = self.refused.refuses(row);
                         learned |= held || self.learn(row, &|s, row| s.is_refused(row), report);
                     }
                     Verdict::Refused => (),
@@ -132,7 +99,7 @@ impl<'a> Search<'a> {
                     }
                 }
             }
-            open.retain(|p| !self.refused.contains(p));
+            open.retain(|p| !self.refused.has(p));
             if !learned || open.is_empty() {
                 break;
             }
@@ -140,17 +107,17 @@ impl<'a> Search<'a> {
         if whole {
             self.check_refusals(report);
         }
+        report.ends(self.command, start.elapsed());
     }
 
     /// Rows that the definition of the command line allows.
     fn spelt(&mut self, open: &HashSet<(Choice, Choice)>) -> Vec<Row> {
         loop {
-            let open = open.difference(&self.refused).copied().collect();
+            let open = open.iter().copied().filter(|p| !self.refused.has(p)).collect();
             let rows = covering::rows(&self.factors, &open, &self.refused);
             let mut learned = false;
             for row in &rows {
-                let known = covering::pairs_in(row).any(|p| self.refused.contains(&p));
-                if !known && self.is_misspelt(row) {
+                if !self.refused.refuses(row) && self.is_misspelt(row) {
                     learned |= self.learn(row, &|s, row| s.is_misspelt(row), &mut Report::default());
                 }
             }
@@ -160,16 +127,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What becomes of each row, two at a time.
+    /// What becomes of each row, one on each core at a time.
     fn judged(&self, rows: &[Row]) -> Vec<Verdict> {
         let (next, done) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
+        let cores = std::thread::available_parallelism().map_or(2, usize::from);
         std::thread::scope(|scope| {
-            for _ in 0..2 {
+            for _ in 0..cores {
                 scope.spawn(|| {
                     loop {
                         let i = next.fetch_add(1, Ordering::Relaxed);
                         let Some(row) = rows.get(i) else { break };
-                        let verdict = oracles::judge(&self.case(row), self.inputs);
+                        let verdict = oracles::judge(&self.case(row), i, self.inputs);
                         done.lock().expect("no judge fails").insert(i, verdict);
                     }
                 });
@@ -191,7 +159,7 @@ impl<'a> Search<'a> {
         smallest
     }
 
-    /// Learns which pair of a refused row is refused; whether it learned anything.
+    /// Learns which choices of a refused row are refused together; whether it learned anything.
     fn learn(
         &mut self,
         row: &[usize],
@@ -200,56 +168,74 @@ impl<'a> Search<'a> {
     ) -> bool {
         let smallest = self.smallest(row, refuses);
         let needs: Vec<Choice> = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
-        let (before, line) = (self.refused.len(), self.case(&smallest).line());
-        match needs[..] {
-            [] => report.failed(self.command, &format!("the command alone is refused: {line}"), ""),
-            [one] => {
-                // what it wants beside it: another option that is at rest here
-                let mut rescued = false;
-                for other in (0..self.factors.len()).filter(|f| *f != one.0) {
-                    let levels = 0..self.factors[other].levels.len();
-                    let with = |level: usize| {
-                        let mut row = smallest.clone();
-                        row[other] = level;
-                        refuses(self, &row)
-                    };
-                    let bad: Vec<usize> = levels.clone().filter(|level| with(*level)).collect();
-                    if bad.len() < levels.len() {
-                        rescued = true;
-                        self.refused.extend(bad.iter().map(|l| covering::pair(one, (other, *l))));
-                    }
-                }
-                if !rescued {
-                    report.failed(self.command, &format!("a value that is always refused: {line}"), "");
-                    let others = (0..self.factors.len()).filter(|f| *f != one.0);
-                    let pairs = others.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
-                    self.refused.extend(pairs.map(|other| covering::pair(one, other)));
-                }
+        let line = self.case(&smallest).line();
+        let learned = match needs[..] {
+            [] => {
+                report.failed(self.command, &format!("the command alone is refused: {line}"), "");
+                false
             }
-            [a, b] => drop(self.refused.insert(covering::pair(a, b))),
-            // three that do not go together: the first two are not tried together again
-            [a, b, ..] => drop(self.refused.insert(covering::pair(a, b))),
-        }
+            [one] => self.learn_alone(one, &smallest, refuses, report),
+            _ => self.refused.all_of(needs),
+        };
         self.refusals.push(smallest);
-        self.refused.len() > before
+        learned
+    }
+
+    /// Learns what a choice wants beside it that is refused alone: an option that is at rest in `row`.
+    fn learn_alone(
+        &mut self,
+        one: Choice,
+        row: &[usize],
+        refuses: &dyn Fn(&Self, &[usize]) -> bool,
+        report: &mut Report,
+    ) -> bool {
+        let with = |s: &Self, choice: Choice| {
+            let mut row = row.to_vec();
+            row[choice.0] = choice.1;
+            refuses(s, &row)
+        };
+        let mut wanted: Vec<(usize, Vec<usize>)> = Vec::new();
+        for other in (0..self.factors.len()).filter(|f| *f != one.0) {
+            let levels = 0..self.factors[other].levels.len();
+            let bad: Vec<usize> = levels.clone().filter(|level| with(self, (other, *level))).collect();
+            if bad.len() < levels.len() {
+                wanted.push((other, bad));
+            }
+        }
+        match &wanted[..] {
+            [] => {
+                let line = self.case(row).line();
+                report.failed(self.command, &format!("a value that is always refused: {line}"), "");
+                let others = (0..self.factors.len()).filter(|f| *f != one.0);
+                let pairs = others.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
+                pairs.map(|other| self.refused.pair(one, other)).fold(false, |a, b| a | b)
+            }
+            [(other, bad)] => {
+                bad.iter().map(|l| self.refused.pair(one, (*other, *l))).fold(false, |a, b| a | b)
+            }
+            several => {
+                let at_rest = several.iter().map(|(f, _)| (*f, 0));
+                self.refused.all_of(std::iter::once(one).chain(at_rest).collect())
+            }
+        }
     }
 
     /// Counts a fault under the smallest set of choices that has it.
     fn count(&mut self, row: &[usize], fault: oracles::Fault, report: &mut Report) {
         let has = |needs: &[Choice]| needs.iter().all(|(f, level)| row[*f] == *level);
-        if !self.known.iter().any(|k| k.oracle == fault.oracle && has(&k.needs)) {
-            let still = |s: &Self, row: &[usize]| match oracles::judge(&s.case(row), s.inputs) {
-                Verdict::Bad(faults) => faults.iter().any(|f| f.oracle == fault.oracle),
-                _ => false,
-            };
-            let smallest = self.smallest(row, &still);
-            let needs = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
-            let line = self.case(&smallest).line();
-            self.known.push(Known { oracle: fault.oracle, needs });
-            report.failed(self.command, &format!("{}: {line}", fault.oracle), &fault.found);
+        if self.known.iter().any(|k| k.oracle == fault.oracle && has(&k.needs)) {
+            report.again();
             return;
         }
-        report.failures += 1;
+        let still = |s: &Self, row: &[usize]| match oracles::judge(&s.case(row), 0, s.inputs) {
+            Verdict::Bad(faults) => faults.iter().any(|f| f.oracle == fault.oracle),
+            _ => false,
+        };
+        let smallest = if self.case(row).is_dear() { row.to_vec() } else { self.smallest(row, &still) };
+        let needs = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
+        let line = self.case(&smallest).line();
+        self.known.push(Known { oracle: fault.oracle, needs });
+        report.failed(self.command, &format!("{}: {line}", fault.oracle), &fault.found);
     }
 
     /// Every refusal that was found is one line, at once, and nothing is done.
@@ -257,7 +243,7 @@ impl<'a> Search<'a> {
         self.refusals.sort();
         self.refusals.dedup();
         let rows = std::mem::take(&mut self.refusals);
-        report.refused += rows.len();
+        report.refused(rows.len());
         for (row, verdict) in rows.iter().zip(self.judged(&rows)) {
             if let Verdict::Bad(faults) = verdict {
                 faults.into_iter().for_each(|f| self.count(row, f, report));

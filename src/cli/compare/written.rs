@@ -30,28 +30,36 @@ struct Measure {
     name: &'static str,
     unit: &'static str,
     values: Vec<Option<f64>>,
+    /// Why a stone may have none.
+    why: &'static str,
 }
 
 impl Compared<'_> {
     /// Proportions and weight.
     fn measures(&self) -> Vec<Measure> {
         type Of = fn(&proportions::Proportions, &Request) -> Option<f64>;
-        let all: [(&str, &str, Of); 10] = [
-            ("width", "mm", |p, _| Some(p.width)),
-            ("length_to_width", "", |p, _| Some(p.length / p.width)),
-            ("table", "%", |p, _| p.table_percent),
-            ("crown_angle", "°", |p, _| p.crown_angle_deg),
-            ("crown_height", "%", |p, _| Some(p.crown_height_percent)),
-            ("pavilion_angle", "°", |p, _| p.pavilion_angle_deg),
-            ("pavilion_depth", "%", |p, _| Some(p.pavilion_depth_percent)),
-            ("girdle", "%", |p, _| Some(p.girdle_percent)),
-            ("depth", "%", |p, _| Some(p.depth_percent)),
-            ("weight", "ct", |p, request| Weight::of(&request.material).carats(p.volume)),
+        let all: [(&str, &str, Of, &str); 10] = [
+            ("width", "mm", |p, _| Some(p.width), ""),
+            ("length_to_width", "", |p, _| Some(p.length / p.width), ""),
+            ("table", "%", |p, _| p.table_percent, "the stone has no table"),
+            ("crown_angle", "°", |p, _| p.crown_angle_deg, "the crown has no inclined facets"),
+            ("crown_height", "%", |p, _| Some(p.crown_height_percent), ""),
+            ("pavilion_angle", "°", |p, _| p.pavilion_angle_deg, "the pavilion has no inclined facets"),
+            ("pavilion_depth", "%", |p, _| Some(p.pavilion_depth_percent), ""),
+            ("girdle", "%", |p, _| Some(p.girdle_percent), ""),
+            ("depth", "%", |p, _| Some(p.depth_percent), ""),
+            (
+                "weight",
+                "ct",
+                |p, request| Weight::of(&request.material).carats(p.volume),
+                "the density of what it is made of is not known; --material names a material that has one",
+            ),
         ];
         let measured: Vec<_> = self.requests.iter().map(|r| proportions::of(&r.design).ok()).collect();
         let each =
             |of: Of| measured.iter().zip(self.requests).map(move |(p, r)| of(p.as_ref()?, r)).collect();
-        all.into_iter().map(|(name, unit, of)| Measure { name, unit, values: each(of) }).collect()
+        let measure = |(name, unit, of, why)| Measure { name, unit, values: each(of), why };
+        all.into_iter().map(measure).collect()
     }
 
     /// The heads of the stones' columns: name and material.
@@ -193,38 +201,36 @@ impl Compared<'_> {
         format!("{}{rule}{body}\n{legend}\n", row(&head))
     }
 
-    /// The same as a table with a row for each metric and stone.
+    /// The same as a table with a row for each metric and stone; where a stone has no score or no such
+    /// measure its row says why.
     pub fn table(&self, form: Form) -> Result<Vec<u8>, TableError> {
         let columns = COLUMNS.map(String::from);
         let mut rows: Vec<Vec<Cell>> = Vec::new();
         let cell = |x: Option<f64>| x.map_or(Cell::Empty(()), Cell::number);
-        let mut add =
-            |stone: usize, [name, unit, better]: [&str; 3], values: [Option<Estimate>; 2], mark: bool| {
-                let [score, difference] = values;
-                let significant = difference.map(|_| if mark { "yes" } else { "no" });
-                let request = &self.requests[stone];
-                rows.push(vec![
-                    name.into(),
-                    unit.into(),
-                    Some(better).filter(|word| !word.is_empty()).into(),
-                    request.stone.as_str().into(),
-                    request.material.name.as_ref().into(),
-                    cell(score.map(|e| e.value)),
-                    cell(score.map(|e| e.error)),
-                    cell(difference.map(|e| e.value)),
-                    cell(difference.map(|e| e.error)),
-                    significant.into(),
-                ]);
-            };
+        let mut add = |stone: usize, (words, why): ([&str; 3], Option<&str>), values: [_; 2], mark: bool| {
+            let ([name, unit, better], [score, difference]): (_, [Option<Estimate>; 2]) = (words, values);
+            let significant = difference.map(|_| if mark { "yes" } else { "no" });
+            let request = &self.requests[stone];
+            rows.push(vec![
+                name.into(),
+                unit.into(),
+                Some(better).filter(|word| !word.is_empty()).into(),
+                request.stone.as_str().into(),
+                request.material.name.as_ref().into(),
+                cell(score.map(|e| e.value)),
+                cell(score.map(|e| e.error)),
+                cell(difference.map(|e| e.value)),
+                cell(difference.map(|e| e.error)),
+                significant.into(),
+                why.filter(|_| score.is_none()).into(),
+            ]);
+        };
         for (m, metric) in self.plan.metrics.iter().enumerate() {
             for (s, row) in self.comparison.rows.iter().enumerate() {
                 let d = self.difference(s, m);
-                add(
-                    s,
-                    [metric.name, metric.unit, metric.better.word()],
-                    [row.scores[m], d],
-                    self.is_significant(s, m),
-                );
+                let why = row.why_left_out(metric).or(row.error.as_deref());
+                let words = [metric.name, metric.unit, metric.better.word()];
+                add(s, (words, why), [row.scores[m], d], self.is_significant(s, m));
             }
         }
         for measure in self.measures() {
@@ -232,7 +238,8 @@ impl Compared<'_> {
             for (s, value) in measure.values.iter().enumerate() {
                 let difference = value.zip(first).filter(|_| s > 0).map(|(v, f)| Estimate::exact(v - f));
                 let differs = difference.is_some_and(|d| d.value.abs() > 1e-9);
-                add(s, [measure.name, measure.unit, ""], [value.map(Estimate::exact), difference], differs);
+                let said = ([measure.name, measure.unit, ""], Some(measure.why));
+                add(s, said, [value.map(Estimate::exact), difference], differs);
             }
         }
         let mut out = form.head(&columns)?;
@@ -246,7 +253,7 @@ impl Compared<'_> {
 }
 
 /// Columns of [`Compared::table`]; `difference` is from the first stone.
-pub const COLUMNS: [&str; 10] = [
+pub const COLUMNS: [&str; 11] = [
     "metric",
     "unit",
     "better",
@@ -257,4 +264,5 @@ pub const COLUMNS: [&str; 10] = [
     "difference",
     "difference_se",
     "significant",
+    "left_out",
 ];

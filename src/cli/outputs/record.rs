@@ -11,8 +11,8 @@ use std::ffi::OsString;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// Options, with a value, that say where output goes: not what it is.
-const WHERE: [&str; 2] = ["-o", "--output"];
+/// Options, with a value, that say where output goes, or how fast: not what it is.
+const WHERE: [&str; 4] = ["-o", "--output", "-j", "--threads"];
 /// The same without a value: what is said while it is made.
 const HOW: [&str; 4] = ["-q", "--quiet", "--json", "--force"];
 
@@ -36,7 +36,7 @@ fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
         if WHERE.contains(&name) && !argument.contains('=') {
             arguments.next();
         }
-        let with_value = argument.starts_with("-o") && !argument.starts_with("--");
+        let with_value = argument.starts_with("-o") || argument.starts_with("-j");
         if !with_value && !WHERE.contains(&name) && !HOW.contains(&&*argument) {
             said.push(words::quoted(&argument));
         }
@@ -115,6 +115,7 @@ mod tests {
             "report -o=x a.asc --size 8 --force",
             "-q report a.asc --output x --size 8 --json",
             "report a.asc -ox --size 8 --output=y",
+            "report a.asc -j2 --size 8 -j 3 --threads=4 --threads 5 -o x",
         ] {
             assert_eq!(said(line), plain, "{line}");
         }

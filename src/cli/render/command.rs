@@ -23,8 +23,8 @@ fn normalise(args: impl Iterator<Item = String>) -> String {
             }
             continue;
         }
-        let short_output = arg.starts_with("-o") && !arg.starts_with("--");
-        if short_output || SILENT_FLAGS.contains(&arg.as_str()) {
+        let with_value = arg.starts_with("-o") || arg.starts_with("-j");
+        if with_value || SILENT_FLAGS.contains(&arg.as_str()) {
             continue;
         }
         let bare = if arg.contains('/') && !arg.starts_with('-') {
@@ -49,6 +49,7 @@ mod tests {
             "render /home/me/stone.asc --scene table --spp 4 -o a.png",
             "render stone.asc --scene table --photon-map x.map --spp 4 --output=b.png -q",
             "render ../stone.asc -oc.png --scene table --spp 4 --json",
+            "render stone.asc -j2 --scene table --threads=3 --spp 4 -j 4",
         ] {
             assert_eq!(said(line), plain);
         }
