@@ -242,6 +242,15 @@ impl SceneFile {
         self.document.light.iter().any(|l| l.get_ref().has_panorama())
     }
 
+    /// The files that it may read, where they are looked for.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let document = &self.document;
+        let cuts = document.stone.iter().map(|entry| entry.get_ref().cut());
+        let meshes = document.surface.iter().filter_map(|entry| entry.get_ref().mesh.as_deref());
+        let panoramas = document.light.iter().filter_map(|entry| entry.get_ref().panorama.as_deref());
+        cuts.chain(meshes).chain(panoramas).map(|name| self.folder.join(name)).collect()
+    }
+
     /// Sets the scene up.
     ///
     /// - `aspect`: width over height of the picture
