@@ -97,7 +97,7 @@ fn thing(found: &str) -> String {
         "map" => "a table".into(),
         "datetime" => "a date".into(),
         other => {
-            let value = other.split_once(' ').map_or(other, |(_, value)| value);
+            let value = other.find(['`', '"']).map_or(other, |at| &other[at..]);
             value.trim_matches(['`', '"']).to_owned()
         }
     }
