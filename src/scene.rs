@@ -160,7 +160,7 @@ mod tests {
             ("reflectance = 0.45", "reflectance = 1.45", "between 0 and 1"),
             ("pose = \"lying\"", "pose = \"asleep\"", "table-up"),
             ("radiance = 2.4", "radiance = -1", "above 0"),
-            ("field = 34", "feild = 34", "unknown field"),
+            ("field = 34", "feild = 34", "'feild' is not known here"),
         ] {
             let text = good.replacen(from, to, 1);
             assert_ne!(text, good, "{from} is in the table's file");

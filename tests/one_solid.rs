@@ -83,6 +83,48 @@ fn every_cut_measures_alike_in_every_format() {
     assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+/// Extents follow the planes alone: what `show` says of them differs between formats by no more than their
+/// digits, ten in text, seven in an STL; glTF says its lengths in metres, all of them.
+#[test]
+fn extents_differ_by_the_digits_of_a_format_alone() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in ["rose-cut", "barion-oval", "old-mine", "oval", "pear", "first-stone", "tolkowsky"] {
+        let mut first: Option<[f64; 4]> = None;
+        for (ending, within) in [
+            ("toml", 0.0),
+            ("asc", 3e-8),
+            ("gem", 1e-12),
+            ("gcs", 1e-12),
+            ("obj", 1e-12),
+            ("stl", 2e-6),
+            ("glb", 2e-6),
+        ] {
+            let file = folder.path().join(format!("{name}.{ending}")).display().to_string();
+            let run = |arguments: &[&str]| {
+                let out = Command::new(env!("CARGO_BIN_EXE_cutlab")).args(arguments).output().expect("runs");
+                assert!(out.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&out.stderr));
+                out.stdout
+            };
+            run(&["generate", "-q", name, "-o", &file]);
+            let sheet: serde_json::Value =
+                serde_json::from_slice(&run(&["show", "-q", "--json", &file])).expect("JSON");
+            let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+            let (sheet, ratios) = (&sheet[0], &sheet[0]["ratios"]);
+            let width = number(&sheet["width"]);
+            let sizes = [
+                number(&sheet["length"]) / width,
+                number(&ratios["w"]) / width,
+                number(&ratios["l_w"]),
+                number(&ratios["vol_w3"]),
+            ];
+            let before = first.get_or_insert(sizes);
+            for (a, b) in sizes.iter().zip(before) {
+                assert!((a / *b - 1.0).abs() <= within, "{name}.{ending}: {a} was {b}");
+            }
+        }
+    }
+}
+
 /// The main angles of a fancy outline are those across its width, which its parameters are.
 #[test]
 fn the_main_angles_are_those_across_the_width() {

@@ -170,7 +170,9 @@ fn stones_with_dents_are_turned_too() {
     let differs = |scores: [f64; 2]| scores.iter().zip(upright).any(|(a, b)| (a - b).abs() > 0.03);
     for (file, up) in [("side.obj", "y"), ("down.obj", "-z")] {
         let (scores, doubted) = scored(&[file]);
-        assert!(doubted && differs(scores), "{file}: {scores:?} {upright:?}");
+        // a flat base under crown facets alone is a rose cut's
+        assert_eq!(doubted, file == "side.obj", "{file}");
+        assert!(differs(scores), "{file}: {scores:?} {upright:?}");
         for turned in [&["--up", up][..], &["--align"]] {
             let (scores, doubted) = scored(&[&[file], turned].concat());
             assert!(!doubted && !differs(scores), "{file} {turned:?}: {scores:?} {upright:?}");

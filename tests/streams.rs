@@ -62,7 +62,7 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
                 "-q",
                 "cube",
                 "--width",
-                "16",
+                "32",
                 "--spp",
                 "1",
                 "--photons",

@@ -10,6 +10,7 @@ use super::tables;
 use crate::store::progress::Progress;
 use crate::store::replace;
 use crate::study::merge::{MergeError, Part, Parts};
+use crate::study::meta::Meta;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +44,10 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let form = tables::form_of(&args.output, console)?;
     let tables = folders::parts(&args.parts)?;
     let mut outputs = Outputs::of(console);
-    tables.iter().for_each(|table| outputs.reads(table));
+    for table in &tables {
+        outputs.reads(table);
+        outputs.reads(&Meta::found_beside(table));
+    }
     let parts: Vec<Part> = tables.iter().map(|p| Part::open(p)).collect::<Result<_, _>>()?;
     let count = parts.len();
     let mut parts = Parts::of(parts)?;

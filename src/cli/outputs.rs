@@ -60,7 +60,8 @@ impl Outputs {
         self.check_inputs(path)?;
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let real = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        let place = real.join(path.file_name().unwrap_or_default());
+        // a link that is there leads to the place that is written to
+        let place = path.canonicalize().unwrap_or_else(|_| real.join(path.file_name().unwrap_or_default()));
         if let Some(other) = self.claimed.insert(place, path.to_owned()) {
             let other = stones::shown(&other);
             return Err(Failure::input(format!(

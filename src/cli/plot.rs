@@ -6,6 +6,7 @@ use super::outputs::{Outputs, record};
 use super::plots::{self, Look, Plots};
 use super::stones;
 use crate::study::merge::Part;
+use crate::study::meta::Meta;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -39,6 +40,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plots = Plots::of(&args.output, &plots::metrics_of(&part.meta), &args.look, &layout.axes)?;
     let mut outputs = Outputs::of(console);
     outputs.reads(&args.table);
+    outputs.reads(&Meta::found_beside(&args.table));
     let command = record::own_command();
     plots.claim(&command, &mut outputs)?;
     let bytes = part.bytes()?;

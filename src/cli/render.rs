@@ -149,6 +149,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let (width, height) = target.size(args, &file)?;
     let mut outputs = Outputs::beside(&args.stones, console);
     outputs.reads(Path::new(&args.scene));
+    file.files().iter().chain(&args.hdr).for_each(|read| outputs.reads(read));
     target.claim(args, &mut outputs)?;
     let scene = file.build(&cast(args, console)?, width as f32 / height as f32)?;
     let curve = args.tone.unwrap_or(if scene.camera.flat { Curve::Linear } else { Curve::Filmic });

@@ -23,7 +23,7 @@ use crate::report::pattern;
 use crate::store::replace;
 use crate::store::terminal::in_line;
 use crate::walk::Stone;
-use measured::Measured;
+use measured::{Measured, figure};
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -293,7 +293,7 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
         brilliant: p.brilliant,
         proportion_envelope: brilliant::envelope(&p).filter(|_| weight.is_diamond()),
         graded: weight.is_diamond(),
-        ratios: p.ratios,
+        ratios: Ratios { w: p.ratios.w / unit_mm, ..p.ratios },
         symmetry: p.symmetry,
         material: material.name.into_owned(),
         refractive_index: index,
@@ -362,7 +362,12 @@ impl Sheet {
             "ratios",
             format!(
                 "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, measured as GemCad does)",
-                r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
+                r.p_w,
+                r.c_w,
+                r.h_w,
+                r.l_w,
+                r.vol_w3,
+                k * r.w
             ),
         );
         line("symmetry", symmetry(&self.symmetry));
@@ -376,16 +381,6 @@ impl Sheet {
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
-    }
-}
-
-/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
-/// file may be in metres.
-fn figure(value: f64, decimals: usize) -> String {
-    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
-        format!("{value:.decimals$e}")
-    } else {
-        format!("{value:.decimals$}")
     }
 }
 

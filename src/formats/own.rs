@@ -5,6 +5,7 @@ use super::source::{Source, lines};
 use super::{Format, Reading, Writer};
 use crate::cut::Design;
 use crate::cut::document::{Document, DocumentError};
+use crate::math::plain;
 use crate::store::limits;
 use std::collections::BTreeMap;
 
@@ -68,7 +69,7 @@ fn document(source: &Source, text: &str) -> Result<Document, FormatError> {
             FormatError::Line {
                 file: source.name.into(),
                 line: before + 1,
-                expected: format!("a design ({})", syntax.message().split('\n').next().unwrap_or_default()),
+                expected: format!("a design ({})", plain::toml(syntax.message(), found)),
                 found: shown(found),
             }
         }

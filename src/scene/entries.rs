@@ -289,7 +289,7 @@ pub struct SurfaceEntry {
     corner: Option<[f32; 3]>,
     u: Option<[f32; 3]>,
     v: Option<[f32; 3]>,
-    mesh: Option<String>,
+    pub(super) mesh: Option<String>,
     at: Option<[f32; 3]>,
     turn: Option<[f64; 3]>,
     scale: Option<f32>,

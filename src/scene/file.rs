@@ -8,6 +8,7 @@ use super::light_entry::LightEntry;
 use super::reach::Files;
 use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
 use crate::cut::Design;
+use crate::math::plain;
 use crate::optics::Material;
 use crate::store::limits::{self, Exceeded};
 use crate::store::text;
@@ -183,7 +184,11 @@ impl SceneFile {
             line: line_at(text, byte),
             problem,
         };
-        let syntax = |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), e.message().replace('\n', " "));
+        let syntax = |e: toml::de::Error| {
+            let byte = e.span().map_or(0, |s| s.start);
+            let line = text.lines().nth(line_at(text, byte) - 1).unwrap_or_default();
+            at(byte, plain::toml(e.message(), line))
+        };
         let table = DeTable::parse(text).map_err(syntax)?;
         for value in table.get_ref().values() {
             sensible(value)
@@ -240,6 +245,15 @@ impl SceneFile {
     /// Whether one of its lights shows a panorama.
     pub fn has_panorama(&self) -> bool {
         self.document.light.iter().any(|l| l.get_ref().has_panorama())
+    }
+
+    /// The files that it may read, where they are looked for.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let document = &self.document;
+        let cuts = document.stone.iter().map(|entry| entry.get_ref().cut());
+        let meshes = document.surface.iter().filter_map(|entry| entry.get_ref().mesh.as_deref());
+        let panoramas = document.light.iter().filter_map(|entry| entry.get_ref().panorama.as_deref());
+        cuts.chain(meshes).chain(panoramas).map(|name| self.folder.join(name)).collect()
     }
 
     /// Sets the scene up.

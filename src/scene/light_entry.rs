@@ -25,7 +25,7 @@ pub struct LightEntry {
     radius: Option<f32>,
     cone: Option<f32>,
     viewer: Option<String>,
-    panorama: Option<String>,
+    pub(super) panorama: Option<String>,
     sun_elevation: Option<f32>,
     sun_azimuth: Option<f32>,
     turbidity: Option<f32>,

@@ -157,8 +157,9 @@ pub fn width_directions(hull: &[DVec2], slack: f64) -> Vec<DVec2> {
 /// Both follow the corners without a jump: an edge that rounding makes between two corners that are one has
 /// some direction, and no direction has less than the least width.
 pub fn calipers(hull: &[DVec2]) -> (f64, f64) {
-    /// Widths that differ by less than this part are one: more than a file in `f32` moves them.
-    const ONE_WIDTH: f64 = 1e-6;
+    /// Widths that differ by less than this part are one. Directions whose widths do are so near, or the shape
+    /// so regular, that the extents across them are one too.
+    const ONE_WIDTH: f64 = 1e-9;
     let extent = |d: DVec2| {
         let (lo, hi) = hull
             .iter()

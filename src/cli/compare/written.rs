@@ -197,7 +197,7 @@ impl Compared<'_> {
         };
         let rule = format!("|{}\n", " --- |".repeat(head.len()));
         let body: String = lines.iter().map(|line| row(line)).collect();
-        let legend = self.legend().join("  \n").replace('*', "\\*");
+        let legend = self.legend().join("  \n").replace('*', "\\*").replace('<', "&lt;");
         format!("{}{rule}{body}\n{legend}\n", row(&head))
     }
 

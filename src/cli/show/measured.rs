@@ -70,3 +70,13 @@ impl Measured {
         Measured { width, length, surface, ..self }
     }
 }
+
+/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
+/// file may be in metres.
+pub fn figure(value: f64, decimals: usize) -> String {
+    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
+        format!("{value:.decimals$e}")
+    } else {
+        format!("{value:.decimals$}")
+    }
+}
