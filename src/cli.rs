@@ -34,7 +34,7 @@ mod weight;
 mod words;
 
 use crate::store::limits;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
 use outcome::{Code, Failure};
 use standing::Standing;
@@ -109,7 +109,9 @@ impl Command {
 
 /// The definition of the command line: every command with its options, for tests, manuals and completions.
 pub fn command() -> clap::Command {
-    Cli::command()
+    // what is wrong with a number below 0 is for the option's reader to say, not that it is no option
+    let valued = |arg: clap::Arg| if arg.is_positional() { arg } else { arg.allow_negative_numbers(true) };
+    Cli::command().mut_args(valued).mut_subcommands(|sub| sub.mut_args(valued))
 }
 
 /// The arguments, with a number that follows an option whose value may be left out joined to it:
@@ -147,9 +149,12 @@ pub fn run() -> ExitCode {
     {
         return Failure::input(problem).report();
     }
-    let cli = match Cli::try_parse_from(joined(std::env::args_os(), &command())) {
+    let mut command = command();
+    let arguments = joined(std::env::args_os(), &command);
+    let read = command.try_get_matches_from_mut(arguments).and_then(|found| Cli::from_arg_matches(&found));
+    let cli = match read {
         Ok(cli) => cli,
-        Err(error) => return outcome::usage(&error, &command()),
+        Err(error) => return outcome::usage(&error, &self::command()),
     };
     cli.console.start_threads();
     standing::set(cli.standing, cli.console);
@@ -173,6 +178,6 @@ mod tests {
 
     #[test]
     fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
+        command().debug_assert();
     }
 }

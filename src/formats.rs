@@ -30,6 +30,7 @@ pub mod surface;
 mod triangle_words;
 mod windows_1252;
 
+use crate::store::text;
 pub use error::FormatError;
 pub use source::Source;
 pub use surface::Surface;
@@ -126,7 +127,7 @@ pub fn read_standard_input() -> Result<Imported, FormatError> {
 }
 
 fn read_as(path: &Path, bytes: Bytes) -> Result<Imported, FormatError> {
-    let name = path.display().to_string();
+    let name = text::shown(path);
     let bytes = within_limit(path, bytes)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
 }
@@ -141,7 +142,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, FormatError> {
 type Bytes = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
 
 fn within_limit(path: &Path, bytes: Bytes) -> Result<Vec<u8>, FormatError> {
-    let file = || path.display().to_string();
+    let file = || text::shown(path);
     let bytes = bytes.map_err(|cause| FormatError::Read { file: file(), cause })?;
     bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
 }
@@ -276,7 +277,7 @@ pub fn encode_mesh(name: &str, body: &Body, unit: Unit, format: &str) -> Result<
 /// The format that is written for a file of this name, by its ending.
 pub fn written_to(path: &Path) -> Result<&'static Format, FormatError> {
     let ending = ending_of(path);
-    written(|f| f.extensions.contains(&&*ending)).ok_or_else(|| no_writer(&path.display().to_string()))
+    written(|f| f.extensions.contains(&&*ending)).ok_or_else(|| no_writer(&text::shown(path)))
 }
 
 /// The format to write that is called `asked`, by name or ending.
@@ -312,7 +313,7 @@ pub fn is_meant_as_stone(path: &Path) -> bool {
         return true;
     }
     let Ok(bytes) = bytes_of(path) else { return has_ending };
-    let name = path.display().to_string();
+    let name = text::shown(path);
     let source = Source { name: &name, bytes: &bytes, folder: path.parent() };
     let sure = FORMATS.iter().map(|f| (f.sniff)(&source)).max().unwrap_or(0);
     if sure == (own::FORMAT.sniff)(&source) {

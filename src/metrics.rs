@@ -54,6 +54,8 @@ pub struct Metric {
     pub range: (f64, f64),
     /// What an error asked for is measured against: 1 for fractions and degrees, 100 for percentages.
     pub scale: f64,
+    /// Whether a stone is the better for more of it.
+    pub better: Better,
     /// Half-angle in degrees of the observer's dark cone, for a metric that has one; a plan may set
     /// another.
     pub observer: Option<f64>,
@@ -67,6 +69,37 @@ pub struct Metric {
     pub source: &'static str,
     /// The experiment it reads, and what of its sums.
     pub reading: Reading,
+}
+
+/// Which of two values of a score is the better, all else alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Better {
+    /// The greater.
+    More,
+    /// The less.
+    Less,
+    /// Neither by itself: a matter of balance with others, of taste, or of no merit at all.
+    Neither,
+}
+
+impl Better {
+    /// In one word; empty for neither.
+    pub fn word(self) -> &'static str {
+        match self {
+            Better::More => "more",
+            Better::Less => "less",
+            Better::Neither => "",
+        }
+    }
+
+    /// `more is better`; empty for neither.
+    pub fn said(self) -> &'static str {
+        match self {
+            Better::More => "more is better",
+            Better::Less => "less is better",
+            Better::Neither => "",
+        }
+    }
 }
 
 /// A score as a function of the tally of the experiment that it reads. None but `scintillation`,
@@ -108,6 +141,14 @@ impl Metric {
     /// Whether the score speaks of colours, and so means nothing for a material without dispersion.
     pub fn needs_dispersion(&self) -> bool {
         matches!(self.reading, Reading::Beam(_))
+    }
+
+    /// What it tells, and which values are the better.
+    pub fn about_and_better(&self) -> String {
+        match self.better.said() {
+            "" => self.about.into(),
+            said => format!("{}; {said}", self.about),
+        }
     }
 
     /// The metric called `name`, or none.

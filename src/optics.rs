@@ -12,6 +12,7 @@ pub mod materials;
 pub mod rgb;
 pub mod stokes;
 pub mod viewers;
+pub mod weight;
 
 pub use illuminants::Illuminant;
 pub use materials::Material;

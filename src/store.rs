@@ -8,3 +8,4 @@ pub mod progress;
 pub mod replace;
 pub mod stdin;
 pub mod terminal;
+pub mod text;

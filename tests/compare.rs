@@ -147,3 +147,59 @@ fn many_stones_have_a_line_each() {
     assert_eq!(shown.lines().filter(|l| l.starts_with("designs/")).count(), 12, "{shown}");
     assert!(shown.lines().all(|l| l.chars().count() < 160), "{shown}");
 }
+
+/// Which values are the better stands in every form, and what the weight is by where only an index is known.
+#[test]
+fn the_better_values_are_named_and_weights_have_their_reason() {
+    let bench = Bench::new();
+    let stones =
+        ["compare", "-q", "cube", "octahedron", "--metrics", "wlr,leakage,contrast", "--error", "0.05"];
+    let compare = |options: &[&str]| bench.ends(0, &[&stones[..], options].concat()).0;
+    let shown = compare(&[]);
+    let last = |name: &str| {
+        let line = shown.lines().find(|l| l.starts_with(name)).expect("a line");
+        line.split_whitespace().last().expect("words").to_owned()
+    };
+    assert!(shown.lines().next().is_some_and(|head| head.ends_with("better")), "{shown}");
+    assert_eq!((last("wlr").as_str(), last("leakage").as_str()), ("more", "less"), "{shown}");
+    assert!(!["more", "less"].contains(&last("contrast").as_str()), "{shown}");
+    let entries: serde_json::Value = serde_json::from_str(&compare(&["--json"])).expect("JSON");
+    let said: Vec<_> = entries.as_array().expect("a list").iter().map(|e| e["better"].as_str()).collect();
+    assert_eq!(said, [Some("more"), Some("less"), None]);
+    compare(&["-o", "c.json"]);
+    let table: serde_json::Value = serde_json::from_slice(&bench.read("c.json")).expect("JSON");
+    let of = |name: &str| {
+        let rows = table.as_array().expect("rows");
+        rows.iter().find(|r| r["metric"] == name).expect("its row")["better"].clone()
+    };
+    assert_eq!(
+        (of("wlr"), of("leakage"), of("weight")),
+        ("more".into(), "less".into(), serde_json::Value::Null)
+    );
+    let several = ["compare", "-q", "cube", "prism", "octahedron", "tetrahedron", "bipyramid"];
+    let rest = ["--metrics", "spread,leakage,weight_ratio", "--error", "0.05"];
+    let (many, _) = bench.ends(0, &[&several[..], &rest].concat());
+    assert!(many.contains("more is better: spread\nless is better: leakage\n"), "{many}");
+
+    // 1.544 is quartz's index, 3.5 no known material's
+    let weights = |ri: &str| {
+        let line = ["compare", "cube", "octahedron", "--metrics", "spread", "--size", "8", "--ri", ri];
+        let (shown, _) = bench.ends(0, &line);
+        let row = shown.lines().find(|l| l.starts_with("weight ")).expect("a line").to_owned();
+        (row, shown)
+    };
+    let (row, shown) = weights("1.544");
+    let cube: f64 = row.split_whitespace().nth(1).and_then(|w| w.parse().ok()).expect("a weight");
+    assert!((cube - 512.0 * 2.65 / 200.0).abs() < 0.02, "{row}");
+    assert!(shown.contains("weight of cube: n = 1.544 is nearest to quartz"), "{shown}");
+    let (row, shown) = weights("3.5");
+    assert_eq!(row.split_whitespace().nth(1), Some("–"), "{row}");
+    assert!(shown.contains("weight of octahedron: no material of n = 3.5 is known"), "{shown}");
+    let score = ["score", "cube", "--metrics", "spread", "--size", "8", "--proportions"];
+    let (table, said) = bench.ends(0, &[&score[..], &["--ri", "1.544"]].concat());
+    assert!(table.contains(",quartz,") && said.contains("n = 1.544 is nearest to quartz"), "{table}{said}");
+    let (table, said) = bench.ends(0, &[&score[..], &["--ri", "3.5"]].concat());
+    let head = table.lines().next().expect("a head").split(',').position(|c| c == "carats").expect("there");
+    assert_eq!(table.lines().nth(1).and_then(|row| row.split(',').nth(head)), Some(""), "{table}");
+    assert!(said.contains("no material of n = 3.5 is known"), "{said}");
+}

@@ -222,4 +222,10 @@ fn small_errors_hold_what_is_given_up() {
     let (truth, error) = (0.671_393_4, 5.8e-6);
     assert!((leakage.value - truth).abs() < 4.0 * leakage.error.hypot(error), "{leakage:?}");
     assert!(lost.value < 5e-6, "{lost:?}");
+    // where samples are asked for in place of an error, the error holds what is given up
+    let plan = Plan { effort: Effort::Samples(1 << 20), ..plan };
+    let row = score(&subject("cube", &design, brilliants::diamond()), &plan);
+    let [leakage, lost] = [0, 1].map(|i| row.scores[i].expect("applies"));
+    assert!(lost.value > 1e-5 && leakage.error >= lost.value, "{leakage:?} {lost:?}");
+    assert!((leakage.value - truth).abs() < 2.0 * leakage.error, "{leakage:?}");
 }

@@ -3,8 +3,10 @@
 mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
+use cutlab::formats;
 use cutlab::metrics::{METRICS, Metric, Reading};
-use cutlab::study::score::{Effort, Plan, Subject, Tilt, score};
+use cutlab::optics::Material;
+use cutlab::study::score::{Effort, Plan, Shape, Subject, Tilt, score};
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
 #[test]
@@ -49,3 +51,55 @@ fn exact_scores_reach_an_error_too() {
         assert!(e.error > 0.0 && e.error <= 0.002, "{e:?}");
     }
 }
+
+/// Where photons take the place of the beams that were asked for, the row says so and why.
+#[test]
+fn photons_in_place_of_beams_are_told() {
+    let asked = |metrics: &[&str]| Plan { exact: true, ..plan(metrics, 256) };
+    let row = |material: Material, metrics: &[&str]| {
+        let subject = subject("reference", &named("reference"), material);
+        score(&subject, &asked(metrics))
+    };
+    // light stays in a stone of n = 10 for thousands of facets, and divides at each
+    let deep = row(Material::of_index(10.0), &["aset_red_strongest"]);
+    assert!(deep.note.is_some_and(|said| said.starts_with("too many beams")), "{deep:?}");
+    assert!(deep.scores[0].is_some_and(|e| e.error > 0.0), "photons have an error: {deep:?}");
+    let shares = row(Material::of_index(10.0), &["aset_red"]);
+    assert_eq!((shares.note, shares.error), (None, None), "no beam's own path is needed");
+    let ruby = Material::named("ruby").expect("in the catalogue");
+    let coloured = row(ruby.clone(), &["aset_red", "spread"]);
+    assert!(coloured.note.is_some_and(|said| said.contains("do not follow absorption")), "{coloured:?}");
+    assert_eq!(row(ruby.clone(), &["contrast", "spread"]).note, None, "beams give none of these");
+    assert_eq!(row(diamond(), &["aset_red", "aset_red_strongest"]).note, None);
+
+    let (corners, faces) = CUBE_WITH_A_DENT;
+    let mesh = corners.iter().map(|v| format!("v {} {} {}\n", v[0], v[1], v[2])).collect::<String>()
+        + &faces.iter().map(|f| format!("f {f}\n")).collect::<String>();
+    let error = formats::read_bytes("dented.obj", mesh.as_bytes(), None).expect_err("has a dent");
+    let body = error.body().expect("it is closed").1.clone();
+    let subject = Subject {
+        stone: "dented".into(),
+        material: diamond(),
+        shape: Ok(Shape::Dented(Box::new(body))),
+        tilt: None,
+    };
+    let row = score(&subject, &asked(&["light_return"]));
+    assert!(row.note.is_some_and(|said| said.starts_with("beams need a convex stone")), "{row:?}");
+    assert_eq!(score(&subject, &plan(&["light_return"], 256)).note, None);
+}
+
+/// Corners and faces of a cube with a pit in its top.
+const CUBE_WITH_A_DENT: ([[f64; 3]; 9], [&str; 9]) = (
+    [
+        [-1.0, -1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [1.0, 1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [-1.0, -1.0, 1.0],
+        [1.0, -1.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+        [0.0, 0.0, 0.5],
+    ],
+    ["4 3 2 1", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8", "5 6 9", "6 7 9", "7 8 9", "8 5 9"],
+);

@@ -83,6 +83,39 @@ fn the_reference_stones_have_the_scores_of_this_program() {
     }
 }
 
+/// A stone of another material stands beside the same five stones in that material: they have the scores
+/// that other random numbers give.
+#[test]
+fn the_reference_stones_are_of_the_stones_own_material() {
+    let quartz = Material::named("quartz").expect("in the catalogue");
+    let ruby = Material::named("ruby").expect("in the catalogue");
+    let glass = Material::of_index(1.54);
+    let names = ["wlr", "leakage", "iso", "fire_streak", "absorbed"];
+    let metrics = || names.iter().filter_map(|n| METRICS.iter().copied().find(|m| m.name == *n));
+    let scalar = Plan { polarised: false, ..Plan::default() };
+    let in_diamond = References::read().expect("can be read");
+    for (material, width) in [(quartz, 8.0), (ruby, 5.0), (&glass, 6.5)] {
+        let references = References::within(material, width, &scalar).expect("can be scored");
+        assert_eq!(references.material, material.name);
+        let design = named("tolkowsky").sized(width).expect("can be sized");
+        let fresh = score(&subject("", &design, material.clone()), &plan(&names, 1 << 16)).scores;
+        for (metric, fresh) in metrics().zip(fresh) {
+            let kept = references.of(metric)[1];
+            let Some((fresh, kept)) = fresh.zip(kept) else {
+                assert!(metric.name == "fire_streak" && material.name == "n=1.54", "{}", metric.name);
+                assert_eq!((fresh, kept), (None, None));
+                continue;
+            };
+            let error = fresh.error.hypot(kept.error);
+            let off = (fresh.value - kept.value).abs();
+            assert!(off <= 4.5 * error + 1e-6, "{} in {}: {fresh:?}, {kept:?}", metric.name, material.name);
+            let diamond = in_diamond.of(metric)[1].expect("in the table");
+            let differs = (diamond.value - kept.value).abs() > 10.0 * error;
+            assert!(differs || metric.name == "absorbed", "{} in {}", metric.name, material.name);
+        }
+    }
+}
+
 /// The page holds every head, every score beside the references, all drawings, and no address
 /// outside.
 #[test]
@@ -117,9 +150,12 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
     assert_eq!(page.matches("data:image/png;base64,").count(), 4);
     assert_eq!(page.matches("data:image/svg+xml;base64,").count(), 5);
     assert!(page.contains("this stone lies outside of it"), "43° is below the map");
+    assert!(page.contains("(table/crown/pavilion) in diamond.") && page.contains("<em>less is better</em>"));
     assert!(!page.contains("http://") && !page.contains("https://"), "the page needs no network");
     let other = Bench::new();
-    other.good(&["report", "princess", "-o", "out"]);
+    other.good(&["report", "princess", "--ri", "1.544", "-o", "out"]);
     let page = String::from_utf8(other.read("out/index.html")).expect("UTF-8");
+    assert!(page.contains("(table/crown/pavilion) in n=1.544."), "references of the stone's own index");
+    assert!(page.contains(" ct in quartz") && page.contains("Weight: n = 1.544 is nearest to quartz"));
     assert!(!page.contains("Among round brilliants") && page.contains("Cutting diagram"));
 }

@@ -124,3 +124,64 @@ fn every_command_takes_up_and_align_and_says_when_they_are_wanted() {
     let stood = formats::read(&folder.path().join("stood.stl")).expect("is read").design;
     assert_eq!(doubt(&stood.solid().expect("closed")), None);
 }
+
+/// A frustum with its table up and a pit in its bottom: corners turned as told.
+fn pitted(rotation: DMat3) -> String {
+    let square = |half: f64, z: f64| {
+        [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(x, y)| DVec3::new(x * half, y * half, z))
+    };
+    let mut corners = square(1.0, 0.5).to_vec();
+    corners.extend(square(0.4, -0.5));
+    corners.push(DVec3::new(0.0, 0.0, -0.2));
+    let mut obj = String::new();
+    for corner in corners {
+        let v = rotation * corner;
+        obj += &format!("v {} {} {}\n", v.x, v.y, v.z);
+    }
+    obj += "f 1 2 3 4\n";
+    for i in 1..=4 {
+        let next = i % 4 + 1;
+        obj += &format!("f {next} {i} {} {}\n", i + 4, next + 4);
+        obj += &format!("f {} {} 9\n", next + 4, i + 4);
+    }
+    obj
+}
+
+#[test]
+fn stones_with_dents_are_turned_too() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let quarter = 0.5 * std::f64::consts::PI;
+    for (name, rotation) in [
+        ("up.obj", DMat3::IDENTITY),
+        ("side.obj", DMat3::from_rotation_x(-quarter)),
+        ("down.obj", DMat3::from_rotation_x(2.0 * quarter)),
+    ] {
+        std::fs::write(folder.path().join(name), pitted(rotation)).expect("writes");
+    }
+    let scored = |arguments: &[&str]| {
+        let all = ["score", "--metrics", "wlr,leakage", "--ri", "2.4", "--error", "0.005"];
+        let (table, said) = run(folder.path(), &[&all[..], arguments].concat());
+        let row: Vec<String> = table.lines().nth(1).expect("a row").split(',').map(String::from).collect();
+        let number = |i: usize| row[i].parse::<f64>().unwrap_or_else(|_| panic!("{table}"));
+        ([number(3), number(5)], said.contains("does not stand table up"))
+    };
+    let (upright, doubted) = scored(&["up.obj"]);
+    assert!(!doubted);
+    let differs = |scores: [f64; 2]| scores.iter().zip(upright).any(|(a, b)| (a - b).abs() > 0.03);
+    for (file, up) in [("side.obj", "y"), ("down.obj", "-z")] {
+        let (scores, doubted) = scored(&[file]);
+        assert!(doubted && differs(scores), "{file}: {scores:?} {upright:?}");
+        for turned in [&["--up", up][..], &["--align"]] {
+            let (scores, doubted) = scored(&[&[file], turned].concat());
+            assert!(!doubted && !differs(scores), "{file} {turned:?}: {scores:?} {upright:?}");
+        }
+    }
+    // the shape that is shown and written stands so too: 2 × 2 × 1
+    let (shown, _) = run(folder.path(), &["show", "side.obj"]);
+    assert!(shown.contains("2.000000 × 1.000000 × 2.000000"), "{shown}");
+    let (shown, _) = run(folder.path(), &["show", "side.obj", "--up", "y"]);
+    assert!(shown.contains("2.000000 × 2.000000 × 1.000000"), "{shown}");
+    run(folder.path(), &["import", "side.obj", "--align", "-o", "stood.obj"]);
+    let (shown, _) = run(folder.path(), &["show", "stood.obj"]);
+    assert!(shown.contains("2.000000 × 2.000000 × 1.000000"), "{shown}");
+}

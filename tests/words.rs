@@ -341,6 +341,9 @@ fn lists_have_one_line_an_entry_and_facts_as_numbers() {
     let lines = bench.good(&["list", "metrics"]);
     assert_eq!(lines.lines().count(), cutlab::metrics::METRICS.len());
     assert!(bench.good(&["list", "metrics", "wlr", "iso"]).contains("source"));
+    let ends = |name: &str, end: &str| lines.lines().any(|l| l.starts_with(name) && l.ends_with(end));
+    assert!(ends("wlr ", "; more is better") && ends("leakage ", "; less is better"), "{lines}");
+    assert!(!ends("contrast ", "better") && !ends("weight_ratio ", "better"), "{lines}");
     let materials: serde_json::Value =
         serde_json::from_str(&bench.good(&["list", "materials", "--json"])).expect("JSON");
     let diamond =
@@ -349,6 +352,7 @@ fn lists_have_one_line_an_entry_and_facts_as_numbers() {
     assert!((diamond["density_g_cm3"].as_f64().expect("a number") - 3.52).abs() < 0.02, "{diamond}");
     let wlr: serde_json::Value =
         serde_json::from_str(&bench.good(&["list", "metrics", "wlr", "--json"])).expect("JSON");
+    assert_eq!(wlr[0]["better"], "more");
     assert_eq!((wlr.as_array().map(Vec::len), &wlr[0]["range"]), (Some(1), &serde_json::json!([0.0, 1.0])));
     let oval: serde_json::Value =
         serde_json::from_str(&bench.good(&["list", "cuts", "oval", "--json"])).expect("JSON");

@@ -11,9 +11,8 @@ use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::report::{Request, versus};
 use crate::store::replace;
-use crate::study::batch::Summary;
 use crate::study::compare::{Comparison, RUNS, compare};
-use crate::study::identity::{BUILD, Identity};
+use crate::study::identity::Identity;
 use crate::study::meta::Meta;
 use crate::study::score::{Plan, Subject};
 use crate::study::table::Form;
@@ -52,6 +51,8 @@ pub struct Args {
 struct Entry<'a> {
     metric: &'static str,
     unit: &'static str,
+    /// `more` or `less`, if either is better by itself.
+    better: Option<&'static str>,
     /// Differences up to this are never significant.
     negligible: f64,
     scores: Vec<Scored<'a>>,
@@ -66,7 +67,7 @@ struct Scored<'a> {
     score: Option<Estimate>,
     /// Why there is no score.
     #[serde(skip_serializing_if = "Option::is_none")]
-    left_out: Option<&'static str>,
+    left_out: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -136,10 +137,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             Output::Markdown(_) => {
                 replace::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
             }
-            Output::Table(_, form) => write_table(&compared, path, *form, command)?,
+            Output::Table(_, form) => {
+                compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
+                write_table(&compared, path, *form, command)?;
+            }
         }
         if !replace::is_stdout(path) {
-            console.note(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", stones::shown(&path)));
         }
     }
     Ok(if short { Code::SomeFailed } else { Code::Done })
@@ -158,16 +162,17 @@ enum Output {
 impl Output {
     fn of(path: &Path, console: &Console) -> Result<Output, Failure> {
         let path = path.to_owned();
-        if replace::is_stream(&path) {
+        let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
+        if replace::is_stream(&path) && !is_markdown {
             let form = tables::form_of(&path, console)?;
             return Ok(Output::Table(path, form));
         }
         let ending = path.extension().filter(|_| !path.is_dir());
         Ok(match ending {
-            Some(ending) if ending.eq_ignore_ascii_case("md") => Output::Markdown(path),
+            Some(_) if is_markdown => Output::Markdown(path),
             Some(_) => {
                 let form = Form::of(&path).map_err(|_| {
-                    let path = path.display();
+                    let path = stones::shown(&path);
                     Failure::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
                 })?;
                 Output::Table(path, form)
@@ -187,21 +192,9 @@ impl Output {
 fn write_table(compared: &Compared, path: &Path, form: Form, command: String) -> Result<(), Failure> {
     let bytes = compared.table(form)?;
     if !replace::is_stream(path) {
-        let meta = Meta {
-            program: "cutlab".into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            build: BUILD.into(),
-            seed: compared.plan.seed,
-            study: Identity::of(&command).hex(),
-            command,
-            columns: written::COLUMNS.map(String::from).into(),
-            layout: None,
-            total: 0,
-            shard: None,
-            summary: Summary::default(),
-            crc32: format!("{:08x}", crc32fast::hash(&bytes)),
-            metrics: Meta::definitions(compared.plan),
-        };
+        let (study, columns) = (Identity::of(&command).hex(), written::COLUMNS.map(String::from).into());
+        let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
+        let meta = Meta { crc32, ..Meta::new(compared.plan, command, study, columns) };
         let meta = meta.bytes().map_err(|e| Failure::input(e.to_string()))?;
         replace::write(&Meta::beside(path), &meta)?;
     }
@@ -229,6 +222,7 @@ fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
     let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| Entry {
         metric: metric.name,
         unit: metric.unit,
+        better: Some(metric.better.word()).filter(|word| !word.is_empty()),
         negligible: comparison.negligible[m],
         scores: rows
             .iter()

@@ -3,7 +3,7 @@
 
 use super::outcome::{Failure, complain};
 use super::{heartbeat, values};
-use crate::store::terminal::{printable, printable_json};
+use crate::store::terminal::{in_line, printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 
@@ -67,10 +67,10 @@ impl Console {
         self.put(&printable_json(&text))
     }
 
-    /// A remark: standard error, unless quiet.
+    /// A remark: one line on standard error, unless quiet.
     pub fn note(&self, text: &str) {
         if !self.quiet {
-            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+            let _ = writeln!(std::io::stderr(), "{}", in_line(text));
         }
     }
 

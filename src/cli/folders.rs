@@ -18,7 +18,7 @@ use std::path::{Component, Path, PathBuf};
 ///
 /// A folder below that cannot be listed is given in place of its files: whoever reads it says why not.
 pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, Failure> {
-    let fail = |cause: std::io::Error| Failure::reading(&folder.display().to_string(), &cause);
+    let fail = |cause: std::io::Error| Failure::reading(&stones::shown(&folder), &cause);
     let mut entries: Vec<PathBuf> = fs::read_dir(folder)
         .map_err(fail)?
         .map(|e| e.map(|e| e.path()))
@@ -118,7 +118,7 @@ fn matching(pattern: &OsStr) -> Result<Vec<PathBuf>, Failure> {
     };
     let mut found = Vec::new();
     match_below(&base, depth, &glob, &mut found)
-        .map_err(|(folder, cause)| Failure::reading(&folder.display().to_string(), &cause))?;
+        .map_err(|(folder, cause)| Failure::reading(&stones::shown(&folder), &cause))?;
     found.sort();
     if found.is_empty() { Err(Failure::input(format!("no file matches {shown}"))) } else { Ok(found) }
 }
@@ -162,7 +162,7 @@ fn designs(folder: &Path) -> Result<Vec<OsString>, Failure> {
     let found: Vec<OsString> =
         files(folder, None)?.iter().filter(|f| is_meant_as_stone(f)).map(|f| as_stone(f)).collect();
     if found.is_empty() {
-        return Err(Failure::input(format!("no designs and no meshes in {}", folder.display())));
+        return Err(Failure::input(format!("no designs and no meshes in {}", stones::shown(&folder))));
     }
     Ok(found)
 }

@@ -46,6 +46,15 @@ impl Form {
         }
     }
 
+    /// The one of a stream: by `--to`; without that by its name's ending, which a pipe may have; else the
+    /// usual one.
+    pub fn for_stream(path: &Path, to: Option<&str>, usual: &str) -> Result<Form, Failure> {
+        match to {
+            Some(to) => Form::named(to),
+            None => Form::of(path, None).or_else(|_| Form::named(usual)),
+        }
+    }
+
     /// Its name in a sentence.
     fn name(self) -> String {
         match self {

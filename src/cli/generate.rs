@@ -9,9 +9,10 @@ use super::outputs::{self, Outputs};
 use super::parameters::Parameters;
 use super::stones::{self, DEFAULT_STONE};
 use super::values;
-use super::weight::{self, Weight};
+use super::weight;
 use crate::cut::families;
 use crate::formats::Encoded;
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::store::replace;
 use std::ffi::OsString;
@@ -69,7 +70,7 @@ struct Made {
     name: String,
     facets: usize,
     made_up_of: String,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// Makes the stone and writes it.
@@ -81,7 +82,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let usual = Form::named(args.to.as_deref().unwrap_or(USUAL_FORMAT))?;
     let to_stream = args.output.iter().any(|file| replace::is_stream(file));
     let form = |file: &PathBuf| match replace::is_stream(file) {
-        true => Ok(usual),
+        true => Form::for_stream(file, args.to.as_deref(), USUAL_FORMAT),
         // beside a stream --to is the stream's
         false => Form::of(file, args.to.as_deref().filter(|_| !to_stream)),
     };
@@ -90,11 +91,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(n) = args.facets {
         parameters.0.insert("facets".into(), n.into());
     }
-    let has_size = args
-        .stone
-        .to_str()
-        .and_then(stones::family)
-        .is_some_and(|f| f.parameters.iter().any(|p| p.key == "size"));
+    let is_given = |key: &str| parameters.0.contains_key(key);
+    let has_size = args.stone.to_str().is_some_and(|stone| stones::size_is_parameter(stone, is_given));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
@@ -114,8 +112,8 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let mut size = args.size.filter(|_| !has_size);
     let substance = args.substance.within(&args.stone)?;
     if let Some(carats) = args.carat {
-        let weight = Weight::of(&substance, &imported.design);
-        let mm = weight.width_mm(&imported.design, carats)?;
+        let weight = Weight::of(&substance.of(&imported.design));
+        let mm = weight::width_mm(&weight, &imported.design, carats)?;
         let name = weight.name().unwrap_or_default();
         notes.push(format!("note: {carats} ct in {name} is {mm:.3} mm wide"));
         size = Some(mm);
@@ -126,8 +124,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let asked = substance.asked();
     let mut files = args.output.clone();
     if files.is_empty() {
-        let stem = stones::file_stem(&args.stone);
-        files.push(format!("{}-{facets}.{}", stem.display(), usual.ending()).into());
+        let mut name = stones::file_stem(&args.stone);
+        name.push(format!("-{facets}.{}", usual.ending()));
+        files.push(name.into());
         forms.push(usual);
     }
     let mut encoded: Vec<Vec<u8>> = Vec::new();
@@ -144,13 +143,14 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     for (file, bytes) in files.iter().zip(&encoded) {
         replace::write(file, bytes)?;
         if !replace::is_stdout(file) {
-            console.note(&format!("wrote {}", file.display()));
+            console.note(&format!("wrote {}", stones::shown(&file)));
         }
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);
     if files.iter().any(|f| replace::is_stdout(f)) {
         console.note(&summary);
     } else if console.json {
+        let files = files.iter().map(stones::shown).collect();
         console.print_json(&Made { name: design.name, facets, made_up_of, files })?;
     } else {
         console.tell(&summary)?;

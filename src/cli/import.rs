@@ -7,10 +7,12 @@ use super::form::Form;
 use super::outcome::{self, Code, Failure};
 use super::outputs::{self, Outputs};
 use super::stones::{self, Substance};
-use super::weight::Weight;
+use super::weight;
 use crate::cut::Unit;
 use crate::formats::{self, Encoded};
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
+use crate::store::terminal::in_line;
 use crate::store::{place, replace};
 use plan::Job;
 use serde::Serialize;
@@ -65,7 +67,7 @@ struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
     facets: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    wrote: Option<PathBuf>,
+    wrote: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,9 +114,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     } else {
         rows.iter().filter_map(|r| r.error.as_ref()).for_each(|e| console.complain(e));
         if to_output {
-            console.note(&table(&rows));
+            table(&rows).lines().for_each(|line| console.note(line));
         } else if rows.iter().any(|r| [WRITTEN, THERE].contains(&r.outcome)) {
-            console.print(&table(&rows))?;
+            console.tell(&table(&rows))?;
         }
     }
     if results.is_empty() {
@@ -135,13 +137,13 @@ fn plan(args: &Args) -> Result<(Vec<Job>, Form), Failure> {
     if to_file && !alone {
         return Err(Failure::input(format!(
             "several stones do not fit into the one file {}: give a folder and --to FORMAT",
-            args.output.display()
+            stones::shown(&args.output)
         )));
     }
     let to = args.to.as_deref();
     let form = match to_file && !replace::is_stream(&args.output) {
         true => Form::of(&args.output, to)?,
-        false => Form::named(to.unwrap_or("toml"))?,
+        false => Form::for_stream(&args.output, to, "toml")?,
     };
     if to_file {
         let job =
@@ -156,8 +158,7 @@ fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Conso
     if job.by_chance {
         return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
     }
-    // a pipe may have no reader: it is not waited for unless that is asked for
-    let to_stream = replace::is_stream(&job.target) && (console.force || !is_pipe(&job.target));
+    let to_stream = replace::is_stream(&job.target);
     if !to_stream {
         outputs.check_inputs(&job.target)?;
         if console.force {
@@ -193,7 +194,8 @@ fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Conso
             let substance = substance.within(&job.stone)?;
             let size = match carat {
                 Some(carats) => {
-                    Some(Weight::of(&substance, &imported.design).width_mm(&imported.design, carats)?)
+                    let weight = Weight::of(&substance.of(&imported.design));
+                    Some(weight::width_mm(&weight, &imported.design, carats)?)
                 }
                 None => args.size,
             };
@@ -214,21 +216,7 @@ fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Conso
         }
         return Ok(Row { file, outcome: THERE, ..read });
     }
-    Ok(Row { file, outcome: WRITTEN, wrote: Some(job.target.clone()), ..read })
-}
-
-/// Whether `path` leads to a named pipe.
-fn is_pipe(path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::FileTypeExt;
-        path.metadata().is_ok_and(|m| m.file_type().is_fifo())
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = path;
-        false
-    }
+    Ok(Row { file, outcome: WRITTEN, wrote: Some(stones::shown(&job.target)), ..read })
 }
 
 /// The rows in columns, then how many had which outcome.
@@ -237,9 +225,9 @@ fn table(rows: &[Row]) -> String {
         .iter()
         .filter(|r| r.outcome != PASSED_OVER)
         .map(|r| {
-            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |w| w.display().to_string());
+            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |wrote| in_line(wrote));
             let facets = r.facets.map_or_else(String::new, |n| n.to_string());
-            [r.file.clone(), r.format.unwrap_or_default().into(), facets, wrote]
+            [in_line(&r.file), r.format.unwrap_or_default().into(), facets, wrote]
         })
         .collect();
     let heads = ["file", "format", "facets", "wrote"].map(String::from);

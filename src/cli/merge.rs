@@ -4,7 +4,8 @@ use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
-use super::plots::{self, Plots};
+use super::plots::{self, Look, Plots};
+use super::stones;
 use super::tables;
 use crate::store::progress::Progress;
 use crate::store::replace;
@@ -29,10 +30,12 @@ pub struct Args {
     /// Where to write the whole table: .csv, .jsonl or .ndjson, .json; - is standard output
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
-    /// Draw the curves or the map of the whole table, .svg or .png; a file called METRIC.svg shows that
+    /// Draw the curves or the map of the whole table, .svg, .pdf or .png; a file called METRIC.svg shows that
     /// metric, of any other name one is drawn for each, NAME-METRIC.svg
     #[arg(long, value_name = "FILE")]
     plot: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
 }
 
 /// Joins the parts.
@@ -45,11 +48,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let count = parts.len();
     let mut parts = Parts::of(parts)?;
     let command = parts.meta.command.clone();
-    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta))?;
-    let layout = match plots.is_empty() {
+    let layout = match args.plot.is_empty() {
         true => Default::default(),
         false => plots::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
     };
+    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta), &args.look, &layout.axes)?;
     plots.claim(&command, &mut outputs)?;
     let drawn = |parts: &Parts| match plots.is_empty() {
         true => Ok(Vec::new()),
@@ -57,7 +60,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     };
     if replace::is_stream(&args.output) {
         parts.write(form, &args.output)?;
-        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
         return Ok(tables::code(&parts.meta.summary));
     }
     let begun = Progress::is_of(&Progress::beside(&args.output), &parts.identity());
@@ -72,7 +75,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 impl From<MergeError> for Failure {
     fn from(error: MergeError) -> Failure {
         match error {
-            MergeError::Read { path, cause } => Failure::reading(&path.display().to_string(), &cause),
+            MergeError::Read { path, cause } => Failure::reading(&stones::shown(&path), &cause),
             MergeError::Write(cause) => cause.into(),
             other => Failure::input(other.to_string()),
         }

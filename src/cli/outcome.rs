@@ -1,5 +1,6 @@
 //! How a command ends: exit codes, and errors of one line.
 
+use super::stones;
 use crate::cut::CutError;
 use crate::formats::FormatError;
 use crate::photons::file::MapFileError;
@@ -95,13 +96,13 @@ impl Failure {
 
     /// A file that is there already and was not to be replaced.
     pub fn exists(stone: &str, target: &Path) -> Failure {
-        let target = target.display();
+        let target = stones::shown(&target);
         Failure::new(Code::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// A file that is there already and that another command made.
     pub fn other_is_there(target: &Path) -> Failure {
-        let target = target.display();
+        let target = stones::shown(&target);
         Failure::new(
             Code::Io,
             format!(
@@ -132,6 +133,14 @@ impl Failure {
     /// The shape of a file that holds no convex stone; none for every other failure.
     pub fn shape(&self) -> Option<&Shape> {
         self.shape.as_deref()
+    }
+
+    /// The same with the mesh that it holds, if it is closed, changed.
+    pub fn with_body(mut self, change: impl FnOnce(Body) -> Body) -> Failure {
+        if let Some(shape) = &mut self.shape {
+            shape.body = shape.body.take().map(change);
+        }
+        self
     }
 
     /// Says it on standard error and gives the exit code.

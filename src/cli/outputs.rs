@@ -62,7 +62,7 @@ impl Outputs {
         let real = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let place = real.join(path.file_name().unwrap_or_default());
         if let Some(other) = self.claimed.insert(place, path.to_owned()) {
-            let other = other.display();
+            let other = stones::shown(&other);
             return Err(Failure::input(format!(
                 "{other} is given for two outputs: name another file for one"
             )));
@@ -80,12 +80,6 @@ impl Outputs {
             Some((_, input)) => Err(Failure::input(format!("{input} is an input: write to another file"))),
             None => Ok(()),
         }
-    }
-
-    /// Writes a file that was quickly made: over another only with `--force`.
-    pub fn write(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-        self.claim(path, |there| holds(there, bytes))?;
-        Ok(replace::write(path, bytes)?)
     }
 }
 

@@ -3,7 +3,8 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::{Outputs, record};
-use super::plots::{self, Plots};
+use super::plots::{self, Look, Plots};
+use super::stones;
 use crate::study::merge::Part;
 use std::path::PathBuf;
 
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   cutlab plot sweep.csv -o wlr.svg -o iso.png     of a table of sweep, or of score --tilt
+  cutlab plot sweep.csv -o wlr.png --title 'Crown and pavilion' --range wlr=0.25:0.29 --pixels 2400
   cutlab plot all.csv -o map.svg                  map-METRIC.svg for every metric of the table
 
 The table needs its companion beside it (sweep.csv.meta.json), which says what its axes are.")]
@@ -18,21 +20,23 @@ pub struct Args {
     /// A whole table that sweep, merge or score --tilt wrote
     #[arg(value_name = "TABLE")]
     table: PathBuf,
-    /// Where to draw: .svg or .png; a file called METRIC.svg shows that metric, of any other name one is
+    /// Where to draw: .svg, .pdf or .png; a file called METRIC.svg shows that metric, of any other name one is
     /// drawn for each, NAME-METRIC.svg
     #[arg(long, short, value_name = "FILE", required = true)]
     output: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
 }
 
 /// Draws the plots.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let part = Part::open(&args.table)?;
     if let Some(shard) = part.meta.shard {
-        let table = args.table.display();
+        let table = stones::shown(&args.table);
         return Err(Failure::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));
     }
     let layout = plots::layout_of(&args.table, &part.meta)?;
-    let plots = Plots::of(&args.output, &plots::metrics_of(&part.meta))?;
+    let plots = Plots::of(&args.output, &plots::metrics_of(&part.meta), &args.look, &layout.axes)?;
     let mut outputs = Outputs::of(console);
     outputs.reads(&args.table);
     let command = record::own_command();

@@ -1,43 +1,70 @@
 //! Plots of a table's scores: where each is written, and what stands along its axes.
 
+mod look;
+
 use super::console::Console;
 use super::outcome::Failure;
 use super::outputs::{Outputs, record};
 use super::stones;
 use crate::metrics::Metric;
-use crate::report::plot::{self, Axis, Drawing};
-use crate::report::raster;
+use crate::report::plot::{Axis, Drawing, Style};
+use crate::report::{pdf, raster};
 use crate::store::replace;
 use crate::study::meta::{Layout, Meta};
 use crate::study::table::{Form, Numbers};
 use std::path::{Path, PathBuf};
 
+pub use look::Look;
+
 /// Plots to be drawn: each file with its score.
 #[derive(Debug, Clone)]
 pub struct Plots {
     files: Vec<(PathBuf, &'static Metric)>,
+    style: Style,
+    /// Pixels across those that are pictures.
+    width: u32,
 }
 
 impl Plots {
     /// The files of the plots asked for. One that is called as a metric shows that metric; of any
     /// other name there is one for each, NAME-METRIC.svg.
-    pub fn of(paths: &[PathBuf], metrics: &[&'static Metric]) -> Result<Plots, Failure> {
+    ///
+    /// - `axes`: columns along the axes
+    pub fn of(
+        paths: &[PathBuf],
+        metrics: &[&'static Metric],
+        look: &Look,
+        axes: &[String],
+    ) -> Result<Plots, Failure> {
+        if let (true, Some(option)) = (paths.is_empty(), look.given()) {
+            return Err(Failure::input(format!("{option} is about plots: --plot FILE draws one")));
+        }
         let mut files = Vec::new();
         for path in paths {
             let Some(ending) = ending_of(path) else {
-                return Err(Failure::input(format!("{}: plots are .svg or .png", path.display())));
+                return Err(Failure::input(format!(
+                    "{}: plots are .svg, .pdf or .png",
+                    stones::shown(&path)
+                )));
             };
             let stem = stones::shown(path.file_stem().unwrap_or_default());
             let own = metrics.iter().find(|m| m.name == stem);
             match (own, metrics) {
                 (Some(metric), _) | (None, [metric]) => files.push((path.clone(), *metric)),
+                _ if replace::is_stream(path) => {
+                    return Err(Failure::input(format!(
+                        "{} takes one plot, and there are {} scores: name a file",
+                        stones::shown(path),
+                        metrics.len()
+                    )));
+                }
                 _ => files.extend(metrics.iter().map(|metric| {
                     let name = format!("{stem}-{}.{ending}", metric.name);
                     (path.with_file_name(name), *metric)
                 })),
             }
         }
-        Ok(Plots { files })
+        Ok(Plots { files, style: look.style(metrics, axes)?, width: look.width() })
     }
 
     /// Whether there is none to be drawn.
@@ -69,13 +96,19 @@ impl Plots {
         let family = stones::family(&layout.stone);
         let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::of(key, family)).collect();
         for (path, metric) in &self.files {
-            let drawing = Drawing { metric, axes: &axes, stone: &layout.stone, family, own: None };
+            let (stone, is_diamond, style) = (&layout.stone, layout.is_diamond, &self.style);
+            let drawing = Drawing { metric, axes: &axes, stone, family, is_diamond, style, own: None };
             let svg = drawing.svg(&table, layout.scattered, &layout.curves);
-            let bytes = if ending_of(path) == Some("svg") {
-                record::recorded(svg, command).into_bytes()
-            } else {
-                let png = raster::png_of(&svg, plot::PIXELS, Some(command));
-                png.map_err(|e| Failure::input(e.to_string()))?
+            let bytes = match ending_of(path) {
+                Some("svg") => record::recorded(svg, command).into_bytes(),
+                Some("pdf") => {
+                    let page = pdf::pdf(&svg).map_err(|e| Failure::input(e.to_string()))?;
+                    record::in_pdf(page, command)
+                }
+                _ => {
+                    let png = raster::png_of(&svg, self.width, Some(command));
+                    png.map_err(|e| Failure::input(e.to_string()))?
+                }
             };
             replace::write(path, &bytes)?;
         }
@@ -86,7 +119,7 @@ impl Plots {
 /// What a table's companion says of its axes.
 pub fn layout_of(table: &Path, meta: &Meta) -> Result<Layout, Failure> {
     let why = || {
-        let table = table.display();
+        let table = stones::shown(&table);
         match meta.build.is_empty() {
             true => format!("{table} is of an older cutlab, which did not note its axes: make it anew"),
             false => {
@@ -102,17 +135,17 @@ pub fn metrics_of(meta: &Meta) -> Vec<&'static Metric> {
     meta.metrics.iter().filter_map(|m| Metric::named(&m.name)).collect()
 }
 
-/// `svg` or `png`, by the file's ending.
+/// `svg`, `pdf` or `png`, by the file's ending.
 fn ending_of(path: &Path) -> Option<&'static str> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
-    ["svg", "png"].into_iter().find(|e| *e == ending)
+    ["svg", "pdf", "png"].into_iter().find(|e| *e == ending)
 }
 
 /// Says which files were drawn.
 pub fn tell(files: &[PathBuf], console: &Console) -> Result<(), Failure> {
     if console.json {
-        return console.print_json(&files);
+        return console.print_json(&files.iter().map(stones::shown).collect::<Vec<_>>());
     }
-    files.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+    files.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
     Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::math::stats::Estimate;
 use crate::metrics::Metric;
 use crate::report::page::number;
+use crate::store::terminal::in_line;
 use crate::study::table::Numbers;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
@@ -28,7 +29,7 @@ pub fn text(columns: &[String], table: &Numbers, metrics: &[&'static Metric]) ->
         Some(shown(estimate))
     };
     let mut text = new();
-    let lead = |column: &str, row: usize| table.texts(column).get(row).cloned().unwrap_or_default();
+    let lead = |column: &str, row: usize| in_line(&table.texts(column).get(row).cloned().unwrap_or_default());
     if rows <= MOST_COLUMNS {
         for column in leading {
             let cells = (0..rows).map(|row| lead(column, row));

@@ -13,12 +13,13 @@ mod target;
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
-use super::{stones, values};
+use super::{scoring, stones, values};
 use crate::math::typed;
 use crate::photons;
 use crate::render::animation::Turn;
 use crate::render::{self, Curve, Tone};
 use crate::scene::{self, Cast, Pose, SCENES, SceneFile};
+use crate::store::replace;
 use background::Background;
 use choices::Exposure;
 use std::ffi::{OsStr, OsString};
@@ -43,7 +44,7 @@ pub struct Args {
     stones: Vec<OsString>,
     /// What is around it: a name of `cutlab list scenes`, or a TOML file
     #[arg(long, default_value = "table", value_name = "NAME|FILE")]
-    scene: String,
+    scene: OsString,
     /// Let a scene file name stones, meshes and panoramas outside its own folder
     #[arg(long)]
     allow_outside: bool,
@@ -154,13 +155,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let tone = Tone { curve, ..Tone::default() };
     let settings = render::Settings { width, height, rays: args.rays(), round: 0, tone, seed: args.seed };
     let files = frames::take(args, &scene, settings, &target, console)?;
-    if output == Path::new("-") {
+    if replace::is_stdout(&output) {
         return Ok(Code::Done); // the picture is the whole of what standard output gets
     }
     if console.json {
-        console.print_json(&files)?;
+        console.print_json(&files.iter().map(stones::shown).collect::<Vec<_>>())?;
     } else {
-        files.iter().for_each(|f| console.note(&format!("wrote {}", f.display())));
+        files.iter().for_each(|f| console.note(&format!("wrote {}", stones::shown(&f))));
     }
     Ok(Code::Done)
 }
@@ -191,15 +192,16 @@ fn stone_name(spec: &OsStr) -> String {
 }
 
 /// A scene of the catalogue, or a file.
-fn scene_file(name: &str) -> Result<SceneFile, Failure> {
-    if let Some(file) = scene::preset(name) {
+fn scene_file(name: &OsStr) -> Result<SceneFile, Failure> {
+    if let Some(file) = name.to_str().and_then(scene::preset) {
         return Ok(file?);
     }
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e == "toml") || path.exists() {
         return Ok(SceneFile::open(path)?);
     }
-    let near = typed::suggestion(typed::nearest(name, SCENES.iter().map(|(n, _)| *n)));
+    let name = stones::shown(name);
+    let near = typed::suggestion(typed::nearest(&name, SCENES.iter().map(|(n, _)| *n)));
     Err(Failure::input(format!(
         "no scene and no file is called '{name}'{near} (all scenes: cutlab list scenes)"
     )))
@@ -212,6 +214,14 @@ fn cast(args: &Args, console: &Console) -> Result<Cast, Failure> {
         imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
         let substance = args.substance.within(spec)?;
         let material = substance.of(&imported.design);
+        if substance.asked().is_none() && material.bare_index().is_some() {
+            let why = material.no_dispersion();
+            scoring::once(
+                &format!("{}: a picture without fire and colour, for {why}", stones::shown(spec)),
+                &why,
+                console,
+            );
+        }
         materials.push(substance.asked());
         designs.push(stones::sized_for_colour(imported.design, args.size, &material, console)?);
     }

@@ -11,7 +11,7 @@ use crate::cut::Unit;
 use crate::math::stats::Estimate;
 use crate::optics::dispersion::VISIBLE_UM;
 use crate::report::bundle::{self, Bundle, STEPS};
-use crate::report::page::number;
+use crate::report::page::{Section, number};
 use crate::report::{self, ReportError, Request};
 use crate::store::progress::Progress;
 use crate::study::identity::BUILD;
@@ -27,9 +27,9 @@ Examples:
   cutlab report designs/ -o out        every design of a folder, each into a folder of its own in out/
 
 index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
-the cutting diagram, every score beside five reference stones, scores against the tilt, and for round
-brilliants their place on the map of light return. Beside it stand the pictures (table.png, aset.png,
-ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml.")]
+the cutting diagram, every score beside five reference stones of the same material, scores against the
+tilt, and for round brilliants their place on the map of light return. Beside it stand the pictures
+(table.png, aset.png, ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml.")]
 pub struct Args {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
     /// of several, each has a folder of its own in -o
@@ -51,11 +51,13 @@ pub struct Args {
 /// The numbers that matter, for `--json`.
 #[derive(Serialize)]
 struct Summary {
-    folder: PathBuf,
-    files: Vec<PathBuf>,
+    folder: String,
+    files: Vec<String>,
     scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
+    /// `more` or `less` for scores of which either is better by itself.
+    better: BTreeMap<String, &'static str>,
     /// Why scores that are null are.
-    left_out: BTreeMap<String, &'static str>,
+    left_out: BTreeMap<String, String>,
 }
 
 /// Makes the reports and writes them.
@@ -140,11 +142,13 @@ fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<S
         .iter()
         .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
     let every = bundle.sections.iter().flat_map(|s| &s.scores);
-    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out?)));
+    let better = every.clone().map(|score| (score.name.clone(), score.better.word()));
+    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out.clone()?)));
     Ok(Summary {
+        better: better.filter(|(_, word)| !word.is_empty()).collect(),
         left_out: left_out.collect(),
-        folder: folder.to_owned(),
-        files: bundle.files.iter().map(|(name, _)| folder.join(name)).collect(),
+        folder: stones::shown(folder),
+        files: bundle.files.iter().map(|(name, _)| stones::shown(folder.join(name))).collect(),
         scores: scores.collect(),
     })
 }
@@ -159,13 +163,20 @@ fn text(bundle: &Bundle, folder: &Path) -> String {
             let value = match score.value.map(number) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
-                None => format!("– ({})", score.left_out.unwrap_or("does not apply")),
+                None => "–".into(),
             };
-            text += &format!("  {:<16} {value}\n", score.name);
+            let better = match score.better.said() {
+                "" => String::new(),
+                said => format!("  ({said})"),
+            };
+            text += &format!("  {:<16} {value}{better}\n", score.name);
         }
     }
+    for said in bundle.sections.iter().filter_map(Section::omissions) {
+        text += &format!("{said}\n");
+    }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", folder.display(), names.join(", "))
+    text + &format!("{}: {}", stones::shown(&folder), names.join(", "))
 }
 
 impl From<ReportError> for Failure {

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::folders;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
-use super::plots::Plots;
+use super::plots::{Look, Plots};
 use super::proportion_columns as proportions;
 use super::scoring::{self, Inputs, Scoring};
 use super::stones::{self, DEFAULT_STONE};
@@ -63,10 +63,12 @@ pub struct Args {
         requires = "tilt"
     )]
     tilt_axis: Vec<f64>,
-    /// Draw the scores against the tilt, a curve for each stone and axis, .svg or .png; a file called
+    /// Draw the scores against the tilt, a curve for each stone and axis, .svg, .pdf or .png; a file called
     /// METRIC.svg shows that metric, of any other name one is drawn for each, NAME-METRIC.svg
     #[arg(long, value_name = "FILE", requires = "tilt", conflicts_with_all = ["shard", "sort"])]
     plot: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
 }
 
 /// What `--sort` asks for.
@@ -113,7 +115,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let columns = table::columns(&leading, &plan.metrics);
     let each = tilts.len().max(1) as u64;
     let inputs = Inputs::of(&command, specs.iter().map(OsString::as_os_str));
-    let plots = Plots::of(&args.plot, &plan.metrics)?;
+    let plots = Plots::of(&args.plot, &plan.metrics, &args.look, &[TILT.into()])?;
     let study = Study {
         identity: inputs.identity.clone(),
         command,
@@ -130,7 +132,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             scoring::tell(&stones::shown(spec), &row, console);
             let mut leading = table::stone_cells(&row);
             if args.proportions {
-                leading.extend(proportions::cells(spec, &args.scoring));
+                leading.extend(proportions::cells(spec, &args.scoring, console));
             }
             leading.extend(tilt.map(|t| Cell::number(t.degrees)));
             leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| Cell::number(t.azimuth)));
@@ -171,7 +173,7 @@ fn layout(specs: &[OsString], axes: &[f64]) -> Layout {
     };
     let several = [(specs.len() > 1, table::STONE_COLUMNS[0]), (axes.len() > 1, TILT_AXIS)];
     let curves = several.iter().filter(|(is, _)| *is).map(|(_, column)| column.to_string()).collect();
-    Layout { stone: alone, axes: vec![TILT.into()], curves, scattered: false }
+    Layout { stone: alone, axes: vec![TILT.into()], curves, scattered: false, is_diamond: false }
 }
 
 /// Value parser of `--sort`.

@@ -78,11 +78,17 @@ impl Scoring {
             (false, false) => (lines::D, lines::D),
         };
         let range = self.substance.range_note(from, to);
+        let high = self.substance.ri.filter(|n| *n > HIGH_INDEX).map(|n| {
+            format!(
+                "note: light stays in a stone of n = {n} for thousands of facets: its scores take long, a tenth as \
+                 long with --error 0.01"
+            )
+        });
         let size = (!sized && self.size.is_none() && coloured).then(|| {
             let mm = stones::USUAL_SIZE;
             format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it")
         });
-        range.into_iter().chain(size).collect()
+        range.into_iter().chain(high).chain(size).collect()
     }
 
     /// The plan that was asked for.
@@ -147,6 +153,7 @@ impl Scoring {
         };
         let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
         let body = body.ok_or(failure)?;
+        standing::note_body(&stones::shown(spec), &body);
         let material = substance.drawn_for(None);
         let size = self.size.or((!material.is_clear()).then_some(stones::USUAL_SIZE));
         let scale = size.map_or(1.0, |mm| mm / body.width());
@@ -180,13 +187,24 @@ impl Scoring {
     }
 }
 
+/// No material has a higher index; beyond it a score takes up to a hundred times as long as a diamond's.
+const HIGH_INDEX: f64 = 4.0;
+
 /// Says what is to be said of a row's scores, once for all rows of which it is.
 pub fn tell(stone: &str, row: &Row, console: &Console) {
-    static TOLD: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
-    let Some(note) = row.note else { return };
-    let first = TOLD.lock().is_ok_and(|mut told| told.insert(note));
+    if let Some(note) = row.note {
+        once(&format!("{stone}: {note}"), note, console);
+    }
+}
+
+/// Says something of one stone, once for all of which the same is to be said.
+///
+/// - `key`: what is the same
+pub fn once(said: &str, key: &str, console: &Console) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let first = TOLD.lock().is_ok_and(|mut told| told.insert(key.to_owned()));
     if first {
-        console.note(&format!("note: {stone}: {note} (not said of others)"));
+        console.note(&format!("note: {said} (not said of others)"));
     }
 }
 

@@ -8,18 +8,20 @@ use super::console::Console;
 use super::drawing::{self, Drawing};
 use super::folders;
 use super::outcome::{Code, Failure, Shape};
-use super::outputs::Outputs;
+use super::outputs::{self, Outputs};
 use super::stones;
-use super::weight::{self, Weight};
+use super::weight;
 use crate::cut::Unit;
 use crate::cut::brilliant::{self, Lengths};
 use crate::cut::proportions::{self, Ratios};
 use crate::cut::symmetry::Symmetry;
 use crate::formats;
 use crate::optics::fresnel::critical_angle_deg;
+use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
 use crate::report::pattern;
 use crate::store::replace;
+use crate::store::terminal::in_line;
 use crate::walk::Stone;
 use measured::Measured;
 use mesh::MeshSheet;
@@ -153,22 +155,25 @@ enum Entry<'a> {
 
 /// Shows every stone.
 pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let is_stdout = |path: &&PathBuf| replace::is_stdout(path);
-    if [&args.beams, &args.diagram].into_iter().flatten().filter(is_stdout).count() > 1 {
+    if [&args.beams, &args.diagram].into_iter().flatten().filter(|p| replace::is_stdout(p)).count() > 1 {
         return Err(Failure::input(
             "one drawing at a time goes to standard output: name a file for the other",
         ));
     }
     let stones = folders::expanded(&args.stones)?;
     let mut outputs = Outputs::beside(&stones, console);
-    let drawings = [(&args.beams, draw_beams as Draw), (&args.diagram, draw_diagram)];
+    let drawings = [(&args.diagram, draw_diagram as Draw), (&args.beams, draw_beams)];
     let given = drawings.into_iter().filter_map(|(path, draw)| Some((path.as_ref()?, draw)));
-    // files first: what is refused has put nothing on standard output
-    let (streamed, filed): (Vec<_>, Vec<_>) = given.partition(|(path, _)| replace::is_stdout(path));
-    for (path, draw) in filed.iter().chain(&streamed) {
-        draw(args, path, &mut outputs, console)?;
+    // every drawing is made and every place taken before the first is written
+    let drawn: Vec<Drawn> = given.map(|(path, draw)| draw(args, path)).collect::<Result<_, _>>()?;
+    for Drawn { path, bytes, .. } in &drawn {
+        outputs.claim(path, |there| outputs::holds(there, bytes))?;
     }
-    if !streamed.is_empty() {
+    for Drawn { path, bytes, said } in &drawn {
+        replace::write(path, bytes)?;
+        console.note(said);
+    }
+    if drawn.iter().any(|d| replace::is_stdout(&d.path)) {
         return Ok(Code::Done); // standard output is the drawing
     }
     let results = stones::each(&stones, console, "reading", |spec| match sheet(spec, args) {
@@ -204,8 +209,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(stones::code(&results))
 }
 
-/// Draws something of the only stone into a file.
-type Draw = fn(&Args, &Path, &mut Outputs, &Console) -> Result<(), Failure>;
+/// Draws something of the only stone for a file.
+type Draw = fn(&Args, &Path) -> Result<Drawn, Failure>;
+
+/// A drawing, where it goes, and what is said of it.
+struct Drawn {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    said: String,
+}
 
 /// The only stone, for what draws one.
 fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
@@ -216,35 +228,35 @@ fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
 }
 
 /// Draws the cutting diagram of the only stone.
-fn draw_diagram(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
+fn draw_diagram(args: &Args, path: &Path) -> Result<Drawn, Failure> {
     let spec = only(args, "--diagram")?;
-    let drawing = match replace::is_stream(path) {
-        true => Drawing::Svg,
-        false => Drawing::of(path).ok_or_else(|| {
-            Failure::input(format!("{}: --diagram draws .svg, .pdf or .png", path.display()))
-        })?,
+    let drawing = match Drawing::of(path) {
+        Some(drawing) => drawing,
+        None if replace::is_stream(path) => Drawing::Svg,
+        None => {
+            let path = stones::shown(&path);
+            return Err(Failure::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
+        }
     };
     let design = stones::open(spec)?.design;
     let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    outputs.write(path, &drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?)?;
-    console.note(&format!("wrote {}", path.display()));
-    Ok(())
+    let bytes = drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?;
+    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stones::shown(&path)) })
 }
 
 /// Draws the virtual facets of the only stone.
-fn draw_beams(args: &Args, path: &Path, outputs: &mut Outputs, console: &Console) -> Result<(), Failure> {
+fn draw_beams(args: &Args, path: &Path) -> Result<Drawn, Failure> {
     let spec = only(args, "--beams")?;
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !replace::is_stream(path) {
-        return Err(Failure::input(format!("{}: --beams draws SVG alone", path.display())));
+        return Err(Failure::input(format!("{}: --beams draws SVG alone", stones::shown(&path))));
     }
     let design = stones::open(spec)?.design;
     let index = args.substance.within(spec)?.of(&design).index_d();
     let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
-    outputs.write(path, pattern.svg.as_bytes())?;
-    console.note(&format!("{}: {} virtual facets", path.display(), pattern.polygons));
-    Ok(())
+    let said = format!("{}: {} virtual facets", stones::shown(&path), pattern.polygons);
+    Ok(Drawn { path: path.into(), bytes: pattern.svg.into_bytes(), said })
 }
 
 fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
@@ -256,9 +268,9 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
     let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
     let p = proportions::measure(&solid);
     let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
-    let weight = Weight::of(&substance, &design);
+    let weight = Weight::of(&material);
     let size = match args.carat {
-        Some(carats) => Some(weight.width_mm(&design, carats)?),
+        Some(carats) => Some(weight::width_mm(&weight, &design, carats)?),
         None => args.size,
     };
     Ok(Sheet {
@@ -292,12 +304,12 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
 
 impl Sheet {
     fn text(&self) -> String {
-        let mut out = format!("{} ({})\n", self.file, self.format);
+        let mut out = format!("{} ({})\n", in_line(&self.file), self.format);
         let mut line = |label: &str, value: String| {
             let _ = writeln!(out, "  {label:<15} {value}");
         };
         if !self.name.is_empty() && self.name != self.file {
-            line("name", self.name.clone());
+            line("name", in_line(&self.name));
         }
         let kinds: Vec<String> = ["table", "crown", "girdle", "pavilion", "culet"]
             .iter()

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::outcome::Failure;
 use crate::cut::standing;
 use crate::formats::Imported;
+use crate::solid::Body;
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, OnceLock};
@@ -84,11 +85,38 @@ pub fn stood(mut imported: Imported) -> Result<Imported, Failure> {
     Ok(imported)
 }
 
+/// A mesh with dents, or in several parts, as it is to stand.
+pub fn stood_body(failure: Failure) -> Failure {
+    let Standing { up, align } = asked();
+    failure.with_body(|body| {
+        let up = match (up, align) {
+            (Some(up), _) => up.direction,
+            (None, true) => standing::up_of_body(&body),
+            (None, false) => return body,
+        };
+        if up.distance(DVec3::Z) > 1e-9 { body.turned(standing::turned_up(up)) } else { body }
+    })
+}
+
+/// As [`note`], of a stone with dents.
+pub fn note_body(spec: &str, body: &Body) {
+    let Standing { up, align } = asked();
+    if let (None, false, Some(said)) = (up, align, standing::doubt_of_body(body)) {
+        tell(spec, &said);
+    }
+}
+
 /// Says once of each STONE that it does not stand table up, for commands that print no other remarks.
 pub fn note(spec: &str, imported: &Imported) {
+    if let Some(said) = imported.warnings.iter().find(|w| w.starts_with(standing::DOUBT)) {
+        tell(spec, said);
+    }
+}
+
+/// Says something of a STONE, once.
+fn tell(spec: &str, said: &str) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let said = imported.warnings.iter().find(|w| w.starts_with(standing::DOUBT));
-    if let (Some(said), Some((_, console)), Ok(mut told)) = (said, ASKED.get(), TOLD.lock())
+    if let (Some((_, console)), Ok(mut told)) = (ASKED.get(), TOLD.lock())
         && told.insert(spec.to_owned())
     {
         console.note(&format!("note: {spec}: {said}"));

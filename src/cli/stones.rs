@@ -9,6 +9,7 @@ use crate::formats::{Imported, stone};
 use crate::math::typed;
 use crate::optics::Material;
 use crate::optics::materials::MATERIALS;
+pub use crate::store::text::shown;
 use rayon::prelude::*;
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -99,17 +100,6 @@ fn parted(argument: &OsStr) -> Option<(OsString, &str)> {
     None
 }
 
-/// A STONE, or another file name, as tables and messages show it: bytes that are not UTF-8 are
-/// written `\xff`, so that two names never look alike.
-pub fn shown(name: impl AsRef<OsStr>) -> String {
-    let mut text = String::new();
-    for chunk in name.as_ref().as_encoded_bytes().utf8_chunks() {
-        text += chunk.valid();
-        chunk.invalid().iter().for_each(|byte| text += &format!("\\x{byte:02x}"));
-    }
-    text
-}
-
 /// Opens one STONE; that of a file stands as `--up` or `--align` has it. A material or index that it names
 /// itself is what its design is drawn for.
 pub fn open(argument: impl AsRef<OsStr>) -> Result<Imported, Failure> {
@@ -122,7 +112,8 @@ pub fn open(argument: impl AsRef<OsStr>) -> Result<Imported, Failure> {
             "{name} is a folder, and here one stone is named: name a file in it"
         )));
     }
-    let mut imported = standing::stood(stone::open(spec.base())?)?;
+    let mut imported =
+        standing::stood(stone::open(spec.base()).map_err(|e| standing::stood_body(e.into()))?)?;
     if let Some(material) = spec.substance.asked() {
         imported.design.refractive_index = Some(material.index_d());
     }
@@ -171,6 +162,20 @@ pub fn family(spec: &str) -> Option<&'static Family> {
     let name = stone::cut_name(spec)?;
     let family = library::document(name).and_then(Result::ok).and_then(|d| d.family);
     families::family(family.as_deref().unwrap_or(name)).ok()
+}
+
+/// Whether a size in millimetres is the stone's own parameter, to be set like others; else it scales the stone.
+/// A prism of given height has its width set, one whose height nobody gave stays the same shape: a cube a cube.
+///
+/// - `given`: whether a parameter is given beside it
+pub fn size_is_parameter(spec: &str, given: impl Fn(&str) -> bool) -> bool {
+    const SIZE: &str = "size";
+    let parameters = spec.split_once(':').map_or("", |(_, parameters)| parameters);
+    let named = |key: &str| parameters.split(',').any(|p| p.split('=').next().map(str::trim) == Some(key));
+    family(spec).is_some_and(|family| {
+        let mut lengths = family.parameters.iter().filter(|p| p.unit.trim() == "mm" && p.key != SIZE);
+        family.keys().any(|p| p.key == SIZE) && lengths.all(|p| named(p.key) || given(p.key))
+    })
 }
 
 /// Value parser of `--size`.

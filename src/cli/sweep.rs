@@ -4,18 +4,19 @@ use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::Outputs;
 use super::parameters::Parameters;
-use super::plots::Plots;
+use super::plots::{Look, Plots};
 use super::scoring::{self, Inputs, Scoring};
 use super::stones;
 use super::tables::{self, Study, Table};
 use super::words::quoted;
 use crate::math::typed;
+use crate::optics::weight::Weight;
 use crate::store::replace;
 use crate::study::batch::Line;
 use crate::study::meta::Layout;
 use crate::study::sweep::{MOST_SCATTERED, Sweep, Varied};
 use crate::study::table::{self, Cell};
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
 /// Keys that every stone has.
@@ -35,17 +36,19 @@ is less than the errors of the two together. Common are seed, points of the outl
 directions as shares of what each stone has; paths differ as the stones do.")]
 pub struct Args {
     /// The stone: a name from `cutlab list cuts`, with parameters or not
-    stone: String,
+    stone: OsString,
     /// A parameter of the stone, or size or ri, and what it runs through; may be given several times
     #[arg(long, value_name = "KEY=FROM:TO:STEP", required = true)]
     vary: Vec<Varied>,
     /// So many points spread evenly between the ends of the ranges, in place of the grid
     #[arg(long, value_name = "N", value_parser = scattered)]
     scatter: Option<u64>,
-    /// Draw a curve (one --vary) or a map (two), .svg or .png; a file called METRIC.svg shows that
+    /// Draw a curve (one --vary) or a map (two), .svg, .pdf or .png; a file called METRIC.svg shows that
     /// metric, of any other name one is drawn for each, NAME-METRIC.svg
     #[arg(long, value_name = "FILE")]
     plot: Vec<PathBuf>,
+    #[command(flatten)]
+    look: Look,
     #[command(flatten)]
     table: Table,
     #[command(flatten)]
@@ -62,7 +65,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let plan = args.scoring.plan();
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
-    let mut command = format!("cutlab sweep {}", quoted(&args.stone));
+    let mut command = format!("cutlab sweep {}", quoted(&stones::shown(&args.stone)));
     for varied in &sweep.varied {
         command += &format!(" --vary {}={}", varied.key, varied.steps);
     }
@@ -74,14 +77,16 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
     let total = sweep.count().ok_or_else(|| Failure::input("the grid has too many points to count"))?;
-    let plots = Plots::of(&args.plot, &plan.metrics)?;
+    let axes: Vec<String> = sweep.varied.iter().map(|v| v.key.clone()).collect();
+    let plots = Plots::of(&args.plot, &plan.metrics, &args.look, &axes)?;
     let layout = Layout {
-        stone: args.stone.clone(),
-        axes: sweep.varied.iter().map(|v| v.key.clone()).collect(),
+        stone: stones::shown(&args.stone),
+        is_diamond: is_diamond(args)?,
+        axes,
         curves: Vec::new(),
         scattered: sweep.scatter.is_some(),
     };
-    let inputs = Inputs::of(&command, [OsStr::new(&args.stone)].into_iter());
+    let inputs = Inputs::of(&command, [args.stone.as_os_str()].into_iter());
     let study = Study {
         identity: inputs.identity.clone(),
         command,
@@ -94,9 +99,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         line: &|i, form| {
             let point = sweep.point(i);
             let (spec, scoring) = at(args, &point);
-            let (row, outcome) =
-                inputs.checked(args.stone.as_ref(), scoring.score(spec.as_ref(), None, &plan));
-            scoring::tell(&spec, &row, console);
+            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
+            let shown = stones::shown(&spec);
+            scoring::tell(&shown, &row, console);
             let mut leading: Vec<Cell> = point.iter().map(|x| Cell::number(*x)).collect();
             leading.push(row.facets.into());
             Ok(Line {
@@ -104,7 +109,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
                 key: None,
                 text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: tables::complaint(&spec, &row),
+                complaint: tables::complaint(&shown, &row),
                 note: row.omissions(),
             })
         },
@@ -114,8 +119,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// The stone at a point, and how to score it.
-fn at(args: &Args, point: &[f64]) -> (String, Scoring) {
-    let has_size = has(&args.stone, SIZE);
+fn at(args: &Args, point: &[f64]) -> (OsString, Scoring) {
+    let is_varied = |key: &str| args.vary.iter().any(|v| v.key == key);
+    let has_size = args.stone.to_str().is_some_and(|stone| stones::size_is_parameter(stone, is_varied));
     let mut scoring = args.scoring.clone();
     let mut given = Parameters::default();
     for (varied, &value) in args.vary.iter().zip(point) {
@@ -127,12 +133,23 @@ fn at(args: &Args, point: &[f64]) -> (String, Scoring) {
             }
         }
     }
-    (given.applied_to(&args.stone), scoring)
+    let spec = match args.stone.to_str() {
+        Some(stone) => given.applied_to(stone).into(),
+        None => args.stone.clone(), // a file, which has no parameters
+    };
+    (spec, scoring)
+}
+
+/// Whether the stone is of diamond at every point.
+fn is_diamond(args: &Args) -> Result<bool, Failure> {
+    let design = stones::open(&args.stone)?.design;
+    let material = args.scoring.substance.within(&args.stone)?.of(&design);
+    Ok(Weight::of(&material).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
 }
 
 /// Whether the stone's family has the parameter `key`.
-fn has(stone: &str, key: &str) -> bool {
-    stones::family(stone).is_some_and(|f| f.keys().any(|p| p.key == key))
+fn has(stone: &OsStr, key: &str) -> bool {
+    stone.to_str().and_then(stones::family).is_some_and(|f| f.keys().any(|p| p.key == key))
 }
 
 /// Refuses what cannot be swept or drawn, before anything is scored.
@@ -144,12 +161,12 @@ fn check(args: &Args) -> Result<(), Failure> {
             return Err(Failure::input(format!("--vary {key} is given twice")));
         }
         if ![SIZE, INDEX].contains(&key) && !has(&args.stone, key) {
-            let own = stones::family(&args.stone).map_or(&[][..], |f| f.parameters);
+            let own = args.stone.to_str().and_then(stones::family).map_or(&[][..], |f| f.parameters);
             let mut known: Vec<&str> = own.iter().map(|p| p.key).filter(|k| *k != SIZE).collect();
             known.extend([SIZE, INDEX]);
             return Err(Failure::input(format!(
                 "{} has no parameter '{key}': --vary takes {}",
-                args.stone,
+                stones::shown(&args.stone),
                 known.join(", ")
             )));
         }
@@ -174,7 +191,7 @@ fn check(args: &Args) -> Result<(), Failure> {
     if args.vary.len() > 2 {
         return Err(Failure::input(format!(
             "{}: a plot has one or two varied parameters; of more the table alone is written",
-            first.display()
+            stones::shown(&first)
         )));
     }
     if args.table.shard.of > 1 || replace::is_stream(&args.table.output) {

@@ -5,10 +5,10 @@ use super::outcome::{self, Code, Failure};
 use super::outputs::Outputs;
 use super::plots::Plots;
 use super::readable;
+use super::stones;
 use crate::store::progress::Remark;
 use crate::store::replace;
 use crate::study::batch::{Batch, BatchError, Event, Line, Order, Summary};
-use crate::study::identity::BUILD;
 use crate::study::merge::Part;
 use crate::study::meta::{Layout, Meta};
 use crate::study::score::{Plan, Row};
@@ -98,11 +98,11 @@ impl Study<'_> {
         let tell = |event: Event| match event {
             Event::Remark(Remark::Waiting) => bar.suspend(|| {
                 waited.store(true, Ordering::Relaxed);
-                let output = output.display();
+                let output = stones::shown(&output);
                 console.note(&format!("another cutlab is making {output}: waiting for it to end"));
             }),
             Event::Remark(Remark::SetAside(path, why)) => bar.suspend(|| {
-                console.note(&format!("progress not used, {why}; it is now {}", path.display()));
+                console.note(&format!("progress not used, {why}; it is now {}", stones::shown(&path)));
             }),
             Event::Begins { done, rows } => {
                 if done > 0 {
@@ -117,7 +117,7 @@ impl Study<'_> {
                     bar.suspend(|| console.complain(complaint));
                 }
                 if let Some(note) = &line.note
-                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(note.clone())
+                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(kind_of(note).to_owned())
                 {
                     bar.suspend(|| console.note(&format!("note: {note}")));
                 }
@@ -190,7 +190,7 @@ impl Study<'_> {
             console.print(&readable::text(&self.columns, &table, &self.plan.metrics))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
-        drawn.iter().for_each(|file| console.note(&format!("wrote {}", file.display())));
+        drawn.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
         Ok(code(&summary))
     }
 
@@ -216,7 +216,7 @@ impl Study<'_> {
     /// What is still to be done for a table that is there already.
     fn reused(&self, part: &Part, plots: &Plots, console: &Console) -> Result<Code, Failure> {
         let mut files = self.draw(plots, || Ok(part.bytes()?), part.form)?;
-        console.note(&format!("{} is there already: its rows are used again", part.table.display()));
+        console.note(&format!("{} is there already: its rows are used again", stones::shown(&part.table)));
         files.insert(0, part.table.clone());
         tell_written(&files, &part.meta.summary, "", console)?;
         Ok(code(&part.meta.summary))
@@ -234,20 +234,14 @@ impl Study<'_> {
     }
 
     fn meta(&self, shard: Shard, summary: &Summary, crc32: u32) -> Meta {
+        let (command, study) = (self.command.clone(), self.identity.clone());
         Meta {
-            program: "cutlab".into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            build: BUILD.into(),
-            command: self.command.clone(),
-            seed: self.plan.seed,
-            study: self.identity.clone(),
-            columns: self.columns.clone(),
             layout: self.layout.clone(),
             total: self.total,
             shard: (shard != Shard::WHOLE).then_some(shard),
             summary: summary.clone(),
             crc32: format!("{crc32:08x}"),
-            metrics: Meta::definitions(self.plan),
+            ..Meta::new(self.plan, command, study, self.columns.clone())
         }
     }
 }
@@ -293,7 +287,7 @@ pub fn claim_table(
 /// What was written, for `--json`.
 #[derive(serde::Serialize)]
 struct Written<'a> {
-    files: &'a [PathBuf],
+    files: &'a [String],
     #[serde(flatten)]
     summary: &'a Summary,
 }
@@ -307,10 +301,10 @@ pub fn tell_written(
     of: &str,
     console: &Console,
 ) -> Result<(), Failure> {
+    let names: Vec<String> = files.iter().map(stones::shown).collect();
     if console.json {
-        return console.print_json(&Written { files, summary });
+        return console.print_json(&Written { files: &names, summary });
     }
-    let names: Vec<String> = files.iter().map(|p| p.display().to_string()).collect();
     let failed = if summary.failed > 0 { format!(", {} failed", summary.failed) } else { String::new() };
     let short = match summary.short {
         0 => String::new(),
@@ -349,4 +343,9 @@ impl From<BatchError> for Failure {
             BatchError::Table(error) => error.into(),
         }
     }
+}
+
+/// What a note has in common with those of other stones that differ in their index alone.
+fn kind_of(note: &str) -> &str {
+    note.split(" (n = ").next().unwrap_or(note)
 }

@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::outcome::{Code, Failure};
 use super::outputs::{Outputs, record};
+use super::stones;
 use super::{values, words};
 use crate::report::validation::{self, count, expectation, written};
 use crate::store::replace;
@@ -93,7 +94,7 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);
             replace::write(&path, bytes)?;
-            console.note(&format!("wrote {}", path.display()));
+            console.note(&format!("wrote {}", stones::shown(&path)));
         }
     }
     Ok(if count(&reports, Verdict::Failed) == 0 { Code::Done } else { Code::SomeFailed })

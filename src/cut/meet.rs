@@ -183,7 +183,7 @@ impl Bench {
         let mut planes = walls.to_vec();
         planes
             .extend([DVec3::Z, -DVec3::Z].map(|normal| Plane { normal, distance: walls[0].distance.abs() }));
-        Ok(wheel_size(&self.carved(&planes)?.outline()).0)
+        Ok(wheel_size(&self.carved(&planes)?.hull()).0)
     }
 
     /// The corner written `FACET & FACET & FACET …`.

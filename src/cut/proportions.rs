@@ -96,7 +96,7 @@ pub fn measure(exact: &Polyhedron) -> Proportions {
     // which corners a facet has must not depend on a file's last digits
     let solid = &exact.welded(ONE_CORNER * width);
     let zones = zones_of(solid);
-    let (lo, hi) = solid.bounds();
+    let (lo, hi) = exact.bounds();
     let percent = |x: f64| 100.0 * x / width;
     let girdle_z: Vec<f64> =
         zone_faces(&zones, Zone::Girdle).flat_map(|f| solid.polygon(f).map(|v| v.z)).collect();
@@ -111,8 +111,9 @@ pub fn measure(exact: &Polyhedron) -> Proportions {
     let outline = solid.outline();
     let flat_size = |zone| zone_faces(&zones, zone).map(|f| flat_extent(solid, f, &outline)).reduce(f64::max);
     let (length, volume) = (exact.length(), exact.volume());
-    let (w, l) = wheel_size(&outline);
-    let round = greatest_extent(&outline) <= ROUND * width;
+    let hull = exact.hull();
+    let (w, l) = wheel_size(&hull);
+    let round = greatest_extent(&hull) <= ROUND * width;
     let by_zone = [Zone::Table, Zone::Crown, Zone::Girdle, Zone::Pavilion, Zone::Culet]
         .map(|zone| (zone.name(), zone_faces(&exact_zones, zone).filter(|f| seen[*f]).count()));
     Proportions {

@@ -5,7 +5,7 @@
 
 use super::design::Zone;
 use super::symmetry::{self, Symmetry};
-use crate::solid::Polyhedron;
+use crate::solid::{Body, Polyhedron};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Facets and corners whose directions are tried as axes of the stone, the largest and farthest first.
@@ -39,7 +39,6 @@ pub fn turned_up(up: DVec3) -> DMat3 {
 /// around it. Checked in `tests/standing.rs` on every cut of the library.
 pub fn doubt(solid: &Polyhedron) -> Option<String> {
     let faces = Faces::of(solid);
-    let said = |why: String| Some(format!("{DOUBT}: {why}; --align or --up turns it"));
     if faces.is_upside_down() {
         return said("the flat below is larger than the one on top".into());
     }
@@ -51,12 +50,25 @@ pub fn doubt(solid: &Polyhedron) -> Option<String> {
             return said(format!("its axis of symmetry leans by {off:.1}°"));
         }
     }
-    let [(largest, normal), (next, _)] = *faces.sorted.first_chunk::<2>()?;
-    if ![Zone::Table, Zone::Culet].contains(&Zone::of(normal)) && largest > LARGEST * next {
-        let off = normal.truncate().length().atan2(normal.z).to_degrees();
-        return said(format!("its largest facet leans by {off:.1}°"));
+    faces.leaning().and_then(said)
+}
+
+fn said(why: String) -> Option<String> {
+    Some(format!("{DOUBT}: {why}; --align or --up turns it"))
+}
+
+/// As [`doubt`], of a stone with dents, whose symmetry is not looked for.
+pub fn doubt_of_body(body: &Body) -> Option<String> {
+    let faces = Faces::from_areas(body.area_vectors());
+    if faces.is_upside_down() {
+        return said("the flat below is larger than the one on top".into());
     }
-    None
+    faces.leaning().and_then(said)
+}
+
+/// The direction that is up in the frame of a stone with dents: the normal of its largest facet.
+pub fn up_of_body(body: &Body) -> DVec3 {
+    Faces::from_areas(body.area_vectors()).sorted.first().map_or(DVec3::Z, |(_, normal)| *normal)
 }
 
 /// The direction that is up in the stone's own frame: its axis of highest symmetry, or of a stone without
@@ -97,12 +109,24 @@ struct Faces {
 
 impl Faces {
     fn of(solid: &Polyhedron) -> Faces {
-        let mut sorted: Vec<(f64, DVec3)> = (0..solid.faces.len())
-            .map(|f| solid.area_vector(f))
-            .map(|v| (v.length(), v.normalize_or_zero()))
-            .collect();
+        Faces::from_areas((0..solid.faces.len()).map(|f| solid.area_vector(f)).collect())
+    }
+
+    fn from_areas(areas: Vec<DVec3>) -> Faces {
+        let mut sorted: Vec<(f64, DVec3)> =
+            areas.into_iter().map(|v| (v.length(), v.normalize_or_zero())).collect();
         sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
         Faces { sorted }
+    }
+
+    /// How far by far the largest facet is from horizontal, in words, if it is not.
+    fn leaning(&self) -> Option<String> {
+        let [(largest, normal), (next, _)] = *self.sorted.first_chunk::<2>()?;
+        if [Zone::Table, Zone::Culet].contains(&Zone::of(normal)) || largest <= LARGEST * next {
+            return None;
+        }
+        let off = normal.truncate().length().atan2(normal.z).to_degrees();
+        Some(format!("its largest facet leans by {off:.1}°"))
     }
 
     /// Area of the largest facet of a zone.

@@ -18,12 +18,6 @@ pub trait Experiment: Sync {
     ///
     /// The result must depend on the arguments alone, and batches must be independent.
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally);
-
-    /// What a tally would be had all the light that was given up gone one way, for each way that it
-    /// may have gone: how far the sums may be off besides their noise. Nothing if they hold no light.
-    fn if_followed(_tally: &Self::Tally) -> Vec<Self::Tally> {
-        Vec::new()
-    }
 }
 
 /// An experiment with what it has added up so far.
@@ -86,16 +80,10 @@ impl<E: Experiment> Traced<E> {
 
     /// A smooth function of the sums over all batches, with its standard error (see
     /// [`stats::jackknife`]); 0 where the function is not a number, because nothing was seen. The error
-    /// holds what was given up: the most by which that may change the function counts as one more
-    /// standard error, independent of the noise.
+    /// holds what was given up ([`stats::with_given_up`]).
     pub fn estimate(&self, of: impl Fn(&E::Tally) -> f64) -> Estimate {
         let number = |x: f64| if x.is_finite() { x } else { 0.0 };
         let of = |sum: &E::Tally| number(of(sum));
-        let found = stats::jackknife(&self.tallies, of);
-        let mut sum = E::Tally::default();
-        self.tallies.iter().for_each(|tally| sum.add(tally));
-        let change = |other: &E::Tally| (of(other) - of(&sum)).abs();
-        let given_up = E::if_followed(&sum).iter().map(change).fold(0.0, f64::max);
-        Estimate { error: found.error.hypot(given_up), ..found }
+        stats::with_given_up(stats::jackknife(&self.tallies, of), &stats::all(&self.tallies), of)
     }
 }

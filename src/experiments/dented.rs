@@ -141,10 +141,6 @@ impl Experiment for Dome<'_> {
             });
         }
     }
-
-    fn if_followed(tally: &Self::Tally) -> Vec<Self::Tally> {
-        tally.if_followed()
-    }
 }
 
 /// The view of a stone that is not convex: [`view::View`].
@@ -202,9 +198,5 @@ impl Experiment for Gaze<'_> {
                 }
             });
         }
-    }
-
-    fn if_followed(tally: &Self::Tally) -> Vec<Self::Tally> {
-        tally.if_followed()
     }
 }

@@ -63,11 +63,9 @@ impl Sum for Tally {
         self.absorbed += other.absorbed;
         self.lost += other.lost;
     }
-}
 
-impl Tally {
-    /// The tallies of [`Experiment::if_followed`].
-    pub(super) fn if_followed(&self) -> Vec<Tally> {
+    /// All returned, leaked or absorbed.
+    fn if_followed(&self) -> Vec<Tally> {
         let with = |change: fn(&mut Tally, f64)| {
             let mut tally = self.clone();
             change(&mut tally, self.lost);
@@ -196,9 +194,5 @@ impl Experiment for Hemisphere<'_> {
         };
         let lost = feed::walk_all(self.stone, self.stop_power, &mut dome);
         tally.lost += lost;
-    }
-
-    fn if_followed(tally: &Tally) -> Vec<Tally> {
-        tally.if_followed()
     }
 }

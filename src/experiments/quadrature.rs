@@ -95,10 +95,6 @@ impl Experiment for Quadrature<'_> {
             self.add(axis * u + (right * cos + top * sin) * across, photons, tally);
         }
     }
-
-    fn if_followed(tally: &hemisphere::Tally) -> Vec<hemisphere::Tally> {
-        tally.if_followed()
-    }
 }
 
 /// Light that goes on only if it entered through the crown.

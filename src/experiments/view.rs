@@ -148,17 +148,9 @@ impl Sum for Tally {
         self.windowed += other.windowed;
         self.dark += other.dark;
     }
-}
 
-impl Tally {
-    /// Power that leaves upward.
-    pub fn up(&self) -> f64 {
-        self.bands[..3].iter().sum()
-    }
-
-    /// The tallies of [`Experiment::if_followed`]: all from one band, or from within the observer's
-    /// cone.
-    pub(super) fn if_followed(&self) -> Vec<Tally> {
+    /// All from one band, or from within the observer's cone.
+    fn if_followed(&self) -> Vec<Tally> {
         let from = |band: usize, bright: f64| {
             let mut tally = self.clone();
             tally.bands[band] += self.lost;
@@ -173,6 +165,13 @@ impl Tally {
         let zenith = Band::Blue as usize;
         let sky = (0..=zenith).map(|band| from(band, 1.0));
         sky.chain([from(zenith, 0.0), from(Band::Below as usize, 0.0)]).chain(absorbed).collect()
+    }
+}
+
+impl Tally {
+    /// Power that leaves upward.
+    pub fn up(&self) -> f64 {
+        self.bands[..3].iter().sum()
     }
 }
 
@@ -366,10 +365,6 @@ impl Experiment for View<'_> {
         } else {
             self.trace_in::<1>(seed, batch, points, tally);
         }
-    }
-
-    fn if_followed(tally: &Tally) -> Vec<Tally> {
-        tally.if_followed()
     }
 }
 

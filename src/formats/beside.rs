@@ -2,6 +2,7 @@
 
 use super::source::Source;
 use super::{FormatError, bytes_of};
+use crate::store::text;
 use std::path::{Component, Path};
 
 /// The bytes of the file called `reference` in the source's folder; none if the reference leads
@@ -19,7 +20,7 @@ pub fn fetch(source: &Source, reference: &str) -> Option<Result<Vec<u8>, FormatE
     let path = folder.join(relative);
     match (folder.canonicalize(), path.canonicalize()) {
         (Ok(folder), Ok(real)) if !real.starts_with(&folder) => None,
-        (_, Err(cause)) => Some(Err(FormatError::Read { file: path.display().to_string(), cause })),
+        (_, Err(cause)) => Some(Err(FormatError::Read { file: text::shown(path), cause })),
         _ => Some(bytes_of(&path)),
     }
 }

@@ -4,6 +4,7 @@ use super::error::FormatError;
 use super::shell::Mesh;
 use super::source::Source;
 use super::{bytes_of, glb, obj, ply, stl};
+use crate::store::text;
 use glam::DVec3;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ pub struct Triangles {
 ///
 /// Errors name the file and the place in it.
 pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
-    let name = path.display().to_string();
+    let name = text::shown(path);
     let bytes = bytes_of(path)?;
     triangles_of(&Source { name: &name, bytes: &bytes, folder: Some(path.parent().unwrap_or(Path::new(""))) })
 }

@@ -2,7 +2,7 @@
 
 use super::error::{FormatError, shortened, shown};
 use crate::store::limits::Limit;
-use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use crate::store::text;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -18,30 +18,14 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The text, as [`decoded`] says, without NUL padding and DOS end-of-file marks.
+    /// The text, as [`text::of`] says.
     pub fn text(&self) -> Cow<'a, str> {
-        let text = decoded(self.bytes);
-        let end = text.trim_end_matches(['\0', '\x1a']).len();
-        match text {
-            text if text[..end].contains('\0') => text[..end].replace('\0', "").into(),
-            Cow::Borrowed(text) => Cow::Borrowed(&text[..end]),
-            Cow::Owned(mut text) => {
-                text.truncate(end);
-                text.into()
-            }
-        }
+        text::of(self.bytes)
     }
 
     /// The first 4,096 bytes as text, for telling formats apart.
     pub fn beginning(&self) -> String {
-        let cut = &self.bytes[..self.bytes.len().min(4096)];
-        let text = match marked(self.bytes) {
-            Some((encoding, mark)) => {
-                encoding.decode_without_bom_handling(cut.get(mark..).unwrap_or_default()).0
-            }
-            None => String::from_utf8_lossy(cut),
-        };
-        text.replace('\0', "")
+        text::beginning(self.bytes, 4096)
     }
 
     /// Whether the bytes are those of no text: control characters among the first, or NUL before others.
@@ -49,7 +33,7 @@ impl<'a> Source<'a> {
         let start = &self.bytes[..self.bytes.len().min(4096)];
         let end = start.iter().rposition(|b| *b != 0).map_or(0, |last| last + 1);
         let is_odd = |b: &u8| b.is_ascii_control() && !b"\t\n\x0b\x0c\r\x1a\x1b".contains(b);
-        marked(self.bytes).is_none() && start[..end].iter().any(is_odd)
+        !text::is_marked(self.bytes) && start[..end].iter().any(is_odd)
     }
 
     /// The file's name without folder and ending.
@@ -107,40 +91,6 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The encoding that a byte-order mark names, and the mark's length.
-///
-/// Binary files have no marks, but one may begin with the same two bytes: text has no NUL among its first
-/// characters, and every design in binary has.
-fn marked(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
-    /// In bytes: a binary design's first facet ends its name's length before that.
-    const NEAR: usize = 64;
-    let (encoding, mark) = Encoding::for_bom(bytes)?;
-    let near = encoding.decode_without_bom_handling(&bytes[mark..bytes.len().min(NEAR)]).0;
-    (encoding == UTF_8 || !near.trim_end_matches('\0').contains('\0')).then_some((encoding, mark))
-}
-
-/// The text that a file's bytes stand for: by its byte-order mark (UTF-8, or UTF-16 of either byte order),
-/// else UTF-8 if it is that, else what an XML declaration names, else Windows-1252, in which every byte
-/// stands for something.
-pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    match marked(bytes) {
-        Some((encoding, mark)) => encoding.decode_without_bom_handling(&bytes[mark..]).0,
-        None => match std::str::from_utf8(bytes) {
-            Ok(text) => text.into(),
-            Err(_) => declared(bytes).unwrap_or(WINDOWS_1252).decode_without_bom_handling(bytes).0,
-        },
-    }
-}
-
-/// The encoding that an XML declaration names.
-fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
-    let head = bytes.strip_prefix(b"<?xml")?;
-    let head = head.split(|b| *b == b'>').next()?;
-    let name = head.windows(9).position(|w| w == b"encoding=")? + 9;
-    let quote = head.get(name)?;
-    Encoding::for_label(head.get(name + 1..)?.split(|b| b == quote).next()?)
-}
-
 /// Lines with their numbers from 1, ended by LF, CRLF or a lone CR.
 pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = Some(text);
@@ -190,19 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_of_every_age_is_read() {
-        let text = |bytes| Source { name: "x", bytes, folder: None }.text().into_owned();
-        assert_eq!(text(b"\xEF\xBB\xBFa\0\0"), "a");
-        assert_eq!(text(b"Peter\x92s 40\xB0 cut"), "Peter’s 40° cut");
-        assert_eq!(text("40° cut".as_bytes()), "40° cut");
-        assert_eq!(text(b"\xFF\xFEa\0\xB0\0"), "a°");
-        assert_eq!(text(b"\xFE\xFF\0a\0\xB0"), "a°");
-        assert_eq!(text(b"end\r\n\x1A\0"), "end\r\n");
-        assert_eq!(text(b"<?xml version='1.0' encoding='windows-1251'?>\xC0"), {
-            "<?xml version='1.0' encoding='windows-1251'?>А"
-        });
-        // the plane, tier and name of a facet that happens to begin so
-        assert_eq!(marked(b"\xFF\xFE34567890123456789012\x03\0\0\0\x02P1"), None);
+    fn lines_words_and_numbers_are_read() {
         let split: Vec<_> = lines("a\r\nb\rc\n\nd").collect();
         assert_eq!(split, [(1, "a"), (2, "b"), (3, "c"), (4, ""), (5, "d")]);
         assert_eq!(number("\u{2212}42.5"), Some(-42.5));

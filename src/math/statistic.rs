@@ -62,11 +62,11 @@ impl<T: Sum> Statistic<T> {
     }
 
     /// The score with its error, of batches of random samples; none if nothing was seen that it could
-    /// be a score of.
+    /// be a score of. The error holds what was given up ([`stats::with_given_up`]).
     pub fn sampled(&self, batches: &[T]) -> Option<Estimate> {
-        let all = all(batches);
+        let all = stats::all(batches);
         let value = Some(self.of(&all)).filter(|v| v.is_finite())?;
-        Some(match self {
+        let found = match self {
             Statistic::Smooth(_) => self.jackknifed(batches),
             Statistic::Mean(of, most) => match of(&all) {
                 [0.0, n] => Estimate { value, error: most * nothing_seen(n) },
@@ -78,30 +78,26 @@ impl<T: Sum> Statistic<T> {
                 let error = error_of_median(value / width, &cumulated, of(&all).cumulated().classes());
                 Estimate { value, error: error * width }
             }
-        })
+        };
+        Some(stats::with_given_up(found, &all, |sums| self.of(sums)))
     }
 
     /// The same of batches that share what is known without samples (areas of beams) and differ in the
     /// rest alone: what all agree on is exact. Nothing but a median is known by samples alone.
     pub fn computed(&self, batches: &[T]) -> Option<Estimate> {
-        let value = Some(self.of(&all(batches))).filter(|v| v.is_finite())?;
-        match (self, batches) {
-            (Statistic::Median(..), _) => self.sampled(batches),
-            (_, [_]) => Some(Estimate::exact(value)),
-            _ => Some(self.jackknifed(batches)),
-        }
+        let all = stats::all(batches);
+        let value = Some(self.of(&all)).filter(|v| v.is_finite())?;
+        let found = match (self, batches) {
+            (Statistic::Median(..), _) => return self.sampled(batches),
+            (_, [_]) => Estimate::exact(value),
+            _ => self.jackknifed(batches),
+        };
+        Some(stats::with_given_up(found, &all, |sums| self.of(sums)))
     }
 
     fn jackknifed(&self, batches: &[T]) -> Estimate {
         stats::jackknife(batches, |sums| number(self.of(sums)))
     }
-}
-
-fn all<T: Sum>(batches: &[T]) -> T {
-    batches.iter().fold(T::default(), |mut sum, batch| {
-        sum.add(batch);
-        sum
-    })
 }
 
 /// The standard error of a share of which none (or all) of `n` samples is: ±1.96 of it reach to the

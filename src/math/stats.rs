@@ -52,6 +52,12 @@ pub fn ratio(batches: impl Iterator<Item = (f64, f64)> + Clone) -> Estimate {
 pub trait Sum: Default + Clone {
     /// Adds another batch's.
     fn add(&mut self, other: &Self);
+
+    /// What the sums would be had all the light that was given up gone one way, for each way that it
+    /// may have gone: how far the sums may be off besides their noise. Nothing if they hold no light.
+    fn if_followed(&self) -> Vec<Self> {
+        Vec::new()
+    }
 }
 
 impl Sum for f64 {
@@ -67,6 +73,25 @@ where
     fn add(&mut self, other: &Self) {
         self.iter_mut().zip(other).for_each(|(a, b)| a.add(b));
     }
+}
+
+/// The sums of all batches.
+pub fn all<T: Sum>(batches: &[T]) -> T {
+    batches.iter().fold(T::default(), |mut sum, batch| {
+        sum.add(batch);
+        sum
+    })
+}
+
+/// An estimate whose error also holds what was given up: the most by which that may change the value
+/// counts as one more standard error, independent of the noise.
+///
+/// - `sums`: of all batches; `of`: what was estimated of them
+pub fn with_given_up<T: Sum>(found: Estimate, sums: &T, of: impl Fn(&T) -> f64) -> Estimate {
+    let value = of(sums);
+    let change = |other: &T| (of(other) - value).abs();
+    let given_up = sums.if_followed().iter().map(change).filter(|x| x.is_finite()).fold(0.0, f64::max);
+    Estimate { error: found.error.hypot(given_up), ..found }
 }
 
 /// Estimates a smooth function of sums over independent batches by the jackknife.

@@ -69,6 +69,19 @@ impl Unit {
         }
     }
 
+    /// The number in this unit of one in the unit `sign`, as text; none if it cannot be told.
+    fn converted(self, number: &str, sign: &str) -> Option<String> {
+        let factor = match (self, sign) {
+            (Unit::None, "%") => 0.01,
+            (Unit::Millimetres, "cm") => 10.0,
+            (Unit::Millimetres, "m") => 1000.0,
+            (Unit::Millimetres, "in" | "inch" | "\"" | "″") => 25.4,
+            (Unit::Degrees, "rad") => 1f64.to_degrees(),
+            _ => return None,
+        };
+        Some(shown((number.parse::<f64>().ok()? * factor * 1e6).round() / 1e6))
+    }
+
     fn wanted(self) -> &'static str {
         match self {
             Unit::None => "the number alone",
@@ -98,6 +111,9 @@ pub fn number(text: &str, unit: Unit) -> Result<f64, NumberError> {
 /// Why a text is not a number.
 fn misread(text: &str, unit: Unit) -> NumberError {
     let is_number = |t: &str| t.trim().parse::<f64>().is_ok_and(f64::is_finite);
+    if text.trim_start_matches(['+', '-']).starts_with("0x") {
+        return NumberError::No; // hexadecimal, not a width by a height
+    }
     if let Some((a, b)) = text.split_once(['x', '×', '*'])
         && is_number(a)
         && is_number(b)
@@ -123,6 +139,7 @@ fn misread(text: &str, unit: Unit) -> NumberError {
     if let Some(end) = ends.filter(|end| is_number(&text[..*end])).last() {
         let (number, sign) = (text[..end].trim().to_owned(), text[end..].trim().to_owned());
         if sign.chars().all(|c| c.is_alphabetic() || "°º%′″'\"²³".contains(c)) {
+            let number = unit.converted(&number, &sign).unwrap_or(number);
             return NumberError::Unit { unit: sign, wanted: unit.wanted(), number };
         }
     }

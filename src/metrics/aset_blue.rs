@@ -1,6 +1,6 @@
 //! ASET by energy: light from 75 to 90° above the girdle plane.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by energy: light from 75 to 90° above the girdle plane.
@@ -10,6 +10,7 @@ pub static ASET_BLUE: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: None,
     by_beams: true,
     dented: true,

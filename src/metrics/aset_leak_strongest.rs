@@ -1,6 +1,6 @@
 //! ASET by the strongest path: light from below the horizon.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// ASET by the strongest path: light from below the horizon.
@@ -10,6 +10,7 @@ pub static ASET_LEAK_STRONGEST: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: None,
     by_beams: true,
     dented: false,

@@ -1,6 +1,6 @@
 //! Brightness.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::OBSERVER_DEG;
 
 /// Brightness.
@@ -10,6 +10,7 @@ pub static BRIGHTNESS: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::More,
     observer: Some(OBSERVER_DEG),
     by_beams: true,
     dented: true,

@@ -1,6 +1,6 @@
 //! Contrast.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::{cells::OBSERVER_DEG, contrast::Tally};
 
 /// Contrast.
@@ -10,6 +10,7 @@ pub static CONTRAST: Metric = Metric {
     unit: "",
     range: (0.0, 100.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: Some(OBSERVER_DEG),
     by_beams: false,
     dented: false,

@@ -1,6 +1,6 @@
 //! Mean separation of the colours.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Mean separation of the colours.
 pub static DISPERSION_MEAN: Metric = Metric {
@@ -9,6 +9,7 @@ pub static DISPERSION_MEAN: Metric = Metric {
     unit: "°",
     range: (0.0, 180.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: None,
     by_beams: true,
     dented: false,

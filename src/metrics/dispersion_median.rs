@@ -1,6 +1,6 @@
 //! Median separation of the colours.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::beam::CLASS_DEG;
 
 /// Median separation of the colours.
@@ -10,6 +10,7 @@ pub static DISPERSION_MEDIAN: Metric = Metric {
     unit: "°",
     range: (0.0, 180.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: None,
     by_beams: false,
     dented: false,

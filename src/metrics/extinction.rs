@@ -1,6 +1,6 @@
 //! Extinction.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::OBSERVER_DEG;
 
 /// Extinction.
@@ -10,6 +10,7 @@ pub static EXTINCTION: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: Some(OBSERVER_DEG),
     by_beams: false,
     dented: false,

@@ -1,6 +1,6 @@
 //! Fire: what is lit.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Fire: what is lit.
 pub static FIRE_LIT: Metric = Metric {
@@ -9,6 +9,7 @@ pub static FIRE_LIT: Metric = Metric {
     unit: "",
     range: (0.0, 1e3),
     scale: 1.0,
+    better: Better::More,
     observer: None,
     by_beams: false,
     dented: false,

@@ -1,6 +1,6 @@
 //! Fire: length of the streaks.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Fire: length of the streaks.
 pub static FIRE_STREAK: Metric = Metric {
@@ -9,6 +9,7 @@ pub static FIRE_STREAK: Metric = Metric {
     unit: "°",
     range: (0.0, 1e3),
     scale: 1.0,
+    better: Better::More,
     observer: None,
     by_beams: false,
     dented: false,

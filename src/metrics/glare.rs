@@ -1,6 +1,6 @@
 //! Glare.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Glare.
 pub static GLARE: Metric = Metric {
@@ -9,6 +9,7 @@ pub static GLARE: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: None,
     by_beams: true,
     dented: true,

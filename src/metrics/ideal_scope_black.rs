@@ -1,6 +1,6 @@
 //! Ideal-Scope: light that comes from the viewer himself.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::SCOPE_DEG;
 
 /// Ideal-Scope: light that comes from the viewer himself.
@@ -10,6 +10,7 @@ pub static IDEAL_SCOPE_BLACK: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: Some(SCOPE_DEG),
     by_beams: true,
     dented: true,

@@ -1,6 +1,6 @@
 //! Ideal-Scope: leakage.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// Ideal-Scope: leakage.
@@ -10,6 +10,7 @@ pub static IDEAL_SCOPE_WHITE: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: None,
     by_beams: true,
     dented: true,

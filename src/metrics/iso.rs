@@ -1,6 +1,6 @@
 //! ISO of the whole stone.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::iso::{OBSERVER_DEG, Weight};
 
 /// ISO of the whole stone.
@@ -10,6 +10,7 @@ pub static ISO: Metric = Metric {
     unit: "%",
     range: (0.0, 100.0),
     scale: 100.0,
+    better: Better::More,
     observer: Some(OBSERVER_DEG),
     by_beams: true,
     dented: false,

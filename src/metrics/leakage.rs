@@ -1,6 +1,6 @@
 //! Leakage.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Leakage.
 pub static LEAKAGE: Metric = Metric {
@@ -9,6 +9,7 @@ pub static LEAKAGE: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: None,
     by_beams: true,
     dented: true,

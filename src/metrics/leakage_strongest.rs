@@ -1,6 +1,6 @@
 //! Leakage by the strongest path: the outline that looks down through the stone.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::view::Band;
 
 /// Leakage by the strongest path: the outline that looks down through the stone.
@@ -10,6 +10,7 @@ pub static LEAKAGE_STRONGEST: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: None,
     by_beams: true,
     dented: false,

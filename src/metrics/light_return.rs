@@ -1,6 +1,6 @@
 //! Light return.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Light return.
 pub static LIGHT_RETURN: Metric = Metric {
@@ -9,6 +9,7 @@ pub static LIGHT_RETURN: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::More,
     observer: None,
     by_beams: true,
     dented: true,

@@ -1,6 +1,6 @@
 //! Scintillation.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 use crate::experiments::cells::OBSERVER_DEG;
 
 /// Scintillation.
@@ -10,6 +10,7 @@ pub static SCINTILLATION: Metric = Metric {
     unit: "1/°",
     range: (0.0, 2.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: Some(OBSERVER_DEG),
     by_beams: false,
     dented: false,

@@ -1,7 +1,7 @@
 //! Spread.
 
 use super::weight_ratio::tolkowsky;
-use super::{Metric, Reading};
+use super::{Better, Metric, Reading};
 use crate::solid::Polyhedron;
 use crate::solid::measure::polygon_area;
 
@@ -12,6 +12,7 @@ pub static SPREAD: Metric = Metric {
     unit: "%",
     range: (-100.0, 10000.0),
     scale: 100.0,
+    better: Better::More,
     observer: None,
     by_beams: false,
     dented: false,
@@ -23,6 +24,6 @@ pub static SPREAD: Metric = Metric {
 
 /// Outline area per that of the Tolkowsky stone of equal mass.
 fn spread(solid: &Polyhedron) -> Option<f64> {
-    let area = |s: &Polyhedron| polygon_area(&s.outline()) / s.volume().powf(2.0 / 3.0);
+    let area = |s: &Polyhedron| polygon_area(&s.hull()) / s.volume().powf(2.0 / 3.0);
     Some(area(solid) / area(tolkowsky()?))
 }

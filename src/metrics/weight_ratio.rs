@@ -1,6 +1,6 @@
 //! Weight ratio.
 
-use super::{Metric, Reading};
+use super::{Better, Metric, Reading};
 use crate::cut::library;
 use crate::solid::Polyhedron;
 use std::collections::BTreeMap;
@@ -13,6 +13,7 @@ pub static WEIGHT_RATIO: Metric = Metric {
     unit: "",
     range: (0.0, 1000.0),
     scale: 1.0,
+    better: Better::Neither,
     observer: None,
     by_beams: false,
     dented: false,

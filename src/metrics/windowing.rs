@@ -1,6 +1,6 @@
 //! Windowing.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Windowing.
 pub static WINDOWING: Metric = Metric {
@@ -9,6 +9,7 @@ pub static WINDOWING: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::Less,
     observer: None,
     by_beams: true,
     dented: false,

@@ -1,6 +1,6 @@
 //! Weighted light return.
 
-use super::{Metric, Reading, Statistic};
+use super::{Better, Metric, Reading, Statistic};
 
 /// Weighted light return.
 pub static WLR: Metric = Metric {
@@ -9,6 +9,7 @@ pub static WLR: Metric = Metric {
     unit: "",
     range: (0.0, 1.0),
     scale: 1.0,
+    better: Better::More,
     observer: None,
     by_beams: true,
     dented: true,

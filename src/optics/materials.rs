@@ -98,6 +98,10 @@ static ALL: [&Material; COUNT] = {
     all
 };
 
+/// Refractive indices at the D line that differ by less than this are taken for one material's: designs
+/// state them to two decimals, and a stone's own varies by about as much.
+pub const NEAR: f64 = 0.01;
+
 impl Material {
     /// The material called `name`, or none.
     pub fn named(name: &str) -> Option<&'static Material> {
@@ -116,6 +120,32 @@ impl Material {
             specific_gravity: None,
             absorption: None,
         }
+    }
+
+    /// The index of a material of which nothing else is known ([`Material::of_index`]).
+    pub fn bare_index(&self) -> Option<f64> {
+        let Dispersion::Constant(n) = self.dispersion else { return None };
+        (*self == Material::of_index(n)).then_some(n)
+    }
+
+    /// The known materials whose index at the D line is `n`, or near enough to be meant by it ([`NEAR`]), the
+    /// nearest first.
+    pub fn near(n: f64) -> Vec<&'static Material> {
+        let off = |m: &Material| (m.index_d() - n).abs();
+        let mut known: Vec<&Material> = MATERIALS.iter().copied().filter(|m| off(m) <= NEAR).collect();
+        known.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        known
+    }
+
+    /// Why there are no colours where a material without dispersion is lit, and what can be done about it.
+    pub fn no_dispersion(&self) -> String {
+        let Some(n) = self.bare_index() else {
+            return format!("no dispersion is known of {}", self.name);
+        };
+        let near = Material::near(n).into_iter().filter(|m| m.is_dispersive());
+        let names: Vec<&str> = near.map(|m| m.name.as_ref()).collect();
+        let names = if names.is_empty() { "no material is known".into() } else { names.join(", ") };
+        format!("no dispersion is known of a bare index: --material NAME gives one (n = {n}: {names})")
     }
 
     /// The material of a stone of which at most an index is known: that index alone, or diamond.

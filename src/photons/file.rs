@@ -10,6 +10,7 @@ use crate::optics::colour::BANDS;
 use crate::scene::{PlacedStone, Scene};
 use crate::store::limits;
 use crate::store::replace::{self, WriteError};
+use crate::store::text::shown;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -26,7 +27,7 @@ const HEADER_LIMIT: usize = 1 << 16;
 #[derive(Debug, thiserror::Error)]
 pub enum MapFileError {
     /// The file cannot be read.
-    #[error("cannot read the photon map {path}: {cause}")]
+    #[error("cannot read the photon map {}: {cause}", shown(.path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -37,7 +38,7 @@ pub enum MapFileError {
     #[error(transparent)]
     Write(#[from] WriteError),
     /// Not a photon map, damaged, or of another version.
-    #[error("{path} is not a photon map that can be used: {problem}; delete it to have it made anew")]
+    #[error("{} is not a photon map that can be used: {problem}; delete it to have it made anew", shown(.path))]
     Unusable {
         /// The file.
         path: PathBuf,
@@ -46,7 +47,8 @@ pub enum MapFileError {
     },
     /// A map of something else.
     #[error(
-        "the photon map {path} was made for {what} {made_for}, not {wanted}; name another file or delete it"
+        "the photon map {} was made for {what} {made_for}, not {wanted}; name another file or delete it",
+        shown(.path)
     )]
     OfAnother {
         /// The file.

@@ -44,20 +44,12 @@ impl Sensor {
             Sensor::Eye(to_srgb) | Sensor::Flat(to_srgb) => *to_srgb * channels,
         }
     }
-
-    /// The light of one camera ray as the picture has it before its tone curve: an eye's as it is, on a
-    /// flat one the pure colour that has the greatest share of it.
-    pub fn seen(&self, linear: Vec3) -> Vec3 {
-        match self {
-            Sensor::Eye(_) => linear,
-            Sensor::Flat(_) => purest(linear),
-        }
-    }
 }
 
-/// White, red, green, blue or black, whichever has the greatest share of light of at most 1: white what
-/// the three have in common, black what is missing.
-fn purest(light: Vec3) -> Vec3 {
+/// What a flat sensor shows of the light of one camera ray: white, red, green, blue or black, whichever
+/// has the greatest share of light of at most 1. White is what the three have in common, black what is
+/// missing.
+pub fn purest(light: Vec3) -> Vec3 {
     let light = light.max(Vec3::ZERO);
     let white = light.min_element();
     let pure = light - white;

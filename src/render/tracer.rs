@@ -2,7 +2,7 @@
 
 use super::film::{Film, PASSES, Pass, Pixel, Thing};
 use super::inside;
-use super::sensor::Sensor;
+use super::sensor::{Sensor, purest};
 use super::tone::Tone;
 use crate::math::points::Points;
 use crate::math::random::{Purpose, Stream};
@@ -234,7 +234,7 @@ impl View<'_> {
         let tone = &self.settings.tone;
         match &self.sensor {
             Sensor::Eye(rgb_from_xyz) => light * tone.gain(sight.even_colour(rgb_from_xyz)),
-            Sensor::Flat(_) => tone.shown(self.sensor.seen(light)),
+            Sensor::Flat(_) => tone.shown(purest(light)),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::cut::proportions::{self, Proportions};
 use crate::cut::{CutError, Design, families};
 use crate::formats::{self, FormatError};
 use crate::optics::Material;
+use crate::optics::weight::Weight;
 use crate::photons::{self, Shots};
 use crate::render::{self, Maps, Tone, write};
 use crate::scene::{Cast, SceneError, preset};
@@ -79,7 +80,7 @@ pub struct Bundle {
 }
 
 /// Steps that [`make`] reports.
-pub const STEPS: usize = 5;
+pub const STEPS: usize = 6;
 
 /// Makes the report.
 ///
@@ -106,7 +107,9 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     if let Some(why) = &row.error {
         return Err(ReportError::Scores(why.clone()));
     }
-    let sections = sections::sections(&plan.metrics, &row, &References::read()?);
+    step("reference stones");
+    let references = References::within(&request.material, solid.width(), &plan)?;
+    let sections = sections::sections(&plan.metrics, &row, &references);
 
     step("scopes");
     let index = request.material.index_d() as f32;
@@ -129,16 +132,19 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
     files.extend(pictures.iter().map(|p| (p.scope.file, p.png.clone())));
     let names: Vec<String> = files.iter().map(|(name, _)| name.to_string()).collect();
     let material = &request.material;
-    let weight = material.carats(proportions.volume).map_or_else(
-        || format!("{:.2} mm", proportions.width),
-        |ct| format!("{:.2} mm · {ct:.3} ct", proportions.width),
-    );
+    let weighed = Weight::of(material);
+    let weight = match (weighed.carats(proportions.volume), weighed.name()) {
+        (Some(ct), Some(name)) if name != material.name => format!("{ct:.3} ct in {name}"),
+        (Some(ct), _) => format!("{ct:.3} ct"),
+        _ => "weight not known".into(),
+    };
     let page = Page {
         name: if design.name.is_empty() { &request.stone } else { &design.name },
         made_up_of: &made_up_of,
         source: &design.source,
         material: format!("{}, n {:.4} (D line)", material.name, material.index_d()),
-        weight,
+        weight: format!("{:.2} mm · {weight}", proportions.width),
+        weight_note: weighed.note(),
         proportions: &proportions,
         picture: Some((
             &picture,
@@ -154,6 +160,7 @@ pub fn make(request: &Request, step: &dyn Fn(&'static str)) -> Result<Bundle, Re
         sections: &sections,
         tilts: &tilts,
         map,
+        references: &references.material,
         traced: format!("Light traced by photons, seed {}.", request.seed),
         command: request.command.clone(),
         files: &names,

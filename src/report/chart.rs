@@ -1,6 +1,6 @@
 //! Where a round brilliant stands on the contour map of light return.
 
-use super::plot::{Axis, Drawing};
+use super::plot::{Axis, Drawing, Style};
 use crate::cut::families;
 use crate::cut::proportions::Proportions;
 use crate::metrics::Metric;
@@ -34,6 +34,8 @@ pub fn of(proportions: &Proportions, material: &Material) -> Result<Option<(Stri
         axes: &KEYS.map(|key| Axis::of(key, Some(family))),
         stone: "round-brilliant",
         family: Some(family),
+        is_diamond: true,
+        style: &Style::default(),
         own: Some(("this stone", &at)),
     };
     let svg = drawing.svg(&Numbers::read(TABLE.as_bytes(), Form::Csv)?, false, &[]);

@@ -1,5 +1,9 @@
 //! The page about one stone: one HTML file that needs nothing beside it.
 
+mod scores;
+
+pub use scores::{Score, Section};
+
 use super::references::STONES;
 use super::scopes::Picture;
 use super::tilts::Plot;
@@ -9,36 +13,6 @@ use base64::Engine;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
-
-/// One score on the page.
-#[derive(Debug, Clone)]
-pub struct Score {
-    /// Its name in the table of scores.
-    pub name: String,
-    /// One line on what it means.
-    pub about: String,
-    /// `%`, `°` or empty.
-    pub unit: String,
-    /// Value with standard error; none if the metric has no value here.
-    pub value: Option<Estimate>,
-    /// Why it has none.
-    pub left_out: Option<&'static str>,
-    /// The same of the reference stones.
-    pub references: [Option<Estimate>; STONES.len()],
-}
-
-/// A head with its scores, the ones that matter first.
-#[derive(Debug, Clone)]
-pub struct Section {
-    /// Brilliance, Dispersion and others.
-    pub head: &'static str,
-    /// One line on what the head is about.
-    pub about: &'static str,
-    /// How many of the scores are shown large.
-    pub large: usize,
-    /// The scores.
-    pub scores: Vec<Score>,
-}
 
 /// Everything the page shows.
 #[derive(Debug)]
@@ -53,6 +27,8 @@ pub struct Page<'a> {
     pub material: String,
     /// Width and weight, in words.
     pub weight: String,
+    /// What must be known about the weight.
+    pub weight_note: Option<String>,
     /// Its proportions.
     pub proportions: &'a Proportions,
     /// The picture on the table as PNG, and a line under it.
@@ -67,6 +43,8 @@ pub struct Page<'a> {
     pub tilts: &'a [Plot],
     /// The stone on the contour map as SVG, and a line under it; for round brilliants.
     pub map: Option<(String, String)>,
+    /// What the reference stones are of.
+    pub references: &'a str,
     /// How the scores were traced, in words.
     pub traced: String,
     /// The command that made the page.
@@ -163,30 +141,6 @@ pub fn number(e: Estimate) -> (String, Option<String>) {
     (unsigned(format!("{:.digits$}", e.value)), Some(format!("{:.digits$}", e.error)))
 }
 
-impl Score {
-    /// The score's row beside the reference stones.
-    fn row(&self) -> String {
-        let mut out = format!(
-            "<tr><th scope=\"row\"><code>{}</code><span>{}</span></th><td class=\"value\">{}</td>",
-            escaped(&self.name),
-            escaped(&self.about),
-            self.value_html()
-        );
-        for ((name, ..), value) in STONES.iter().zip(self.references) {
-            let _ = write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", cell(value, ""));
-        }
-        out + "</tr>\n"
-    }
-
-    fn value_html(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
-        match self.left_out {
-            Some(why) => format!("<span title=\"{0}\">–</span> <span class=\"se\">{0}</span>", escaped(why)),
-            None => cell(self.value, &unit),
-        }
-    }
-}
-
 /// A score with its error as HTML.
 pub(super) fn cell(value: Option<Estimate>, unit: &str) -> String {
     let minus = |text: String| text.replace('-', "−");
@@ -252,6 +206,9 @@ impl Page<'_> {
             let _ = writeln!(out, "<tr><th scope=\"row\">{label}</th><td>{}</td></tr>", escaped(&value));
         }
         *out += "</tbody></table>\n";
+        if let Some(note) = &self.weight_note {
+            let _ = writeln!(out, "<p class=\"note\">Weight: {}</p>", escaped(note));
+        }
         if !self.source.is_empty() {
             let _ = writeln!(out, "<p class=\"note\">Source: {}</p>", escaped(self.source));
         }
@@ -296,13 +253,18 @@ impl Page<'_> {
             }
             *out += "</tr></thead>\n<tbody>\n";
             section.scores.iter().for_each(|score| *out += &score.row());
-            *out += "</tbody></table>\n</section>\n";
+            *out += "</tbody></table>\n";
+            if let Some(said) = section.omissions() {
+                let _ = writeln!(out, "<p class=\"note\">{}.</p>", escaped(&said));
+            }
+            *out += "</section>\n";
         }
         let _ = writeln!(
             out,
             "<section><p class=\"note\">{} After ± stands one standard error. The five reference stones are round brilliants \
-             (table/crown/pavilion) in diamond.</p></section>",
-            escaped(&self.traced)
+             (table/crown/pavilion) in {}.</p></section>",
+            escaped(&self.traced),
+            escaped(self.references)
         );
     }
 
@@ -342,6 +304,24 @@ mod tests {
         assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
         assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));
         assert_eq!(shown(0.25, 0.0), ("0.2500".into(), None));
+    }
+
+    /// A stone that absorbs is drawn without its colour, and its pictures say so.
+    #[test]
+    fn captions_tell_of_a_colour_that_is_not_shown() {
+        let octahedron = crate::cut::library::design("octahedron", &Default::default()).expect("a cut");
+        let solid = octahedron.expect("can be made").solid().expect("closed");
+        let scopes = &super::super::scopes::SCOPES;
+        let pictures =
+            super::super::scopes::pictures(&crate::walk::Stone::new(solid), 1.77, scopes, 16).expect("drawn");
+        assert_eq!(pictures.len(), 3);
+        for picture in pictures {
+            let clear = scope_figure(&picture);
+            let coloured = scope_figure(&Picture { without_colour: true, ..picture });
+            let said = "; without the colour of the stone, which the scores have";
+            assert!(!clear.contains("without the colour") && coloured.contains(said), "{coloured}");
+            assert_eq!(coloured.replace(said, ""), clear);
+        }
     }
 
     #[test]

@@ -3,9 +3,11 @@
 mod curve;
 mod frame;
 mod map;
+mod style;
 mod surface;
 
 pub use curve::{Curve, Curves, Dot};
+pub use style::{Colours, Style};
 
 use super::page::escaped;
 use crate::cut::brilliant;
@@ -58,6 +60,10 @@ pub struct Drawing<'a> {
     pub stone: &'a str,
     /// Its family.
     pub family: Option<&'static Family>,
+    /// Whether it is of diamond, for which alone grading envelopes are published.
+    pub is_diamond: bool,
+    /// How it is to look.
+    pub style: &'a Style,
     /// A stone to be marked above the others: its name and place on the axes.
     pub own: Option<(&'a str, &'a [f64])>,
 }
@@ -126,9 +132,8 @@ impl Drawing<'_> {
             }
         }
         lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
-        let of = if self.stone.is_empty() { String::new() } else { format!(" of {}", self.stone) };
         Curves {
-            title: format!("{}{of}", self.metric.name),
+            title: self.title(),
             note: format!("{}; band: 95 in 100{}", self.metric.about, self.other_note()),
             x: x.title.clone(),
             y: self.score_title(),
@@ -139,10 +144,17 @@ impl Drawing<'_> {
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
             marks: self.marks().into_iter().map(|m| (m.called(), m.at[0])).collect(),
+            ends: (self.style.range(&x.key), self.style.range(self.metric.name)),
             dots: Vec::new(),
             small: false,
         }
         .svg()
+    }
+
+    /// The title asked for, or the names of score and stone.
+    fn title(&self) -> String {
+        let of = if self.stone.is_empty() { String::new() } else { format!(" of {}", self.stone) };
+        self.style.title.clone().unwrap_or_else(|| format!("{}{of}", self.metric.name))
     }
 
     /// The score's name with its unit.
@@ -211,9 +223,10 @@ impl Drawing<'_> {
         marks
     }
 
-    /// The cut-grade envelopes of the round brilliant that bound every axis, the narrowest first.
+    /// The cut-grade envelopes that bound every axis, the narrowest first; none but for round brilliants of
+    /// diamond.
     fn envelopes(&self, axes: &[Axis]) -> Vec<(String, Vec<(f64, f64)>)> {
-        if self.family.is_none_or(|f| f.name != "round-brilliant") {
+        if !self.is_diamond || self.family.is_none_or(|f| f.name != "round-brilliant") {
             return Vec::new();
         }
         let mut found: Vec<(String, Vec<(f64, f64)>)> = Vec::new();

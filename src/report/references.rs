@@ -1,8 +1,15 @@
 //! The reference stones that a report sets scores beside: their table, made by the program.
 
+use crate::cut::library;
+use crate::formats::stone;
 use crate::math::stats::Estimate;
-use crate::metrics::Metric;
+use crate::metrics::{METRICS, Metric};
+use crate::optics::Material;
+use crate::optics::materials::MATERIALS;
+use crate::solid::Polyhedron;
+use crate::study::score::{DEFAULT_SAMPLES, Effort, Plan, Subject, score};
 use crate::study::table::{Form, Numbers, TableError};
+use std::collections::BTreeMap;
 
 /// Made with `cutlab score STONES -o reports/references.csv`, STONES as [`STONES`] names them, in
 /// diamond, seed 1.
@@ -18,31 +25,72 @@ pub const STONES: [(&str, &str, &str); 5] = [
     ("nailhead", "58/36/43", "round-brilliant:table=58,crown-angle=36,pavilion-angle=43"),
 ];
 
-/// The scores of the reference stones.
+/// Points of the hemisphere for each stone in another material than the table's: a quarter of a report's
+/// own.
+const SAMPLES: u64 = DEFAULT_SAMPLES / 4;
+
+/// The scores of the reference stones in one material.
 #[derive(Debug)]
-pub struct References(Numbers);
+pub struct References {
+    /// The material's name.
+    pub material: String,
+    /// One of each of [`STONES`] for each metric.
+    scores: BTreeMap<&'static str, [Option<Estimate>; STONES.len()]>,
+}
 
 impl References {
-    /// Reads the table in the binary.
+    /// Reads the table in the binary: the stones in diamond.
     pub fn read() -> Result<References, TableError> {
-        Ok(References(Numbers::read(TABLE.as_bytes(), Form::Csv)?))
+        let numbers = Numbers::read(TABLE.as_bytes(), Form::Csv)?;
+        let of = |metric: &Metric| {
+            let errors = numbers.column(&format!("{}_se", metric.name));
+            let values = numbers.column(metric.name);
+            let cell = |of: &[Option<f64>], i: usize| of.get(i).copied().flatten();
+            std::array::from_fn(|i| Some(Estimate { value: cell(values, i)?, error: cell(errors, i)? }))
+        };
+        let scores = METRICS.iter().map(|m| (m.name, of(m))).collect();
+        Ok(References { material: MATERIALS[0].name.to_string(), scores })
     }
 
-    /// One score of every stone of [`STONES`]; none where the table has none.
+    /// The stones in `material`: those of the table for diamond, else scored as `plan` says, with fewer
+    /// samples.
+    ///
+    /// - `width_mm`: girdle width, on which the scores depend if the material absorbs
+    pub fn within(material: &Material, width_mm: f64, plan: &Plan) -> Result<References, TableError> {
+        if material == MATERIALS[0] {
+            return References::read();
+        }
+        let plan = Plan { metrics: METRICS.to_vec(), effort: Effort::Samples(SAMPLES), ..plan.clone() };
+        let scored = STONES.map(|(name, _, spec)| {
+            let shape = solid(spec, width_mm).map(Into::into);
+            let subject = Subject { stone: name.into(), material: material.clone(), shape, tilt: None };
+            score(&subject, &plan).scores
+        });
+        let of = |m: usize| std::array::from_fn(|stone| scored[stone].get(m).copied().flatten());
+        let scores = METRICS.iter().enumerate().map(|(m, metric)| (metric.name, of(m))).collect();
+        Ok(References { material: material.name.to_string(), scores })
+    }
+
+    /// One score of every stone of [`STONES`]; none where it has none.
     ///
     /// Some are scored afresh in `tests/report.rs`.
     pub fn of(&self, metric: &Metric) -> [Option<Estimate>; STONES.len()] {
-        let errors = self.0.column(&format!("{}_se", metric.name));
-        let values = self.0.column(metric.name);
-        let cell = |of: &[Option<f64>], i: usize| of.get(i).copied().flatten();
-        std::array::from_fn(|i| Some(Estimate { value: cell(values, i)?, error: cell(errors, i)? }))
+        self.scores.get(metric.name).copied().unwrap_or_default()
     }
+}
+
+/// The solid of a stone of [`STONES`], so many millimetres wide, or why there is none.
+fn solid(spec: &str, width_mm: f64) -> Result<Polyhedron, String> {
+    let (name, parameters) = spec.split_once(':').unwrap_or((spec, ""));
+    let parameters = stone::parameters_of(parameters).map_err(|e| e.to_string())?;
+    let design = library::design(name, &parameters).ok_or_else(|| format!("no cut is called '{name}'"))?;
+    let design = design.map_err(|e| e.to_string())?.sized(width_mm).map_err(|e| e.to_string())?;
+    design.solid().map_err(|e| e.to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metrics::METRICS;
 
     #[test]
     fn the_table_has_every_stone_and_score() {

@@ -68,9 +68,10 @@ pub fn sections(metrics: &[&'static Metric], row: &Row, references: &References)
     let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| Score {
         name: metric.name.into(),
         about: metric.about.into(),
+        better: metric.better,
         unit: metric.unit.into(),
         value,
-        left_out: row.why_left_out(metric),
+        left_out: row.why_left_out(metric).map(String::from),
         references: references.of(metric),
     };
     let home = |m: &Metric| HEADS.iter().position(|head| (head.takes)(m));

@@ -5,6 +5,7 @@ use super::diagram::projection::{self, View};
 use super::page::{cell, data_uri, escaped, head, number, scope_figure, tilt_section};
 use super::{scopes, tilts};
 use crate::solid::{Polyhedron, SolidError};
+use crate::store::terminal::in_line;
 use crate::study::compare::Comparison;
 use crate::study::score::{Plan, Row};
 use crate::walk::Stone;
@@ -24,7 +25,7 @@ const LONGEST: usize = 24;
 /// What stands for each stone in tables: its name, or a number if that is long.
 pub fn labels(names: &[&str]) -> Vec<String> {
     let label = |(i, name): (usize, &&str)| {
-        if name.chars().count() > LONGEST { format!("stone {}", i + 1) } else { name.to_string() }
+        if name.chars().count() > LONGEST { format!("stone {}", i + 1) } else { in_line(name) }
     };
     names.iter().enumerate().map(label).collect()
 }
@@ -32,13 +33,14 @@ pub fn labels(names: &[&str]) -> Vec<String> {
 /// Which names the labels stand for, where they are not the names themselves.
 pub fn explained(names: &[&str]) -> Vec<String> {
     let labels = labels(names);
-    let other = labels.iter().zip(names).filter(|(label, name)| label != *name);
+    let names = names.iter().map(|name| in_line(name));
+    let other = labels.iter().zip(names).filter(|(label, name)| *label != name);
     other.map(|(label, name)| format!("{label}: {name}")).collect()
 }
 
 /// What has no score, and why, stone by stone.
 pub fn left_out(comparison: &Comparison) -> Vec<String> {
-    let said = |row: &Row| Some(format!("{}: {}", row.stone, row.omissions()?));
+    let said = |row: &Row| Some(format!("{}: {}", in_line(&row.stone), row.omissions()?));
     comparison.rows.iter().filter_map(said).collect()
 }
 
@@ -127,7 +129,17 @@ fn table(names: &[String], comparison: &Comparison, plan: &Plan, out: &mut Strin
         .for_each(|name| *out += &format!("<th>{} less {}</th>", escaped(name), escaped(&names[0])));
     *out += "</tr></thead>\n<tbody>\n";
     for (m, metric) in plan.metrics.iter().enumerate() {
-        let _ = write!(out, "<tr title=\"{}\"><th scope=\"row\">{}</th>", escaped(metric.about), metric.name);
+        let better = match metric.better.said() {
+            "" => String::new(),
+            said => format!("<br><span class=\"se\">{said}</span>"),
+        };
+        let _ = write!(
+            out,
+            "<tr title=\"{}\"><th scope=\"row\">{}{}</th>",
+            escaped(&metric.about_and_better()),
+            metric.name,
+            better
+        );
         let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", cell(value, ""));
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
         for (other, differences) in comparison.differences.iter().enumerate() {

@@ -10,6 +10,7 @@ use super::{Camera, Light, PlacedStone, Pose, Scene, Surface};
 use crate::cut::Design;
 use crate::optics::Material;
 use crate::store::limits::{self, Exceeded};
+use crate::store::text;
 use crate::walk::Stone;
 use glam::Vec3;
 use serde::Deserialize;
@@ -26,7 +27,7 @@ pub static GRAMMAR: &str = include_str!("grammar.txt");
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The file cannot be read.
-    #[error("cannot read the scene {path}: {cause}")]
+    #[error("cannot read the scene {}: {cause}", text::shown(.path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -167,11 +168,10 @@ impl SceneFile {
     /// Reads a scene file.
     pub fn open(path: &Path) -> Result<SceneFile, SceneError> {
         let fail = |cause| SceneError::Read { path: path.to_owned(), cause };
-        let many = |cause| SceneError::Limit { file: path.display().to_string(), cause };
+        let many = |cause| SceneError::Limit { file: text::shown(path), cause };
         let bytes = limits::SCENE.read(path).map_err(fail)?.map_err(many)?;
-        let text = String::from_utf8(bytes).map_err(|e| fail(std::io::Error::other(e.utf8_error())))?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        Self::parse(&name, &path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
+        Self::parse(&name, &text::shown(path), &text::of(&bytes), path.parent().unwrap_or(Path::new("")))
     }
 
     /// Understands the text of a scene.

@@ -4,6 +4,7 @@
 
 use crate::optics::rgb;
 use crate::store::limits;
+use crate::store::text;
 use glam::Vec3;
 use image::{DynamicImage, ImageDecoder};
 use std::f32::consts::{PI, TAU};
@@ -41,7 +42,8 @@ impl std::fmt::Debug for Panorama {
 impl Panorama {
     /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
     pub fn open(path: &Path) -> Result<Panorama, String> {
-        let wrong = |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", path.display());
+        let wrong =
+            |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", text::shown(path));
         let bytes = limits::PANORAMA.read_regular(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
         Panorama::of(&bytes).map_err(|e| wrong(&e))
     }

@@ -2,7 +2,7 @@
 
 use super::measure::{calipers, convex_hull};
 use super::mesh::Mesh;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// A facet of a [`Body`].
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +45,23 @@ impl Body {
         self.vertices
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+    }
+
+    /// Sum of the area vectors of each facet's triangles.
+    pub fn area_vectors(&self) -> Vec<DVec3> {
+        let mut areas = vec![DVec3::ZERO; self.facets.len()];
+        for (triangle, facet) in self.triangles.iter().zip(&self.facet_of) {
+            let [a, b, c] = triangle.map(|corner| self.vertices[corner]);
+            areas[*facet] += 0.5 * (b - a).cross(c - a);
+        }
+        areas
+    }
+
+    /// The body turned about its origin.
+    pub fn turned(mut self, rotation: DMat3) -> Body {
+        self.vertices.iter_mut().for_each(|v| *v = rotation * *v);
+        self.facets.iter_mut().for_each(|f| f.normal = rotation * f.normal);
+        self
     }
 
     /// Girdle width, as [`super::Polyhedron::width`].

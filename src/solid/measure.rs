@@ -53,13 +53,20 @@ impl Polyhedron {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
     }
 
-    /// The outline seen from above: the convex hull of the corners in x and y, counter-clockwise.
+    /// The convex hull of the corners seen from above, counter-clockwise: what extents are measured on. They
+    /// change with the corners' roundings by no more than these.
+    pub fn hull(&self) -> Vec<DVec2> {
+        convex_hull(self.vertices.iter().map(|v| v.truncate()).collect())
+    }
+
+    /// The outline seen from above: [`Polyhedron::hull`] by its edges, for what asks where these are and
+    /// which way they run.
     ///
-    /// Its edges are longer than a hundred-thousandth of its extent: the upper and lower end of a girdle
+    /// They are longer than a hundred-thousandth of its extent: the upper and lower end of a girdle
     /// edge differ by rounding, and an edge from one to the other would have any direction at all.
     pub fn outline(&self) -> Vec<DVec2> {
         const SHORTEST: f64 = 1e-5;
-        let hull = convex_hull(self.vertices.iter().map(|v| v.truncate()).collect());
+        let hull = self.hull();
         let (low, high) = self.bounds();
         let near = SHORTEST * (high - low).truncate().max_element();
         let mut corners: Vec<DVec2> = Vec::with_capacity(hull.len());
@@ -77,12 +84,12 @@ impl Polyhedron {
     /// Girdle width: the least distance between two parallel lines that hold the outline. For a
     /// round stone the diameter measured flat to flat, for an oval its short axis.
     pub fn width(&self) -> f64 {
-        calipers(&self.outline()).0
+        calipers(&self.hull()).0
     }
 
     /// Girdle length: the extent of the outline across its width.
     pub fn length(&self) -> f64 {
-        calipers(&self.outline()).1
+        calipers(&self.hull()).1
     }
 
     /// A sphere that holds the stone: centre of the box, and the farthest corner's distance.
@@ -144,27 +151,23 @@ pub fn width_directions(hull: &[DVec2], slack: f64) -> Vec<DVec2> {
     (0..hull.len()).filter_map(across).filter(|d| extent(d) <= most).collect()
 }
 
-/// Least width over all directions, and the extent across it. The least width has one side of the
-/// hull flush with a caliper.
+/// Least width over all directions, and the extent across it: of several directions of the least width the
+/// greatest. The least width has one side of the hull flush with a caliper.
+///
+/// Both follow the corners without a jump: an edge that rounding makes between two corners that are one has
+/// some direction, and no direction has less than the least width.
 pub fn calipers(hull: &[DVec2]) -> (f64, f64) {
-    let mut best = (f64::INFINITY, 0.0);
-    for i in 0..hull.len() {
-        let along = hull[(i + 1) % hull.len()] - hull[i];
-        if along.length_squared() == 0.0 {
-            continue;
-        }
-        let along = along.normalize();
-        let across = along.perp();
-        let extent = |d: DVec2| {
-            let (lo, hi) = hull
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.dot(d)), hi.max(p.dot(d))));
-            hi - lo
-        };
-        let width = extent(across);
-        if width < best.0 * (1.0 - 1e-9) {
-            best = (width, extent(along));
-        }
-    }
-    if best.0.is_finite() { best } else { (0.0, 0.0) }
+    /// Widths that differ by less than this part are one: more than a file in `f32` moves them.
+    const ONE_WIDTH: f64 = 1e-6;
+    let extent = |d: DVec2| {
+        let (lo, hi) = hull
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p.dot(d)), hi.max(p.dot(d))));
+        hi - lo
+    };
+    let along = (0..hull.len()).filter_map(|i| (hull[(i + 1) % hull.len()] - hull[i]).try_normalize());
+    let sizes: Vec<(f64, f64)> = along.map(|along| (extent(along.perp()), extent(along))).collect();
+    let Some(least) = sizes.iter().map(|s| s.0).reduce(f64::min) else { return (0.0, 0.0) };
+    let across = sizes.iter().filter(|s| s.0 <= least * (1.0 + ONE_WIDTH)).map(|s| s.1);
+    (least, across.fold(0.0, f64::max))
 }

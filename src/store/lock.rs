@@ -37,7 +37,7 @@ pub fn take(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
             Ok(m) if m.is_symlink() => std::fs::remove_file(path)?,
             // a pipe in its place would be waited for without end
             Ok(m) if !m.is_file() => {
-                let problem = format!("{} is not a regular file", path.display());
+                let problem = format!("{} is not a regular file", super::text::shown(path));
                 return Err(Error::new(ErrorKind::InvalidInput, problem));
             }
             _ => (),

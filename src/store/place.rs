@@ -69,7 +69,7 @@ fn new(path: &Path) -> Result<(), Error> {
         }
     }
     if !there.is_dir() {
-        let what = format!("{} is not a folder", there.display());
+        let what = format!("{} is not a folder", super::text::shown(there));
         return Err(Error::new(ErrorKind::NotADirectory, what));
     }
     for name in missing {

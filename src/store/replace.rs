@@ -2,6 +2,7 @@
 
 use super::lock;
 use super::terminal::Terminal;
+use super::text::shown;
 use std::ffi::{OsStr, OsString};
 use std::fs::{File, Metadata};
 use std::io::{IsTerminal, Write};
@@ -10,7 +11,7 @@ use tempfile::TempPath;
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {cause}")]
+#[error("cannot write {}: {cause}", shown(.path))]
 pub struct WriteError {
     /// The file that was asked for.
     pub path: PathBuf,
@@ -68,16 +69,15 @@ pub fn open_stream(path: &Path) -> Result<Box<dyn Write + Send>, WriteError> {
 /// killing it, in `tests/kills.rs`.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let fail = |cause| WriteError { path: path.to_owned(), cause };
-    if is_stream(path) {
-        let mut out = open_stream(path)?;
-        return out.write_all(bytes).and_then(|()| out.flush()).map_err(fail);
-    }
     stream(path, |out| out.write_all(bytes).map_err(fail))
 }
 
-/// As [`write()`], but never over anything that exists: whether it was written.
+/// As [`write()`], but never over a file that exists: whether it was written.
 pub fn create(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
     let fail = |cause| WriteError { path: path.to_owned(), cause };
+    if is_stream(path) {
+        return write(path, bytes).map(|()| true);
+    }
     let partial = Partial::filled(path, |out| out.write_all(bytes).map_err(fail))?;
     match partial.name.persist_noclobber(path) {
         Ok(()) => Ok(true),
@@ -91,6 +91,11 @@ pub fn stream(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
+    if is_stream(path) {
+        let mut out = std::io::BufWriter::new(open_stream(path)?);
+        fill(&mut out)?;
+        return out.flush().map_err(|cause| WriteError { path: path.to_owned(), cause });
+    }
     let target = if path.is_symlink() { path.canonicalize() } else { Ok(path.to_owned()) };
     let target = target.map_err(|cause| WriteError { path: path.to_owned(), cause })?;
     let partial = Partial::filled(&target, fill)?;

@@ -14,6 +14,11 @@ pub fn printable(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
+/// The text in one line: as [`printable`], with line ends escaped too.
+pub fn in_line(text: &str) -> String {
+    printable(text).replace('\n', "\\n")
+}
+
 /// JSON text with the same characters escaped as JSON has it. What stands outside of strings holds none
 /// but line ends.
 pub fn printable_json(text: &str) -> String {

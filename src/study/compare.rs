@@ -3,6 +3,7 @@
 use super::score::{Effort, Plan, Row, Subject, score};
 use crate::math::stats::Estimate;
 use crate::metrics::{Metric, Reading, Statistic};
+use std::borrow::Cow;
 
 /// Short runs that a comparison is made of. Each has other random numbers, the same for every
 /// stone, so the spread of the differences is an honest error of them, and smaller than the errors
@@ -131,7 +132,10 @@ pub fn compare(subjects: &[Subject], plan: &Plan, step: &dyn Fn()) -> Comparison
 fn left_out<'a>(
     rows: impl Iterator<Item = &'a Row> + Clone,
     metrics: &[&Metric],
-) -> Vec<(&'static str, &'static str)> {
-    let why = |m: &&Metric| Some((m.name, rows.clone().find_map(|row| row.why_left_out(m))?));
+) -> Vec<(&'static str, Cow<'static, str>)> {
+    let why = |m: &&Metric| {
+        let said = rows.clone().find_map(|row| row.why_left_out(m))?;
+        Some((m.name, said.to_owned().into()))
+    };
     metrics.iter().filter_map(why).collect()
 }

@@ -1,6 +1,7 @@
 //! What a table is a function of, in one short word.
 
 use crate::formats;
+use crate::store::text;
 use crate::store::{limits, stdin};
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -26,7 +27,7 @@ impl Held {
     pub fn by(path: &Path) -> Held {
         let mut content = Vec::new();
         let read = File::open(path).and_then(|f| f.take(limits::FILE.most() + 1).read_to_end(&mut content));
-        if read.is_ok() && formats::may_include(&path.display().to_string(), &content) {
+        if read.is_ok() && formats::may_include(&text::shown(path), &content) {
             content.extend(format!("{:?}", formats::read(path)).bytes());
         }
         Held(read.is_ok().then(|| Sha256::digest(&content).into()))

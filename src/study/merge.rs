@@ -4,12 +4,12 @@ use super::batch::Summary;
 use super::meta::{Meta, checksum};
 use super::shard::Shard;
 use super::table::{Form, RowReader, TableError};
-use crate::store::limits;
 use crate::store::progress::Progress;
 use crate::store::replace::{self, WriteError};
-use std::fs::File;
-use std::io::BufReader;
+use crate::store::{limits, text};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One part: a table and what its companion says of it.
 #[derive(Debug, Clone)]
@@ -20,13 +20,15 @@ pub struct Part {
     pub meta: Meta,
     /// How it is written.
     pub form: Form,
+    /// Its text, if the file has that in another encoding or with other ends of lines.
+    decoded: Option<Arc<str>>,
 }
 
 /// Parts that cannot be joined.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// The operating system refused.
-    #[error("cannot read {path}: {cause}")]
+    #[error("cannot read {}: {cause}", text::shown(.path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -34,28 +36,28 @@ pub enum MergeError {
         cause: std::io::Error,
     },
     /// A companion that is none.
-    #[error("{0} is not the companion of a table that cutlab wrote: {1}")]
+    #[error("{} is not the companion of a table that cutlab wrote: {}", text::shown(.0), .1)]
     Meta(PathBuf, String),
     /// A table that is not what its companion says.
-    #[error("{0} is not as it was written: its checksum is not the one in {1}")]
+    #[error("{} is not as it was written: its checksum is not the one in {}", text::shown(.0), text::shown(.1))]
     Changed(PathBuf, PathBuf),
     /// A whole table.
-    #[error("{0} is a whole table already, no part of one")]
+    #[error("{} is a whole table already, no part of one", text::shown(.0))]
     Whole(PathBuf),
     /// Parts of different tables.
-    #[error("{0} and {1} are parts of different tables: {2}")]
+    #[error("{} and {} are parts of different tables: {}", text::shown(.0), text::shown(.1), .2)]
     Strangers(PathBuf, PathBuf, String),
     /// The same part twice.
-    #[error("{0} and {1} are both shard {2}")]
+    #[error("{} and {} are both shard {}", text::shown(.0), text::shown(.1), .2)]
     Twice(PathBuf, PathBuf, Shard),
     /// Parts that are not there.
     #[error("{}", missing(.0, *.1))]
     Missing(Vec<Shard>, u64),
     /// A row that is none.
-    #[error("{0}: {1}")]
+    #[error("{}: {}", text::shown(.0), .1)]
     Row(PathBuf, String),
     /// A part with fewer rows than its companion says.
-    #[error("{0} ends before its rows do")]
+    #[error("{} ends before its rows do", text::shown(.0))]
     Short(PathBuf),
     /// The operating system refused.
     #[error(transparent)]
@@ -91,18 +93,37 @@ impl Part {
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
         let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let text = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
-        let text = text.map_err(|e| wrong(e.to_string()))?;
-        let meta: Meta = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
-        if meta.crc32 != sum {
-            return Err(MergeError::Changed(table.to_owned(), beside));
+        let bytes = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
+        let bytes = bytes.map_err(|e| wrong(e.to_string()))?;
+        let meta: Meta = serde_json::from_str(&text::of(&bytes)).map_err(|e| wrong(e.to_string()))?;
+        let mut part = Part { table: table.to_owned(), meta, form, decoded: None };
+        if part.meta.crc32 != sum {
+            // an editor may have saved the same text anew
+            let text = text::of(&part.bytes()?).replace("\r\n", "\n");
+            if format!("{:08x}", crc32fast::hash(text.as_bytes())) != part.meta.crc32 {
+                return Err(MergeError::Changed(table.to_owned(), beside));
+            }
+            part.decoded = Some(text.into());
         }
-        Ok(Part { table: table.to_owned(), meta, form })
+        Ok(part)
     }
 
     /// All bytes of the table.
     pub fn bytes(&self) -> Result<Vec<u8>, MergeError> {
+        if let Some(text) = &self.decoded {
+            return Ok(text.as_bytes().to_vec());
+        }
         std::fs::read(&self.table).map_err(|cause| MergeError::Read { path: self.table.clone(), cause })
+    }
+
+    /// A reader of the table.
+    fn reader(&self) -> Result<Box<dyn BufRead + '_>, MergeError> {
+        if let Some(text) = &self.decoded {
+            return Ok(Box::new(text.as_bytes()));
+        }
+        let file = limits::regular(&self.table);
+        let file = file.map_err(|cause| MergeError::Read { path: self.table.clone(), cause })?;
+        Ok(Box::new(BufReader::new(file)))
     }
 
     fn shard(&self) -> Shard {
@@ -173,9 +194,7 @@ impl Parts {
         let (columns, total) = (&self.meta.columns, self.meta.total);
         let mut readers = Vec::new();
         for part in &self.parts {
-            let open = File::open(&part.table);
-            let file = open.map_err(|cause| MergeError::Read { path: part.table.clone(), cause })?;
-            readers.push((part, RowReader::new(part.form, BufReader::new(file))?));
+            readers.push((part, RowReader::new(part.form, part.reader()?)?));
         }
         put(&form.head(columns)?)?;
         for i in 0..total {

@@ -4,10 +4,11 @@
 //! `NAME.meta.json` among the tables of one name, which is still read.
 
 use super::batch::Summary;
+use super::identity::BUILD;
 use super::score::Plan;
 use super::shard::Shard;
 use super::table::Form;
-use crate::store::limits;
+use crate::store::{limits, text};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Read;
@@ -63,6 +64,9 @@ pub struct Layout {
     /// Whether the points are spread over the axes and form no grid.
     #[serde(default)]
     pub scattered: bool,
+    /// Whether the stone is of diamond at every point.
+    #[serde(default)]
+    pub is_diamond: bool,
 }
 
 /// One metric of the table.
@@ -88,6 +92,27 @@ pub struct Definition {
 }
 
 impl Meta {
+    /// The companion of a whole table of a plan's scores, without rows, layout and checksum.
+    ///
+    /// - `study`: digest of build, command and inputs
+    pub fn new(plan: &Plan, command: String, study: String, columns: Vec<String>) -> Meta {
+        Meta {
+            program: "cutlab".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            build: BUILD.into(),
+            command,
+            seed: plan.seed,
+            study,
+            columns,
+            layout: None,
+            total: 0,
+            shard: None,
+            summary: Summary::default(),
+            crc32: String::new(),
+            metrics: Meta::definitions(plan),
+        }
+    }
+
     /// Where the companion of `table` is written.
     pub fn beside(table: &Path) -> PathBuf {
         let mut name = table.as_os_str().to_owned();
@@ -124,7 +149,7 @@ impl Meta {
     /// The companion in the file at `path`.
     pub fn read(path: &Path) -> std::io::Result<Meta> {
         let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
-        Ok(serde_json::from_slice(&bytes)?)
+        Ok(serde_json::from_str(&text::of(&bytes))?)
     }
 
     /// The definitions of a plan's metrics.

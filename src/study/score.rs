@@ -15,6 +15,7 @@ use crate::solid::{Body, Polyhedron};
 use crate::walk::Stone;
 use crate::walk::beams::Beams;
 use crate::walk::mesh::MeshStone;
+use std::borrow::Cow;
 
 /// Points of the hemisphere and of the view when nothing else is asked: ±.0003 of `wlr` for a
 /// round brilliant, ±.0002 of the `aset` scores.
@@ -152,20 +153,20 @@ pub struct Row {
     /// What went wrong: no shape, no light, or an error not reached (the scores then stand).
     pub error: Option<String>,
     /// Metrics of the plan that do not apply to the stone, with the reason: nothing went wrong.
-    pub left_out: Vec<(&'static str, &'static str)>,
+    pub left_out: Vec<(&'static str, Cow<'static, str>)>,
 }
 
 impl Row {
     /// Leaves the score of a metric empty, for a reason.
-    pub(super) fn leave_out(&mut self, metric: &Metric, why: &'static str) {
-        self.left_out.push((metric.name, why));
+    pub(super) fn leave_out(&mut self, metric: &Metric, why: impl Into<Cow<'static, str>>) {
+        self.left_out.push((metric.name, why.into()));
     }
 
     /// What is left out and why, in words: metrics of one reason together. None if every score is there.
     pub fn omissions(&self) -> Option<String> {
         let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
         for (metric, why) in &self.left_out {
-            match reasons.iter_mut().find(|(reason, _)| reason == why) {
+            match reasons.iter_mut().find(|(reason, _)| *reason == why.as_ref()) {
                 Some((_, metrics)) => metrics.push(metric),
                 None => reasons.push((why, vec![metric])),
             }
@@ -176,14 +177,10 @@ impl Row {
     }
 
     /// The reason for which a metric is left out, if it is.
-    pub fn why_left_out(&self, metric: &Metric) -> Option<&'static str> {
-        self.left_out.iter().find(|(name, _)| *name == metric.name).map(|(_, why)| *why)
+    pub fn why_left_out(&self, metric: &Metric) -> Option<&str> {
+        self.left_out.iter().find(|(name, _)| *name == metric.name).map(|(_, why)| why.as_ref())
     }
 }
-
-/// Why scores of colours are left out.
-const NO_DISPERSION: &str =
-    "no dispersion is known of what the stone is made of; --material names a material that has one";
 
 /// Why scores that look at single rays are left out.
 const DENTED: &str = "not known for stones that are not convex";
@@ -276,7 +273,7 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
         plan.metrics
             .iter()
             .filter(|m| m.needs_dispersion())
-            .for_each(|m| sheet.row.leave_out(m, NO_DISPERSION));
+            .for_each(|m| sheet.row.leave_out(m, subject.material.no_dispersion()));
     } else if subject.material.is_clear() {
         // beams are nearly exact for one direction, and ten times as cheap as photons
         let fire = |r| of_beam(r).filter(|f| !Needs::of(f).faint);

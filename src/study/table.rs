@@ -3,6 +3,7 @@
 use super::score::Row;
 use crate::metrics::Metric;
 use crate::store::limits;
+use crate::store::text;
 use serde::ser::{SerializeMap, Serializer};
 use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
@@ -93,7 +94,7 @@ impl Cell {
 }
 
 /// Columns whose cells are words, even those that look like numbers.
-const TEXT_COLUMNS: [&str; 4] = ["stone", "material", "name", "error"];
+const TEXT_COLUMNS: [&str; 5] = ["stone", "material", "name", "weighed_as", "error"];
 
 impl From<&str> for Cell {
     fn from(text: &str) -> Cell {
@@ -120,7 +121,7 @@ impl Form {
             return Ok(Form::Csv);
         };
         let known = ENDINGS.iter().find(|(e, _)| *e == ending).map(|(_, form)| *form);
-        known.ok_or_else(|| TableError::Ending(path.display().to_string()))
+        known.ok_or_else(|| TableError::Ending(text::shown(path)))
     }
 
     /// What stands before the first row.

@@ -41,6 +41,39 @@ impl Bench {
         (text(&out.stdout), said)
     }
 
+    /// As [`Bench::ends`], by a user to whom modes of files apply: to root they do not, and another user
+    /// takes root's place. None, said in the test's output, where that cannot be.
+    #[cfg(unix)]
+    pub fn ends_for_a_user(&self, code: i32, arguments: &[&str]) -> Option<(String, String)> {
+        use std::os::unix::fs::{MetadataExt, PermissionsExt};
+        use std::os::unix::process::CommandExt;
+        /// The user called nobody.
+        const NOBODY: u32 = 65534;
+        let mine = self.path(".mine");
+        std::fs::write(&mine, "").expect("writes");
+        let is_root = mine.metadata().expect("is there").uid() == 0;
+        std::fs::remove_file(&mine).expect("removes");
+        if !is_root {
+            return Some(self.ends(code, arguments));
+        }
+        let program = self.path(".cutlab");
+        std::fs::copy(env!("CARGO_BIN_EXE_cutlab"), &program).expect("copies");
+        std::fs::set_permissions(self.path(""), PermissionsExt::from_mode(0o755)).expect("opens");
+        let mut command = Command::new(&program);
+        command.args(arguments).current_dir(self.0.path()).uid(NOBODY).gid(NOBODY);
+        let out = command.output();
+        std::fs::remove_file(&program).expect("removes");
+        let out = match out {
+            Ok(out) => out,
+            Err(why) => {
+                println!("skipped: root cannot run a program as another user here ({why})");
+                return None;
+            }
+        };
+        assert_eq!(out.status.code(), Some(code), "{arguments:?}: {}", text(&out.stderr));
+        Some((text(&out.stdout), text(&out.stderr)))
+    }
+
     /// Runs a command that must end well; standard error.
     pub fn good(&self, arguments: &[&str]) -> String {
         self.ends(0, arguments).1

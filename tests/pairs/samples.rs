@@ -121,6 +121,12 @@ const SAMPLES: &[Sample] = &[
     ("score", "tilt_axis", &[&["90"], &["-45"]]),
     ("sweep", "vary", &[&["crown-angle=34:35:1"], &["table=55:57:2", "size=2:4:2"], &["ri=1.6:1.8:0.2"]]),
     ("sweep", "scatter", &[&["3"]]),
+    // looks of plots
+    ("*", "title", &[&["A title"]]),
+    ("score", "range", &[&["tilt=-10:10"], &["iso=0:100"]]),
+    ("*", "range", &[&["crown-angle=33:36"], &["wlr=0:1"]]),
+    ("*", "pixels", &[&["64"]]),
+    ("*", "colours", &[&["greys"]]),
     // stones' stuff
     ("*", "material", &[&["diamond"], &["quartz"], &["ruby"]]),
     ("*", "ri", &[&["1.54"]]),

@@ -3,8 +3,11 @@
 use crate::cli::readable;
 use crate::cut::proportions;
 use crate::math::stats::Estimate;
+use crate::metrics::Better;
+use crate::optics::weight::Weight;
 use crate::report::page::number;
 use crate::report::{Request, versus};
+use crate::store::terminal::in_line;
 use crate::study::compare::Comparison;
 use crate::study::score::Plan;
 use crate::study::table::{Cell, Form, TableError};
@@ -48,7 +51,7 @@ impl Compared<'_> {
             (
                 "weight",
                 "ct",
-                |p, request| request.material.carats(p.volume),
+                |p, request| Weight::of(&request.material).carats(p.volume),
                 "the density of what it is made of is not known; --material names a material that has one",
             ),
         ];
@@ -63,6 +66,14 @@ impl Compared<'_> {
     fn heads(&self) -> Vec<String> {
         let labels = versus::labels(&self.names());
         labels.iter().zip(self.requests).map(|(label, r)| format!("{label} ({})", r.material.name)).collect()
+    }
+
+    /// What must be known about the weights, a line each.
+    pub fn weight_notes(&self) -> Vec<String> {
+        let said = |r: &Request| {
+            Some(format!("weight of {}: {}", in_line(&r.stone), Weight::of(&r.material).note()?))
+        };
+        self.requests.iter().filter_map(said).collect()
     }
 
     fn names(&self) -> Vec<&str> {
@@ -93,7 +104,7 @@ impl Compared<'_> {
         let mut head = vec![String::new()];
         head.extend(heads);
         head.extend(labels[1..].iter().map(|label| format!("{label} less {}", labels[0])));
-        head.push("unit".into());
+        head.extend(["unit".into(), "better".into()]);
         let mut lines = Vec::new();
         for (m, metric) in self.plan.metrics.iter().enumerate() {
             let mut line = vec![metric.name.to_owned()];
@@ -105,7 +116,7 @@ impl Compared<'_> {
                 let sign = if d.is_some_and(|e| e.value > 0.0) && !is_zero { "+" } else { "" };
                 format!("{sign}{shown}{}", self.mark(s, m))
             }));
-            line.push(metric.unit.to_owned());
+            line.extend([metric.unit, metric.better.word()].map(String::from));
             lines.push(line);
         }
         for measure in self.measures() {
@@ -118,7 +129,7 @@ impl Compared<'_> {
                 (Some(v), Some(first)) => format!("{:+.2}", v - first),
                 _ => readable::NONE.to_owned(),
             }));
-            line.push(measure.unit.to_owned());
+            line.extend([measure.unit, ""].map(String::from));
             lines.push(line);
         }
         (head, lines)
@@ -129,7 +140,7 @@ impl Compared<'_> {
         let mut head = vec!["stone".to_owned(), "material".to_owned()];
         head.extend(self.plan.metrics.iter().map(|m| m.name.to_owned()));
         let line = |s: usize| {
-            let mut line = vec![self.requests[s].stone.clone(), self.requests[s].material.name.to_string()];
+            let mut line = vec![in_line(&self.requests[s].stone), self.requests[s].material.name.to_string()];
             let cell = |m| format!("{}{}", self.score(s, m), self.mark(s, m));
             line.extend((0..self.plan.metrics.len()).map(cell));
             line
@@ -144,6 +155,14 @@ impl Compared<'_> {
             lines = versus::explained(&self.names());
         }
         lines.extend(versus::left_out(self.comparison));
+        lines.extend(self.weight_notes());
+        for better in [Better::More, Better::Less].iter().filter(|_| self.requests.len() > MOST_COLUMNS) {
+            let which = self.plan.metrics.iter().filter(|m| m.better == *better);
+            let names: Vec<&str> = which.map(|m| m.name).collect();
+            if !names.is_empty() {
+                lines.push(format!("{}: {}", better.said(), names.join(", ")));
+            }
+        }
         lines.push(
             "after ± one standard error; * differs from the first by more than three errors of the difference, \
              and not negligibly"
@@ -170,8 +189,10 @@ impl Compared<'_> {
     pub fn markdown(&self) -> String {
         let (head, lines) = self.grid();
         let row = |cells: &[String]| {
-            let cells: Vec<String> =
-                cells.iter().map(|c| c.replace('\\', "\\\\").replace('|', "\\|")).collect();
+            let cells: Vec<String> = cells
+                .iter()
+                .map(|c| c.replace('\\', "\\\\").replace('|', "\\|").replace('<', "&lt;"))
+                .collect();
             format!("| {} |\n", cells.join(" | "))
         };
         let rule = format!("|{}\n", " --- |".repeat(head.len()));
@@ -186,29 +207,30 @@ impl Compared<'_> {
         let columns = COLUMNS.map(String::from);
         let mut rows: Vec<Vec<Cell>> = Vec::new();
         let cell = |x: Option<f64>| x.map_or(Cell::Empty(()), Cell::number);
-        let mut add =
-            |stone: usize, (name, unit, why): (&str, &str, Option<&str>), values: [_; 2], mark: bool| {
-                let [score, difference]: [Option<Estimate>; 2] = values;
-                let significant = difference.map(|_| if mark { "yes" } else { "no" });
-                let request = &self.requests[stone];
-                rows.push(vec![
-                    name.into(),
-                    unit.into(),
-                    request.stone.as_str().into(),
-                    request.material.name.as_ref().into(),
-                    cell(score.map(|e| e.value)),
-                    cell(score.map(|e| e.error)),
-                    cell(difference.map(|e| e.value)),
-                    cell(difference.map(|e| e.error)),
-                    significant.into(),
-                    why.filter(|_| score.is_none()).into(),
-                ]);
-            };
+        let mut add = |stone: usize, (words, why): ([&str; 3], Option<&str>), values: [_; 2], mark: bool| {
+            let ([name, unit, better], [score, difference]): (_, [Option<Estimate>; 2]) = (words, values);
+            let significant = difference.map(|_| if mark { "yes" } else { "no" });
+            let request = &self.requests[stone];
+            rows.push(vec![
+                name.into(),
+                unit.into(),
+                Some(better).filter(|word| !word.is_empty()).into(),
+                request.stone.as_str().into(),
+                request.material.name.as_ref().into(),
+                cell(score.map(|e| e.value)),
+                cell(score.map(|e| e.error)),
+                cell(difference.map(|e| e.value)),
+                cell(difference.map(|e| e.error)),
+                significant.into(),
+                why.filter(|_| score.is_none()).into(),
+            ]);
+        };
         for (m, metric) in self.plan.metrics.iter().enumerate() {
             for (s, row) in self.comparison.rows.iter().enumerate() {
                 let d = self.difference(s, m);
                 let why = row.why_left_out(metric).or(row.error.as_deref());
-                add(s, (metric.name, metric.unit, why), [row.scores[m], d], self.is_significant(s, m));
+                let words = [metric.name, metric.unit, metric.better.word()];
+                add(s, (words, why), [row.scores[m], d], self.is_significant(s, m));
             }
         }
         for measure in self.measures() {
@@ -216,7 +238,7 @@ impl Compared<'_> {
             for (s, value) in measure.values.iter().enumerate() {
                 let difference = value.zip(first).filter(|_| s > 0).map(|(v, f)| Estimate::exact(v - f));
                 let differs = difference.is_some_and(|d| d.value.abs() > 1e-9);
-                let said = (measure.name, measure.unit, Some(measure.why));
+                let said = ([measure.name, measure.unit, ""], Some(measure.why));
                 add(s, said, [value.map(Estimate::exact), difference], differs);
             }
         }
@@ -231,9 +253,10 @@ impl Compared<'_> {
 }
 
 /// Columns of [`Compared::table`]; `difference` is from the first stone.
-pub const COLUMNS: [&str; 10] = [
+pub const COLUMNS: [&str; 11] = [
     "metric",
     "unit",
+    "better",
     "stone",
     "material",
     "value",

@@ -72,6 +72,13 @@ fn metric(m: &Metric) -> Entry {
             ("definition", m.definition.into()),
             ("observer", observer),
             ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
+            (
+                "better",
+                match m.better.word() {
+                    "" => "neither more nor less by itself".into(),
+                    word => word.into(),
+                },
+            ),
             ("experiment", m.reading.experiment().into()),
             ("stones", shapes.into()),
             ("error", error),
@@ -81,6 +88,7 @@ fn metric(m: &Metric) -> Entry {
     let facts = json!({
         "unit": m.unit,
         "range": [m.range.0, m.range.1],
+        "better": (!m.better.word().is_empty()).then(|| m.better.word()),
         "observer_deg": m.observer,
         "experiment": m.reading.experiment(),
         "by_beams": m.by_beams,
@@ -88,7 +96,7 @@ fn metric(m: &Metric) -> Entry {
         "definition": m.definition,
         "source": m.source,
     });
-    Entry { name: m.name.into(), about: m.about.into(), text, facts }
+    Entry { name: m.name.into(), about: m.about_and_better(), text, facts }
 }
 
 /// Materials.

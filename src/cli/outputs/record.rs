@@ -49,6 +49,17 @@ pub fn recorded(text: String, command: &str) -> String {
     text + &behind(command)
 }
 
+/// A PDF with its command recorded behind its end, if that is not too long for readers to find the end.
+pub fn in_pdf(mut page: Vec<u8>, command: &str) -> Vec<u8> {
+    /// The end is looked for in the last 1024 bytes. Source: PDF Reference 1.7 (2006), appendix H, note 18.
+    const MOST: usize = 1000;
+    let record = format!("\n%{}", behind(command));
+    if record.len() <= MOST {
+        page.extend(record.bytes());
+    }
+    page
+}
+
 /// What stands behind a drawing, page or GIF and records its command.
 pub fn behind(command: &str) -> String {
     format!("{BEFORE}{}{AFTER}", escaped(command))

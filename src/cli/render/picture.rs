@@ -7,6 +7,7 @@ use super::{Args, rounds};
 use crate::cli::console::Console;
 use crate::cli::outcome::Failure;
 use crate::cli::outputs::record;
+use crate::cli::stones;
 use crate::photons::{Shots, file};
 use crate::render::write::{self, Bits, EncodeError, Made};
 use crate::render::{self, Film, Maps, Pass, Settings, glare, tone, tracer};
@@ -118,7 +119,7 @@ fn maps(args: &Args, scene: &Scene, progress: &Progress) -> Result<Maps, Failure
         Some(path) => {
             let (shots, read) = file::load_or_shoot(path, scene, &settings)?;
             let did = if read { "used" } else { "made" };
-            progress.console().note(&format!("{did} the photon map {}", path.display()));
+            progress.console().note(&format!("{did} the photon map {}", stones::shown(&path)));
             shots
         }
     };

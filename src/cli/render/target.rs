@@ -4,6 +4,7 @@ use super::{Args, command};
 use crate::cli::console::Console;
 use crate::cli::outcome::{self, Failure};
 use crate::cli::outputs::{Outputs, record};
+use crate::cli::stones;
 use crate::render::animation;
 use crate::render::{Pass, mp4};
 use crate::scene::SceneFile;
@@ -93,10 +94,12 @@ impl Target {
     pub fn of(path: &Path, args: &Args) -> Result<Target, Failure> {
         let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         let several = args.frames.is_some();
-        let shown = path.display();
-        let stdout = path == Path::new("-");
-        if stdout && (several || args.passes) {
-            return Err(Failure::input("several pictures cannot go to standard output: name a file with -o"));
+        let shown = stones::shown(&path);
+        // the name of a pipe may have an ending that tells, that of a device or an open file has none
+        let nameless = replace::is_stream(path) && ending.is_empty();
+        if nameless && (several || args.passes) {
+            let what = if replace::is_stdout(path) { "standard output" } else { "a stream" };
+            return Err(Failure::input(format!("several pictures cannot go to {what}: name a file with -o")));
         }
         let places = path.file_name().map_or(0, |n| n.to_string_lossy().matches('%').count());
         let numbered = numbered(path, 0).is_some();
@@ -109,7 +112,7 @@ impl Target {
             return Err(Failure::input(format!("{shown}: the name has a place for numbers of --frames N")));
         }
         let kind = match (ending.as_str(), several) {
-            _ if stdout => Kind::Png,
+            _ if nameless => Kind::Png,
             ("png", true) if numbered => Kind::Numbered,
             ("png" | "apng", true) => Kind::Apng,
             ("gif", true) => Kind::Gif,
@@ -208,7 +211,7 @@ impl Target {
             outcome::goes_on();
         }
         let waiting = || {
-            let path = self.path.display();
+            let path = stones::shown(&self.path);
             console.note(&format!("another cutlab is making {path}: waiting for it to end"));
         };
         let path = lock::hidden(&self.path, "lock");

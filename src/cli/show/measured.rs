@@ -1,8 +1,8 @@
 //! Measures of a stone, as `cutlab show` prints them.
 
-use crate::cli::weight::Weight;
 use crate::cut::proportions::Proportions;
 use crate::cut::{Design, Unit};
+use crate::optics::weight::Weight;
 use serde::Serialize;
 
 /// Lengths are in the file's unit, percentages of the girdle width.

@@ -1,6 +1,7 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
 use crate::cli::outcome::{Failure, Shape};
+use crate::store::terminal::in_line;
 use serde::Serialize;
 
 /// A closed mesh with dents or in several parts: shown, though it is no stone that can be cut.
@@ -48,7 +49,7 @@ impl MeshSheet {
         format!(
             "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
              file's own unit\n  closed          yes\n  convex          no\n  note            {}\n",
-            self.file,
+            in_line(&self.file),
             self.format,
             self.facets,
             self.triangles,

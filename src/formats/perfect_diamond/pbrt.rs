@@ -11,6 +11,7 @@ use crate::formats::shell::Digits;
 use crate::formats::source::{Source, is_no_value};
 use crate::solid::recover::Polygon;
 use crate::store::limits;
+use crate::store::text;
 use glam::{DMat4, DVec3};
 use std::iter::Peekable;
 
@@ -112,7 +113,7 @@ impl Scene {
         source.within_at(line, &limits::INCLUDED, self.included)?;
         let bytes = beside::fetch(source, name)
             .ok_or_else(|| source.at_line(line, "a file in the scene's own folder", name))??;
-        let path = source.folder.map_or_else(|| name.to_owned(), |f| f.join(name).display().to_string());
+        let path = source.folder.map_or_else(|| name.to_owned(), |f| text::shown(f.join(name)));
         self.file(&Source { name: &path, bytes: &bytes, folder: source.folder }, depth + 1)
     }
 

@@ -2,10 +2,9 @@
 
 use super::frame::{Frame, HEIGHT, WIDTH, step, ticks};
 use super::surface::Surface;
-use super::{Axis, Drawing, escaped};
+use super::{Axis, Colours, Drawing, escaped};
 use crate::report::raster::text_width;
 use crate::study::table::Numbers;
-use colorous::VIRIDIS;
 use contour::ContourBuilder;
 use std::fmt::Write;
 
@@ -34,21 +33,25 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
         .collect();
     let surface = if scattered { Surface::of_scattered(&points) } else { Surface::of_grid(&points) };
     let ends = surface.as_ref().map_or(((0.0, 1.0), (0.0, 1.0)), |s| (s.x, s.y));
-    let frame = Frame::new((WIDTH, HEIGHT), ends.0, ends.1, WIDTH - RIGHT);
+    let style = drawing.style;
+    let across = style.range(&x.key).unwrap_or(ends.0);
+    let up = style.range(&y.key).unwrap_or(ends.1);
+    let frame = Frame::new((WIDTH, HEIGHT), across, up, WIDTH - RIGHT);
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
     let other = drawing.other_note();
     let note = format!("standard error up to {worst:.1e}{how}{other}; {}", drawing.metric.about);
-    let mut out = frame.open(&format!("{name} of {}", drawing.stone), &note);
+    let mut out = frame.open(&drawing.title(), &note);
     let levels = surface.as_ref().and_then(|s| Some((s, s.reach()?)));
     match levels {
         Some((surface, reach)) => {
-            let scale = Levels::of(reach);
+            let scale = Levels::of(style.range(name).unwrap_or(reach), style.colours);
             let contours = scale.draw(&frame, surface, &mut out);
             let covered = cover(&frame, surface, &mut out);
             if scattered {
-                for (x, y, _) in points.iter().filter(|p| p.2.is_some()) {
+                let seen = |x: f64, y: f64| frame.x.holds(x) && frame.y.holds(y);
+                for (x, y, _) in points.iter().filter(|p| p.2.is_some() && seen(p.0, p.1)) {
                     let (x, y) = (frame.x.at(*x), frame.y.at(*y));
                     let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.1\" fill=\"#0008\"/>");
                 }
@@ -70,22 +73,23 @@ struct Levels {
     from: f64,
     to: f64,
     at: Vec<(f64, String)>,
+    colours: Colours,
 }
 
 impl Levels {
-    fn of((from, to): (f64, f64)) -> Levels {
+    fn of((from, to): (f64, f64), colours: Colours) -> Levels {
         let (from, to) = super::frame::widened((from, to));
         let step = step(from, to, BANDS);
         Levels {
             from,
             to,
             at: ticks(from, to, BANDS).into_iter().filter(|(v, _)| *v > from + 0.01 * step).collect(),
+            colours,
         }
     }
 
     fn colour(&self, value: f64) -> String {
-        let along = ((value - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
-        format!("#{:x}", VIRIDIS.eval_continuous(along))
+        self.colours.at((value - self.from) / (self.to - self.from))
     }
 
     /// The middle of the band above level number `i`, counted from −1: below the first.
@@ -97,10 +101,21 @@ impl Levels {
 
     /// Fills the bands and draws the contours; every contour's level and points, in the drawing.
     fn draw(&self, frame: &Frame, surface: &Surface, out: &mut String) -> Vec<(usize, Vec<(f64, f64)>)> {
-        let (left, top, w, h) = frame.rectangle();
+        let (left, top, w, h) = known(frame, surface);
+        let clip = match (left, top, w, h) == frame.rectangle() {
+            true => "plot",
+            false => {
+                let _ = writeln!(
+                    out,
+                    "<clipPath id=\"known\"><rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/>\
+                     </clipPath>"
+                );
+                "known"
+            }
+        };
         let _ = writeln!(
             out,
-            "<g clip-path=\"url(#plot)\">\n<rect x=\"{left}\" y=\"{top}\" width=\"{w:.1}\" height=\"{h:.1}\" \
+            "<g clip-path=\"url(#{clip})\">\n<rect x=\"{left}\" y=\"{top}\" width=\"{w:.1}\" height=\"{h:.1}\" \
              fill=\"{}\"/>",
             self.colour(self.middle(0))
         );
@@ -225,6 +240,16 @@ impl Levels {
             escaped(title)
         );
     }
+}
+
+/// Left, top, width and height of what is known of the surface within the plot.
+fn known(frame: &Frame, surface: &Surface) -> (f64, f64, f64, f64) {
+    let (left, top, w, h) = frame.rectangle();
+    let ends = |at: [f64; 2], from: f64, to: f64| at.map(|x| x.clamp(from, to));
+    let [x0, x1] = ends([frame.x.at(surface.x.0), frame.x.at(surface.x.1)], left, left + w);
+    let [y1, y0] = ends([frame.y.at(surface.y.0), frame.y.at(surface.y.1)], top, top + h);
+    let whole = [x0 - left, y0 - top, left + w - x1, top + h - y1].iter().all(|gap| gap.abs() < 1e-6);
+    if whole { (left, top, w, h) } else { (x0, y0, x1 - x0, y1 - y0) }
 }
 
 /// The point of a closed line at `distance` from point `i`, forward or backward along it.

@@ -10,6 +10,7 @@ use crate::math::stats::Estimate;
 use crate::metrics::Metric;
 use crate::optics::Material;
 use crate::solid::SolidError;
+use crate::store::text;
 use crate::study::score::{Effort, Plan, Subject, score};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -90,7 +91,7 @@ impl Lab {
         let missing = || TrialError::Missing("no corpus: set CUTLAB_CORPUS to its folder".into());
         let path = self.corpus.as_ref().ok_or_else(missing)?.join(name);
         let here = path.is_file();
-        if here { Ok(path) } else { Err(TrialError::Missing(format!("no {}", path.display()))) }
+        if here { Ok(path) } else { Err(TrialError::Missing(format!("no {}", text::shown(path)))) }
     }
 }
 
