@@ -40,8 +40,16 @@ fn number_as_json(cell: &str) -> String {
 }
 
 /// Columns whose cells may be empty where a stone has no such measure, and where nothing is wrong.
-const MAY_BE_EMPTY: [&str; 7] =
-    ["error", "name", "width_mm", "table_percent", "crown_angle_deg", "pavilion_angle_deg", "carats"];
+const MAY_BE_EMPTY: [&str; 8] = [
+    "error",
+    "name",
+    "width_mm",
+    "table_percent",
+    "crown_angle_deg",
+    "pavilion_angle_deg",
+    "carats",
+    "weighed_as",
+];
 
 /// What is wrong with the cells of a table: empty without a reason, no numbers, outside the range.
 pub fn fault(rows: &[Row]) -> Option<String> {
