@@ -14,13 +14,14 @@ fn a_format_that_is_asked_for_is_written_or_refused() {
         json[0]["format"].as_str().expect("a format").to_owned()
     };
     bench.good(&["generate", "-q", "cube", "--to", "asc"]);
-    assert_eq!(format("cube-6.asc"), "GemCad text");
+    bench.good(&["generate", "-q", "cube", "-o", "y.gem"]);
+    assert_eq!(format("cube-6.asc"), "gemcad");
     for command in [["generate", "cube"], ["import", "cube-6.asc"]] {
         let (_, said) = bench.ends(2, &[&command[..], &["-o", "x.obj", "--to", "stl"]].concat());
         assert!(said.contains("x.obj") && said.contains("--to stl"), "{said}");
         let name = format!("{}.bin", command[0]);
         bench.good(&[&command[..], &["-q", "-o", &name, "--to", "gem"]].concat());
-        assert_eq!(format(&name), format("cube-6.asc").replace("text", "binary"));
+        assert_eq!(format(&name), format("y.gem"));
     }
 }
 

@@ -124,7 +124,7 @@ const SAMPLES: &[Sample] = &[
     // looks of plots
     ("*", "title", &[&["A title"]]),
     ("score", "range", &[&["tilt=-10:10"], &["iso=0:100"]]),
-    ("*", "range", &[&["crown-angle=33:36"], &["wlr=0:1"]]),
+    ("*", "range", &[&["crown-angle=33:36"], &["iso=0:100"]]),
     ("*", "pixels", &[&["64"]]),
     ("*", "colours", &[&["greys"]]),
     // stones' stuff

@@ -178,62 +178,79 @@ impl<'a> Search<'a> {
     }
 
     /// Learns which choices of a refused row are refused together; whether it learned anything.
+    ///
+    /// - `refuses`: whether a row is refused; the row is shrunk as long as it is spelt as before
     fn learn(
         &mut self,
         row: &[usize],
         refuses: &dyn Fn(&Self, &[usize]) -> bool,
         report: &mut Report,
     ) -> bool {
-        let smallest = self.smallest(row, refuses);
+        let misspelt = self.is_misspelt(row);
+        let smallest = self.smallest(row, &|s, row| s.is_misspelt(row) == misspelt && refuses(s, row));
         let needs: Vec<Choice> = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
-        let line = self.case(&smallest).line();
         let learned = match needs[..] {
             [] => {
+                let line = self.case(&smallest).line();
                 report.failed(self.command, &format!("the command alone is refused: {line}"), "");
                 false
             }
-            [one] => self.learn_alone(one, &smallest, refuses, report),
+            // of what the definition refuses, an option may be missing that another needs
+            _ if misspelt || needs.len() == 1 => self.learn_wanted(&needs, &smallest, refuses, report),
             _ => self.refused.all_of(needs),
         };
         self.refusals.push(smallest);
         learned
     }
 
-    /// Learns what a choice wants beside it that is refused alone: an option that is at rest in `row`.
-    fn learn_alone(
+    /// Learns what choices want beside them that are refused without: options that are at rest in `row`.
+    fn learn_wanted(
         &mut self,
-        one: Choice,
+        needs: &[Choice],
         row: &[usize],
         refuses: &dyn Fn(&Self, &[usize]) -> bool,
         report: &mut Report,
     ) -> bool {
-        let with = |s: &Self, choice: Choice| {
+        let with = |s: &Self, choices: &[Choice]| {
             let mut row = row.to_vec();
-            row[choice.0] = choice.1;
+            choices.iter().for_each(|(f, level)| row[*f] = *level);
             refuses(s, &row)
         };
+        let resting: Vec<usize> = (0..row.len()).filter(|f| needs.iter().all(|n| n.0 != *f)).collect();
         let mut wanted: Vec<(usize, Vec<usize>)> = Vec::new();
-        for other in (0..self.factors.len()).filter(|f| *f != one.0) {
+        for &other in &resting {
             let levels = 0..self.factors[other].levels.len();
-            let bad: Vec<usize> = levels.clone().filter(|level| with(self, (other, *level))).collect();
+            let bad: Vec<usize> = levels.clone().filter(|level| with(self, &[(other, *level)])).collect();
             if bad.len() < levels.len() {
                 wanted.push((other, bad));
             }
         }
+        let together = |more: &[Choice]| [needs, more].concat();
         match &wanted[..] {
             [] => {
-                let line = self.case(row).line();
-                report.failed(self.command, &format!("a value that is always refused: {line}"), "");
-                let others = (0..self.factors.len()).filter(|f| *f != one.0);
-                let pairs = others.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
-                pairs.map(|other| self.refused.pair(one, other)).fold(false, |a, b| a | b)
+                let last = |f: usize| (f, self.factors[f].levels.len() - 1);
+                let two = resting.iter().flat_map(|a| resting.iter().map(move |b| (*a, *b)));
+                let rescue = two.filter(|(a, b)| a < b).find(|(a, b)| !with(self, &[last(*a), last(*b)]));
+                match (rescue, needs) {
+                    (Some((a, b)), _) => self.refused.all_of(together(&[(a, 0), (b, 0)])),
+                    (None, [one]) => {
+                        let line = self.case(row).line();
+                        report.failed(self.command, &format!("a value that is always refused: {line}"), "");
+                        let others = resting.iter();
+                        let pairs =
+                            others.flat_map(|&f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
+                        pairs.map(|other| self.refused.pair(*one, other)).fold(false, |a, b| a | b)
+                    }
+                    _ => self.refused.all_of(needs.to_vec()),
+                }
             }
             [(other, bad)] => {
-                bad.iter().map(|l| self.refused.pair(one, (*other, *l))).fold(false, |a, b| a | b)
+                let each = bad.iter().map(|l| together(&[(*other, *l)]));
+                each.map(|all| self.refused.all_of(all)).fold(false, |a, b| a | b)
             }
             several => {
-                let at_rest = several.iter().map(|(f, _)| (*f, 0));
-                self.refused.all_of(std::iter::once(one).chain(at_rest).collect())
+                let at_rest: Vec<Choice> = several.iter().map(|(f, _)| (*f, 0)).collect();
+                self.refused.all_of(together(&at_rest))
             }
         }
     }
