@@ -228,9 +228,14 @@ impl<'a> Search<'a> {
         let together = |more: &[Choice]| [needs, more].concat();
         match &wanted[..] {
             [] => {
-                let last = |f: usize| (f, self.factors[f].levels.len() - 1);
-                let two = resting.iter().flat_map(|a| resting.iter().map(move |b| (*a, *b)));
-                let rescue = two.filter(|(a, b)| a < b).find(|(a, b)| !with(self, &[last(*a), last(*b)]));
+                let ends = |f: usize| [(f, 1), (f, self.factors[f].levels.len() - 1)];
+                let rescues = |a: usize, b: usize| {
+                    ends(a).into_iter().any(|a| ends(b).into_iter().any(|b| !with(self, &[a, b])))
+                };
+                let chosen = |f: &usize| self.factors[*f].levels.len() > 1;
+                let can: Vec<usize> = resting.iter().copied().filter(chosen).collect();
+                let two = can.iter().flat_map(|a| can.iter().map(move |b| (*a, *b)));
+                let rescue = two.filter(|(a, b)| a < b).find(|(a, b)| rescues(*a, *b));
                 match (rescue, needs) {
                     (Some((a, b)), _) => self.refused.all_of(together(&[(a, 0), (b, 0)])),
                     (None, [one]) => {
