@@ -235,7 +235,9 @@ impl<'a> Search<'a> {
                 let chosen = |f: &usize| self.factors[*f].levels.len() > 1;
                 let can: Vec<usize> = resting.iter().copied().filter(chosen).collect();
                 let two = can.iter().flat_map(|a| can.iter().map(move |b| (*a, *b)));
-                let rescue = two.filter(|(a, b)| a < b).find(|(a, b)| rescues(*a, *b));
+                // many to try: only of a single choice, which is to be tried with something
+                let alone = needs.len() == 1;
+                let rescue = two.filter(|(a, b)| alone && a < b).find(|(a, b)| rescues(*a, *b));
                 match (rescue, needs) {
                     (Some((a, b)), _) => self.refused.all_of(together(&[(a, 0), (b, 0)])),
                     (None, [one]) => {
