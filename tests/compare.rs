@@ -203,3 +203,22 @@ fn the_better_values_are_named_and_weights_have_their_reason() {
     assert_eq!(table.lines().nth(1).and_then(|row| row.split(',').nth(head)), Some(""), "{table}");
     assert!(said.contains("no material of n = 3.5 is known"), "{said}");
 }
+
+/// A cell that is empty has its reason beside it, and standard output holds one thing.
+#[test]
+fn what_a_table_leaves_out_has_its_reason_and_json_stands_alone() {
+    let bench = Bench::new();
+    let stones = ["compare", "-q", "octahedron", "cube", "--ri", "1.9", "--metrics", "fire_streak,spread"];
+    let table = |options: &[&str]| -> Vec<serde_json::Value> {
+        let (shown, _) = bench.ends(0, &[&stones[..], &["--error", "0.05"], options].concat());
+        serde_json::from_str(&shown).expect("JSON alone")
+    };
+    let rows = table(&["-o", "-", "--json"]);
+    assert!(rows.iter().all(|row| row["value"].is_null() == row["left_out"].is_string()), "{rows:?}");
+    let why = |metric: &str| {
+        let row = rows.iter().find(|row| row["metric"] == metric).expect("a row");
+        row["left_out"].as_str().unwrap_or_default().to_owned()
+    };
+    assert!(why("fire_streak").contains("dispersion") && why("table").contains("no table"), "{rows:?}");
+    assert_eq!(why("spread"), "");
+}

@@ -2,6 +2,7 @@
 
 use super::drawing::{self, Drawing};
 use super::outcome::Failure;
+use super::stones;
 use crate::cut::Design;
 use crate::formats::{self, Encoded, Format, FormatError};
 use crate::optics::Material;
@@ -38,7 +39,7 @@ impl Form {
         match by_ending {
             Ok(own) if !asked.has_ending(path) => Err(Failure::input(format!(
                 "{} is {} by its ending, not {}: leave out --to {to}, or name another file",
-                path.display(),
+                stones::shown(path),
                 own.name(),
                 asked.name()
             ))),

@@ -64,8 +64,10 @@ fn table(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
         faults.extend(found.map(|found| fault("what is sampled has an error", found)));
     }
     // a plot of --tilt asks for a second axis, and so for more rows
-    let silent: &[&str] =
-        if case.command == "score" { &["output", "json"] } else { &["output", "json", "plot"] };
+    let silent: &[&str] = match case.command.as_str() {
+        "score" => &["output", "json"],
+        _ => &["output", "json", "plot", "title", "range", "pixels", "colours"],
+    };
     let plain = case.without(silent);
     match printed(&plain, inputs) {
         Ok(csv) if csv == rows => (),

@@ -35,12 +35,9 @@ pub fn fault(oracle: &'static str, found: impl Into<String>) -> Fault {
 /// A refusal takes milliseconds; this is for a busy machine.
 pub const AT_ONCE: Duration = Duration::from_secs(4);
 
-/// Of dear cases only these are run more than once: each so many-th.
-const DEAR_AGAIN: usize = 4;
-
 /// Runs a case and what belongs to it, and judges it.
 ///
-/// - `number`: of the case, which chooses the dear ones that are run again
+/// - `number`: of the case; of dear ones the first alone is run again, on two threads
 pub fn judge(case: &Case, number: usize, inputs: &Inputs) -> Verdict {
     let bench = Bench::new(inputs, &case.words());
     let ran = bench.run(&case.words(), 1);
@@ -52,8 +49,10 @@ pub fn judge(case: &Case, number: usize, inputs: &Inputs) -> Verdict {
         return Verdict::Bad(faults);
     }
     faults.extend(outputs::faults(case, &ran, inputs));
-    if !case.is_dear() || number.is_multiple_of(DEAR_AGAIN) {
-        faults.extend(repeated(case, &ran, inputs));
+    match (case.is_dear(), number) {
+        (false, _) => faults.extend(repeated(case, &ran, inputs)),
+        (true, 0) => faults.extend(again(case, &ran, &bench)),
+        (true, _) => (),
     }
     faults.extend(numbers::faults(case, &ran, inputs));
     if faults.is_empty() { Verdict::Good } else { Verdict::Bad(faults) }
@@ -108,13 +107,17 @@ fn repeated(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     if (two.code, &two.stdout, &two.files) != (ran.code, &ran.stdout, &ran.files) {
         faults.push(fault("the same on two threads", differing(ran, &two)));
     }
+    faults.extend(again(case, &two, &bench));
+    faults
+}
+
+/// The same in the folder where it was done already, on two threads.
+fn again(case: &Case, ran: &Ran, bench: &Bench) -> Option<Fault> {
     let again = bench.run(&case.words(), 2);
     let says_what_it_did = ["import", "generate"].contains(&case.command.as_str()); // what was there already
-    let same_words = says_what_it_did || again.stdout == two.stdout;
-    if (again.code, &again.files) != (two.code, &two.files) || !same_words {
-        faults.push(fault("the same again", format!("{} {}", differing(&two, &again), again.stderr.trim())));
-    }
-    faults
+    let same_words = says_what_it_did || again.stdout == ran.stdout;
+    let same = (again.code, &again.files) == (ran.code, &ran.files) && same_words;
+    (!same).then(|| fault("the same again", format!("{} {}", differing(ran, &again), again.stderr.trim())))
 }
 
 fn differing(one: &Ran, two: &Ran) -> String {

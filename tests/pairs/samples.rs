@@ -123,8 +123,8 @@ const SAMPLES: &[Sample] = &[
     ("sweep", "scatter", &[&["3"]]),
     // looks of plots
     ("*", "title", &[&["A title"]]),
-    ("score", "range", &[&["tilt=-10:10"], &["iso=0:100"]]),
-    ("*", "range", &[&["crown-angle=33:36"], &["wlr=0:1"]]),
+    ("score", "range", &[&["tilt=-10:10"], &["spread=0:2"]]),
+    ("*", "range", &[&["crown-angle=33:36"], &["spread=0:2"]]),
     ("*", "pixels", &[&["64"]]),
     ("*", "colours", &[&["greys"]]),
     // stones' stuff

@@ -14,6 +14,9 @@ use std::time::Instant;
 /// Rounds of finding what is refused: each finds all that the last one's rows ran into.
 const ROUNDS: usize = 12;
 
+/// The word that makes a page of a comparison.
+const PAGE: &str = "out";
+
 /// A failure of a kind that is known: it needs these choices.
 struct Known {
     oracle: &'static str,
@@ -69,6 +72,7 @@ impl<'a> Search<'a> {
     pub fn run(mut self, keep: &impl Fn(&str, usize) -> bool, report: &mut Report) {
         let start = Instant::now();
         let mut open = covering::pairs(&self.factors);
+        open.retain(|p| self.is_tried(*p));
         report.begins(self.command, open.len());
         let whole = keep(self.command, 0) && keep(self.command, 1);
         let mut number = 0;
@@ -108,6 +112,20 @@ impl<'a> Search<'a> {
             self.check_refusals(report);
         }
         report.ends(self.command, start.elapsed());
+    }
+
+    /// Whether a pair is to be tried. Pages take up to a minute of processor time: with one of `compare` go
+    /// the first two values of each other option, and of `report` each value goes with one stone.
+    fn is_tried(&self, (a, b): (Choice, Choice)) -> bool {
+        let page = |(f, level): Choice| {
+            self.command == "compare" && self.factors[f].levels[level].contains(&PAGE.into())
+        };
+        match (self.command, page(a), page(b)) {
+            ("report", ..) => a.0 == 0 && a.1 == b.1 % self.factors[0].levels.len(),
+            (_, true, _) => b.1 < 2,
+            (_, _, true) => a.1 < 2,
+            _ => true,
+        }
     }
 
     /// Rows that the definition of the command line allows.
@@ -160,62 +178,86 @@ impl<'a> Search<'a> {
     }
 
     /// Learns which choices of a refused row are refused together; whether it learned anything.
+    ///
+    /// - `refuses`: whether a row is refused; the row is shrunk as long as it is spelt as before
     fn learn(
         &mut self,
         row: &[usize],
         refuses: &dyn Fn(&Self, &[usize]) -> bool,
         report: &mut Report,
     ) -> bool {
-        let smallest = self.smallest(row, refuses);
+        let misspelt = self.is_misspelt(row);
+        let smallest = self.smallest(row, &|s, row| s.is_misspelt(row) == misspelt && refuses(s, row));
         let needs: Vec<Choice> = smallest.iter().copied().enumerate().filter(|(_, l)| *l != 0).collect();
-        let line = self.case(&smallest).line();
         let learned = match needs[..] {
             [] => {
+                let line = self.case(&smallest).line();
                 report.failed(self.command, &format!("the command alone is refused: {line}"), "");
                 false
             }
-            [one] => self.learn_alone(one, &smallest, refuses, report),
+            // of what the definition refuses, an option may be missing that another needs
+            _ if misspelt || needs.len() == 1 => self.learn_wanted(&needs, &smallest, refuses, report),
             _ => self.refused.all_of(needs),
         };
         self.refusals.push(smallest);
         learned
     }
 
-    /// Learns what a choice wants beside it that is refused alone: an option that is at rest in `row`.
-    fn learn_alone(
+    /// Learns what choices want beside them that are refused without: options that are at rest in `row`.
+    fn learn_wanted(
         &mut self,
-        one: Choice,
+        needs: &[Choice],
         row: &[usize],
         refuses: &dyn Fn(&Self, &[usize]) -> bool,
         report: &mut Report,
     ) -> bool {
-        let with = |s: &Self, choice: Choice| {
+        let with = |s: &Self, choices: &[Choice]| {
             let mut row = row.to_vec();
-            row[choice.0] = choice.1;
+            choices.iter().for_each(|(f, level)| row[*f] = *level);
             refuses(s, &row)
         };
+        let resting: Vec<usize> = (0..row.len()).filter(|f| needs.iter().all(|n| n.0 != *f)).collect();
         let mut wanted: Vec<(usize, Vec<usize>)> = Vec::new();
-        for other in (0..self.factors.len()).filter(|f| *f != one.0) {
+        for &other in &resting {
             let levels = 0..self.factors[other].levels.len();
-            let bad: Vec<usize> = levels.clone().filter(|level| with(self, (other, *level))).collect();
+            let bad: Vec<usize> = levels.clone().filter(|level| with(self, &[(other, *level)])).collect();
             if bad.len() < levels.len() {
                 wanted.push((other, bad));
             }
         }
+        let together = |more: &[Choice]| [needs, more].concat();
         match &wanted[..] {
             [] => {
-                let line = self.case(row).line();
-                report.failed(self.command, &format!("a value that is always refused: {line}"), "");
-                let others = (0..self.factors.len()).filter(|f| *f != one.0);
-                let pairs = others.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
-                pairs.map(|other| self.refused.pair(one, other)).fold(false, |a, b| a | b)
+                let ends = |f: usize| [(f, 1), (f, self.factors[f].levels.len() - 1)];
+                let rescues = |a: usize, b: usize| {
+                    ends(a).into_iter().any(|a| ends(b).into_iter().any(|b| !with(self, &[a, b])))
+                };
+                let chosen = |f: &usize| self.factors[*f].levels.len() > 1;
+                let can: Vec<usize> = resting.iter().copied().filter(chosen).collect();
+                let two = can.iter().flat_map(|a| can.iter().map(move |b| (*a, *b)));
+                // many to try: only of a single choice, which is to be tried with something
+                let alone = needs.len() == 1;
+                let rescue = two.filter(|(a, b)| alone && a < b).find(|(a, b)| rescues(*a, *b));
+                match (rescue, needs) {
+                    (Some((a, b)), _) => self.refused.all_of(together(&[(a, 0), (b, 0)])),
+                    (None, [one]) => {
+                        let line = self.case(row).line();
+                        report.failed(self.command, &format!("a value that is always refused: {line}"), "");
+                        let others = resting.iter();
+                        let pairs =
+                            others.flat_map(|&f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
+                        pairs.map(|other| self.refused.pair(*one, other)).fold(false, |a, b| a | b)
+                    }
+                    _ => self.refused.all_of(needs.to_vec()),
+                }
             }
             [(other, bad)] => {
-                bad.iter().map(|l| self.refused.pair(one, (*other, *l))).fold(false, |a, b| a | b)
+                let each = bad.iter().map(|l| together(&[(*other, *l)]));
+                each.map(|all| self.refused.all_of(all)).fold(false, |a, b| a | b)
             }
             several => {
-                let at_rest = several.iter().map(|(f, _)| (*f, 0));
-                self.refused.all_of(std::iter::once(one).chain(at_rest).collect())
+                let at_rest: Vec<Choice> = several.iter().map(|(f, _)| (*f, 0)).collect();
+                self.refused.all_of(together(&at_rest))
             }
         }
     }
