@@ -63,6 +63,7 @@ fn photons_in_place_of_beams_are_told() {
     // light stays in a stone of n = 10 for thousands of facets, and divides at each
     let deep = row(Material::of_index(10.0), &["aset_red_strongest"]);
     assert!(deep.note.is_some_and(|said| said.starts_with("too many beams")), "{deep:?}");
+    assert!(deep.left_out.is_empty(), "what photons gave is not left out: {deep:?}");
     assert!(deep.scores[0].is_some_and(|e| e.error > 0.0), "photons have an error: {deep:?}");
     let shares = row(Material::of_index(10.0), &["aset_red"]);
     assert_eq!((shares.note, shares.error), (None, None), "no beam's own path is needed");

@@ -307,6 +307,11 @@ fn fill(row: &mut Row, stone: &Stone, subject: &Subject, plan: &Plan) -> Result<
             Ok(View::seen_from(stone, &medium, aspect, surroundings)?.followed_to(stop))
         })?;
         if row.samples.len() > finished {
+            // what beams did not give photons have
+            let scored = |name: &str| {
+                plan.metrics.iter().zip(&row.scores).any(|(m, score)| m.name == name && score.is_some())
+            };
+            row.left_out.retain(|(name, _)| !scored(name));
             row.note = Some(TOO_MANY_BEAMS);
         }
     } else if plan.exact && plan.metrics.iter().any(|m| m.by_beams) {

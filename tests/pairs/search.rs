@@ -33,6 +33,8 @@ pub struct Search<'a> {
     /// The smallest refused rows.
     refusals: Vec<Row>,
     known: Vec<Known>,
+    /// Rows that went well.
+    good: Vec<Row>,
 }
 
 impl<'a> Search<'a> {
@@ -48,6 +50,7 @@ impl<'a> Search<'a> {
             refused: Refused::default(),
             refusals: Vec::new(),
             known: Vec::new(),
+            good: Vec::new(),
         }
     }
 
@@ -87,6 +90,8 @@ impl<'a> Search<'a> {
                 .collect();
             let verdicts = self.judged(&kept);
             report.ran(kept.len());
+            let went = kept.iter().zip(&verdicts).filter(|(_, verdict)| **verdict == Verdict::Good);
+            self.good.extend(went.map(|(row, _)| row.clone()));
             let mut learned = false;
             for (row, verdict) in kept.iter().zip(verdicts) {
                 match verdict {
@@ -166,8 +171,13 @@ impl<'a> Search<'a> {
 
     /// The row with every choice at rest that `still` does not need.
     fn smallest(&self, row: &[usize], still: &dyn Fn(&Self, &[usize]) -> bool) -> Row {
+        self.smallest_beside(usize::MAX, row, still)
+    }
+
+    /// The same with the choice of one factor left as it is.
+    fn smallest_beside(&self, kept: usize, row: &[usize], still: &dyn Fn(&Self, &[usize]) -> bool) -> Row {
         let mut smallest = row.to_vec();
-        for factor in 0..smallest.len() {
+        for factor in (0..smallest.len()).filter(|f| *f != kept) {
             let mut other = smallest.clone();
             other[factor] = 0;
             if smallest[factor] != 0 && still(self, &other) {
@@ -228,18 +238,12 @@ impl<'a> Search<'a> {
         let together = |more: &[Choice]| [needs, more].concat();
         match &wanted[..] {
             [] => {
-                let ends = |f: usize| [(f, 1), (f, self.factors[f].levels.len() - 1)];
-                let rescues = |a: usize, b: usize| {
-                    ends(a).into_iter().any(|a| ends(b).into_iter().any(|b| !with(self, &[a, b])))
-                };
-                let chosen = |f: &usize| self.factors[*f].levels.len() > 1;
-                let can: Vec<usize> = resting.iter().copied().filter(chosen).collect();
-                let two = can.iter().flat_map(|a| can.iter().map(move |b| (*a, *b)));
-                // many to try: only of a single choice, which is to be tried with something
-                let alone = needs.len() == 1;
-                let rescue = two.filter(|(a, b)| alone && a < b).find(|(a, b)| rescues(*a, *b));
+                let rescue = if let [one] = needs { self.company(*one, refuses) } else { None };
                 match (rescue, needs) {
-                    (Some((a, b)), _) => self.refused.all_of(together(&[(a, 0), (b, 0)])),
+                    (Some(company), _) => {
+                        let at_rest: Vec<Choice> = company.iter().map(|f| (*f, 0)).collect();
+                        self.refused.all_of(together(&at_rest))
+                    }
                     (None, [one]) => {
                         let line = self.case(row).line();
                         report.failed(self.command, &format!("a value that is always refused: {line}"), "");
@@ -260,6 +264,21 @@ impl<'a> Search<'a> {
                 self.refused.all_of(together(&at_rest))
             }
         }
+    }
+
+    /// The options without which a choice is refused, by a row that went well; none if it never does.
+    fn company(&self, one: Choice, refuses: &dyn Fn(&Self, &[usize]) -> bool) -> Option<Vec<usize>> {
+        let with_one = |row: &Row| {
+            let mut row = row.clone();
+            row[one.0] = one.1;
+            row
+        };
+        let has_one = |row: &&Row| row[one.0] == one.1;
+        let rows = self.good.iter().filter(has_one).chain(self.good.iter().filter(|r| !has_one(r)));
+        let row = rows.map(with_one).find(|row| !refuses(self, row))?;
+        let row = self.smallest_beside(one.0, &row, &|s, row| !refuses(s, row));
+        let company: Vec<usize> = (0..row.len()).filter(|f| *f != one.0 && row[*f] != 0).collect();
+        (!company.is_empty()).then_some(company)
     }
 
     /// Counts a fault under the smallest set of choices that has it.
