@@ -3,9 +3,9 @@
 mod entries;
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
-use crate::math::typed;
-use crate::scene::file::GRAMMAR;
+use super::exit_code::{CliError, ExitStatus};
+use crate::parse;
+use crate::scene::scene_file::GRAMMAR;
 use serde_json::Value;
 
 #[derive(Debug, clap::Args)]
@@ -15,17 +15,17 @@ Examples:
   cutlab list metrics wlr iso        all that is known of two of them
   cutlab list materials --json       with index, dispersion, density and colour as numbers
   cutlab list cuts classic           the design itself, as a file of one's own may have it")]
-pub struct Args {
+pub struct ListArgs {
     /// Which catalogue
     #[arg(ignore_case = true)]
-    kind: Kind,
+    kind: Catalogue,
     /// Entries to tell everything about
     #[arg(value_name = "NAME")]
     names: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Kind {
+enum Catalogue {
     /// Cuts of the library
     Cuts,
     /// Materials
@@ -47,7 +47,7 @@ enum Kind {
 }
 
 /// Something to choose.
-struct Entry {
+struct CatalogueEntry {
     /// What it is called on the command line.
     name: String,
     /// One line about it.
@@ -58,7 +58,7 @@ struct Entry {
     facts: Value,
 }
 
-impl Entry {
+impl CatalogueEntry {
     /// The entry as a JSON object.
     fn json(&self) -> Value {
         let mut all = serde_json::Map::new();
@@ -72,22 +72,23 @@ impl Entry {
 }
 
 /// Lists a catalogue, or entries of it.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let all = match args.kind {
-        Kind::SceneGrammar => {
+        Catalogue::SceneGrammar => {
             return if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) }
-                .map(|()| Code::Done);
+                .map(|()| ExitStatus::Done);
         }
-        Kind::Cuts => entries::cuts(),
-        Kind::Materials => entries::materials(),
-        Kind::Illuminants => entries::illuminants(),
-        Kind::Metrics => entries::metrics(),
-        Kind::Formats => entries::formats(),
-        Kind::Scenes => entries::scenes(),
-        Kind::Limits => entries::limits(),
-        Kind::Lights => entries::lights(),
+        Catalogue::Cuts => entries::cuts(),
+        Catalogue::Materials => entries::materials(),
+        Catalogue::Illuminants => entries::illuminants(),
+        Catalogue::Metrics => entries::metrics(),
+        Catalogue::Formats => entries::formats(),
+        Catalogue::Scenes => entries::scenes(),
+        Catalogue::Limits => entries::limits(),
+        Catalogue::Lights => entries::lights(),
     };
-    let asked = args.names.iter().map(|name| find(&all, name)).collect::<Result<Vec<&Entry>, _>>()?;
+    let asked =
+        args.names.iter().map(|name| find(&all, name)).collect::<Result<Vec<&CatalogueEntry>, _>>()?;
     if console.json {
         let chosen = if asked.is_empty() { all.iter().collect() } else { asked };
         console.print_json(&chosen.iter().map(|e| e.json()).collect::<Vec<_>>())?;
@@ -99,12 +100,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         let texts: Vec<&str> = asked.iter().map(|e| e.text.trim_end()).collect();
         console.print(&texts.join("\n\n"))?;
     }
-    Ok(Code::Done)
+    Ok(ExitStatus::Done)
 }
 
-fn find<'a>(all: &'a [Entry], name: &str) -> Result<&'a Entry, Failure> {
-    all.iter().find(|e| typed::is_called(&e.name, name)).ok_or_else(|| {
-        let near = typed::suggestion(typed::nearest(name, all.iter().map(|e| e.name.as_str())));
-        Failure::input(format!("the list has no '{name}'{near}"))
+fn find<'a>(all: &'a [CatalogueEntry], name: &str) -> Result<&'a CatalogueEntry, CliError> {
+    all.iter().find(|e| parse::is_name(&e.name, name)).ok_or_else(|| {
+        let near = parse::did_you_mean(parse::nearest_name(name, all.iter().map(|e| e.name.as_str())));
+        CliError::input(format!("the list has no '{name}'{near}"))
     })
 }

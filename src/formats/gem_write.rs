@@ -5,8 +5,8 @@ use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
 use super::gem::{END_OF_FACETS, LINES, OFFSET_FOLLOWS};
 use super::windows_1252::{byte_of, encoded};
-use crate::cut::Design;
-use crate::solid::polyhedron::Fate;
+use crate::design::Design;
+use crate::geometry::polyhedron::PlaneStatus;
 use glam::DVec3;
 
 /// Most bytes of a facet's name, a tab and its instructions together that GemCad's author's reader takes.
@@ -36,7 +36,7 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
     let mut bytes = Vec::new();
     let mut shortened: Vec<String> = Vec::new();
     for (tier, row) in rows(design).iter().enumerate() {
-        for cut in &row.cuts {
+        for cut in &row.facets {
             bytes.extend(point(cut.plane.normal / cut.plane.distance));
             bytes.extend((tier as i32 + 1).to_le_bytes());
             let said = format!("{}\t{}", one_line(cut.name), one_line(&row.tier.instructions));
@@ -45,7 +45,7 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
                     if row.tier.name.is_empty() { (tier + 1).to_string() } else { one_line(&row.tier.name) };
                 shortened.push(format!("'{name}'"));
             }
-            if let Fate::Facet(face) = solid.fates[cut.number] {
+            if let PlaneStatus::Facet(face) = solid.plane_status[cut.number] {
                 for corner in solid.polygon(face) {
                     bytes.extend(1i32.to_le_bytes());
                     bytes.extend(point(corner));

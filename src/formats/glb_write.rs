@@ -6,8 +6,9 @@
 
 use super::error::FormatError;
 use super::glb::{FacetExtras, UNIT_MM};
-use super::surface::Surface;
-use crate::optics::{Illuminant, Material};
+use super::mesh_export::MeshExport;
+use crate::color::Illuminant;
+use crate::materials::Material;
 use ::gltf::binary::{Glb, Header};
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use ::gltf::json::extensions::material as khr;
@@ -20,7 +21,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// The surface as a GLB file.
-pub fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+pub fn write_binary(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let (root, mut bin) = parts(surface)?;
     let fail = |problem: String| failed(surface, problem);
     let mut text = serialize::to_string(&root).map_err(|e| fail(e.to_string()))?.into_bytes();
@@ -34,19 +35,19 @@ pub fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
 }
 
 /// The surface as a glTF file that holds its buffer itself.
-pub fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+pub fn write_text(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let (mut root, bin) = parts(surface)?;
     let data = base64::engine::general_purpose::STANDARD.encode(bin);
     root.buffers[0].uri = Some(format!("data:application/octet-stream;base64,{data}"));
     Ok(serialize::to_string(&root).map_err(|e| failed(surface, e.to_string()))?.into_bytes())
 }
 
-fn failed(surface: &Surface, problem: String) -> FormatError {
+fn failed(surface: &MeshExport, problem: String) -> FormatError {
     FormatError::Encode { name: surface.name.clone(), format: "glTF", problem }
 }
 
 /// The document and its buffer.
-fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
+fn parts(surface: &MeshExport) -> Result<(Root, Vec<u8>), FormatError> {
     let metres = surface.unit_mm() / UNIT_MM;
     let metric = |v: &DVec3| (*v * metres).as_vec3().to_array();
     let positions: Vec<[f32; 3]> = surface.vertices.iter().map(metric).collect();

@@ -8,38 +8,38 @@ pub mod spot;
 pub mod square;
 pub mod sun;
 
-use super::Aim;
-use super::entries::Wrong;
-use super::file::Place;
-use super::light_entry::LightEntry;
-use crate::optics::{Illuminant, rgb};
+use super::PhotonGuide;
+use super::light_schema::LightEntry;
+use super::scene_file::BuildContext;
+use super::schema::FieldError;
+use crate::color::{Illuminant, rgb_upsampling};
 use glam::{Mat3, Vec3};
 use std::fmt::Debug;
 use std::sync::Arc;
 
 /// Shape of a light and how it shines, at radiance 1. Colours are parts of
-/// [`crate::optics::rgb::basis`]; white is 1, 1, 1.
+/// [`crate::color::rgb_upsampling::basis`]; white is 1, 1, 1.
 pub trait Emitter: Debug + Send + Sync {
     /// Distance along a ray to the light and the colour seen there; no colour from behind, where it is
     /// dark. What shines from infinity is at `f32::INFINITY`.
     ///
     /// The origin may lie on the light itself only if the ray does not start there: every light is
     /// convex, so a ray that leaves it cannot meet it again.
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
 
     /// A place of the light as seen from a point, for shadow rays.
     ///
     /// - `normal`: of the surface at the point; `u`: two uniforms
-    fn seen_from(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse>;
+    fn sample_li(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<LightSample>;
 
     /// A photon's start.
     ///
     /// - `u`: five uniforms
-    fn leave(&self, aim: &Aim, u: [f32; 5]) -> Option<Start>;
+    fn sample_le(&self, aim: &PhotonGuide, u: [f32; 5]) -> Option<EmissionSample>;
 
     /// Roughly the power sent at the targets of `aim`, or into the world if it has none: what
     /// decides how many photons a light gets.
-    fn reach(&self, aim: &Aim) -> f32;
+    fn importance(&self, aim: &PhotonGuide) -> f32;
 
     /// Power emitted; none for a light at infinity.
     fn power(&self) -> Option<f32>;
@@ -55,19 +55,19 @@ pub trait Emitter: Debug + Send + Sync {
 
 /// A place of a light, seen from a surface.
 #[derive(Debug, Clone, Copy)]
-pub struct Glimpse {
+pub struct LightSample {
     /// Unit direction to it.
     pub direction: Vec3,
     /// How far away it is.
     pub distance: f32,
-    /// Its colour over the density of the direction (per steradian): the mean over glimpses,
+    /// Its colour over the density of the direction (per steradian): the mean over light samples,
     /// weighted by the cosine at the surface, is the irradiance.
-    pub radiance: Vec3,
+    pub radiance_over_pdf: Vec3,
 }
 
 /// A photon's first ray.
 #[derive(Debug, Clone, Copy)]
-pub struct Start {
+pub struct EmissionSample {
     /// Where.
     pub point: Vec3,
     /// Unit direction.
@@ -107,39 +107,39 @@ impl Light {
     }
 
     /// Radiance or power at `nm` of a colour that the emitter gave.
-    pub fn at(&self, colour: Vec3, nm: f32) -> f32 {
+    pub fn radiance_at(&self, colour: Vec3, nm: f32) -> f32 {
         let colour = colour * self.radiance;
         if colour == Vec3::ZERO {
             0.0
         } else if colour == Vec3::splat(colour.x) {
             self.spectrum.power(nm) * colour.x // the parts add up to 1
         } else {
-            self.spectrum.power(nm) * rgb::basis(nm).dot(colour)
+            self.spectrum.power(nm) * rgb_upsampling::basis(nm).dot(colour)
         }
     }
 }
 
 /// Makes a light's shape of its entry.
-pub type Reader = fn(&LightEntry, &Place) -> Result<Arc<dyn Emitter>, Wrong>;
+pub type LightReader = fn(&LightEntry, &BuildContext) -> Result<Arc<dyn Emitter>, FieldError>;
 
 /// A kind of light.
-pub struct Kind {
+pub struct LightType {
     /// Its name in scene files.
     pub name: &'static str,
     /// What it is, and what its entry states.
     pub about: &'static str,
     /// Makes one of its entry.
-    pub read: Reader,
+    pub read: LightReader,
 }
 
 /// Every kind of light.
-pub static LIGHTS: &[&Kind] =
+pub static LIGHTS: &[&LightType] =
     &[&square::KIND, &disc::KIND, &sphere::KIND, &dome::KIND, &spot::KIND, &sky::KIND, &sun::KIND];
 
-impl Kind {
+impl LightType {
     /// The kind called `name`.
-    pub fn named(name: &str) -> Option<&'static Kind> {
-        LIGHTS.iter().copied().find(|k| crate::math::typed::is_called(k.name, name))
+    pub fn by_name(name: &str) -> Option<&'static LightType> {
+        LIGHTS.iter().copied().find(|k| crate::parse::is_name(k.name, name))
     }
 }
 
@@ -151,8 +151,8 @@ mod tests {
     use super::square::Square;
     use super::sun::Sun;
     use super::*;
-    use crate::math::random::{Purpose, Stream};
-    use crate::scene::aim::Ball;
+    use crate::sampling::random::{Purpose, Stream};
+    use crate::scene::photon_guide::BoundingSphere;
     use std::f32::consts::PI;
 
     fn every_kind() -> Vec<(&'static str, Arc<dyn Emitter>)> {
@@ -171,26 +171,26 @@ mod tests {
     /// there; and the power of all photons is the closed form.
     #[test]
     fn photons_and_shadow_rays_agree_and_power_has_its_closed_form() {
-        let target = Ball { centre: Vec3::ZERO, radius: 0.5 };
-        let world = Ball { centre: Vec3::ZERO, radius: 2.0 };
+        let target = BoundingSphere { centre: Vec3::ZERO, radius: 0.5 };
+        let world = BoundingSphere { centre: Vec3::ZERO, radius: 2.0 };
         for (name, light) in every_kind() {
             let mut stream = Stream::new(3, Purpose::Test, 0);
             let n = 100_000;
             // irradiance on the disc z = 0, |xy| < 0.3, facing up, times its area
             let mut seen = 0.0f64;
             for _ in 0..n {
-                let at = (crate::math::sample::disc(stream.pair()) * 0.3).extend(0.0);
-                if let Some(g) = light.seen_from(at, Vec3::Z, stream.pair()) {
+                let at = (crate::sampling::warps::uniform_disc(stream.pair()) * 0.3).extend(0.0);
+                if let Some(g) = light.sample_li(at, Vec3::Z, stream.pair()) {
                     let cos = g.direction.z.max(0.0);
-                    seen += f64::from(g.radiance.y * cos * PI * 0.09) / f64::from(n);
+                    seen += f64::from(g.radiance_over_pdf.y * cos * PI * 0.09) / f64::from(n);
                 }
             }
             for share in [0.0, 0.5] {
-                let aim = Aim { targets: vec![target], share, world };
+                let aim = PhotonGuide { targets: vec![target], share, world };
                 let (mut caught, mut all, mut hits) = (0.0f64, 0.0f64, 0);
                 for _ in 0..n {
                     let u = std::array::from_fn(|_| stream.unit());
-                    let Some(start) = light.leave(&aim, u) else { continue };
+                    let Some(start) = light.sample_le(&aim, u) else { continue };
                     all += f64::from(start.power.y) / f64::from(n);
                     let t = -start.point.z / start.direction.z;
                     let at = start.point + start.direction * t;
@@ -214,7 +214,7 @@ mod tests {
     fn lamps_are_dark_behind() {
         for (name, light) in every_kind() {
             let from = Vec3::new(0.3, -0.2, 9.0);
-            match light.hit(from, Vec3::new(0.01, 0.02, -1.0).normalize()) {
+            match light.intersect(from, Vec3::new(0.01, 0.02, -1.0).normalize()) {
                 Some((t, colour)) if t.is_finite() => {
                     assert_eq!(colour.is_some(), name == "sphere", "{name}: {colour:?}");
                     assert!(!light.is_far());
@@ -225,15 +225,15 @@ mod tests {
     }
 
     #[test]
-    fn what_a_glimpse_sees_is_there() {
+    fn what_a_light_sample_sees_is_there() {
         let mut stream = Stream::new(4, Purpose::Test, 0);
         for (name, light) in every_kind() {
             for _ in 0..1000 {
                 let point = Vec3::new(stream.unit(), stream.unit(), 0.0);
-                let Some(g) = light.seen_from(point, Vec3::Z, stream.pair()) else { continue };
-                let (t, colour) = light.hit(point, g.direction).expect(name);
+                let Some(g) = light.sample_li(point, Vec3::Z, stream.pair()) else { continue };
+                let (t, colour) = light.intersect(point, g.direction).expect(name);
                 assert!(t == g.distance || (t - g.distance).abs() < 1e-3, "{name}: {t} {}", g.distance);
-                assert!(colour.expect("its front").y > 0.0 || g.radiance.y == 0.0);
+                assert!(colour.expect("its front").y > 0.0 || g.radiance_over_pdf.y == 0.0);
             }
         }
     }
