@@ -2,6 +2,7 @@
 
 pub mod design_file;
 pub mod families;
+pub mod gia_envelopes;
 mod hull;
 pub mod library;
 pub mod measured_tiers;

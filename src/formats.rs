@@ -7,6 +7,7 @@ mod cs580;
 mod cutlab_toml;
 mod cutting_table;
 pub mod error;
+mod format;
 mod frames;
 mod gcs;
 mod gcs_write;
@@ -31,6 +32,8 @@ mod windows_1252;
 
 use crate::storage::text;
 pub use error::FormatError;
+pub use format::{Format, Parsed, Writer};
+use format::{ReadOutcome, read_file, within_limit};
 pub use input::Input;
 pub use mesh_export::MeshExport;
 
@@ -41,31 +44,6 @@ use crate::materials::Material;
 use crate::storage::{atomic_write, limits, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
-
-/// Makes a file's bytes.
-#[derive(Debug, Clone, Copy)]
-pub enum Writer {
-    /// Of a design's planes, tiers and texts; sentences about what had no room go to the list.
-    Design(fn(&Design, &mut Vec<String>) -> Result<Vec<u8>, FormatError>),
-    /// Of a surface, whose planes need not bound it.
-    Mesh(fn(&MeshExport) -> Result<Vec<u8>, FormatError>),
-}
-
-/// A file format.
-pub struct Format {
-    /// Its name, as in `--to NAME` and in reports.
-    pub name: &'static str,
-    /// File extensions in lower case, the usual one first.
-    pub extensions: &'static [&'static str],
-    /// One line of help.
-    pub about: &'static str,
-    /// How surely a file is of this format, 0 (not at all) to 100 (a magic number).
-    pub sniff: fn(&Input) -> u8,
-    /// Reads a design.
-    pub read: fn(&Input) -> Result<Parsed, FormatError>,
-    /// Writes a design, if the format can be written.
-    pub write: Option<Writer>,
-}
 
 /// Every format that is read.
 pub static FORMATS: &[&Format] = &[
@@ -85,15 +63,6 @@ pub static FORMATS: &[&Format] = &[
     &perfect_diamond::SCENE,
     &perfect_diamond::LIST,
 ];
-
-/// A design as a reader found it, and what it had to overlook.
-#[derive(Debug)]
-pub struct Parsed {
-    /// The design.
-    pub design: Design,
-    /// One line each.
-    pub warnings: Vec<String>,
-}
 
 /// A design from outside.
 #[derive(Debug)]
@@ -129,21 +98,6 @@ fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
     let name = text::display_name(path);
     let bytes = within_limit(path, bytes)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
-}
-
-/// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
-/// bounded by the bytes it was given and by the other [`limits`].
-fn read_file(path: &Path) -> Result<Vec<u8>, FormatError> {
-    within_limit(path, limits::FILE.read_regular(path))
-}
-
-/// What [`limits::Limit::read`] gives.
-type ReadOutcome = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
-
-fn within_limit(path: &Path, bytes: ReadOutcome) -> Result<Vec<u8>, FormatError> {
-    let file = || text::display_name(path);
-    let bytes = bytes.map_err(|cause| FormatError::Read { file: file(), cause })?;
-    bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
 }
 
 /// Reads a file from memory.
@@ -335,15 +289,4 @@ pub fn is_meant_as_stone(path: &Path) -> bool {
 
 fn extension_of(path: &Path) -> String {
     path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
-}
-
-/// A name for each facet, in the order of [`Design::facets`]: see [`crate::design::Tier::labels`].
-fn facet_labels(design: &Design) -> Vec<String> {
-    design.tiers.iter().enumerate().flat_map(|(t, tier)| tier.labels(t + 1)).collect()
-}
-
-impl std::fmt::Debug for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
-    }
 }

@@ -6,6 +6,7 @@ pub mod facet_recovery;
 mod half_space_clipper;
 pub mod measure;
 pub mod plane;
+pub mod polygon;
 pub mod polyhedron;
 pub mod triangulation;
 mod welded_surface;

@@ -2,6 +2,7 @@
 
 pub mod animation;
 pub mod camera_integrator;
+mod camera_sample;
 pub mod film;
 pub mod glare;
 pub mod image_io;

@@ -14,7 +14,6 @@ mod surface_cells;
 
 use crate::color::cie::BANDS;
 use crate::sampling::random::Purpose;
-use crate::scene::Scene;
 use crate::scene::intersection::SurfacePoint;
 use glam::Vec3;
 
@@ -28,7 +27,7 @@ pub enum Class {
 }
 
 impl Class {
-    fn purpose(self) -> Purpose {
+    pub(super) fn purpose(self) -> Purpose {
         match self {
             Class::Caustic => Purpose::CausticPhoton,
             Class::Indirect => Purpose::GlobalPhoton,
@@ -105,19 +104,4 @@ pub struct PhotonSets {
     pub caustic: PhotonSet,
     /// Light last from another surface.
     pub indirect: PhotonSet,
-}
-
-impl PhotonSets {
-    /// Sends photons through a scene until each class has as many as asked for.
-    pub fn emit(scene: &Scene, settings: &PhotonSettings) -> PhotonSets {
-        PhotonSets::resume(scene, settings, [0, 0])
-    }
-
-    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
-    pub fn resume(scene: &Scene, settings: &PhotonSettings, [caustic, indirect]: [u64; 2]) -> PhotonSets {
-        PhotonSets {
-            caustic: emission::emit(scene, Class::Caustic, settings, caustic),
-            indirect: emission::emit(scene, Class::Indirect, settings, indirect),
-        }
-    }
 }

@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod comparison_page;
 pub mod diagram;
+mod html;
 pub mod page;
 pub mod pdf;
 pub mod plot;

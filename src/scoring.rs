@@ -3,3 +3,4 @@
 mod adaptive;
 pub mod comparison;
 pub mod score;
+pub mod settings;

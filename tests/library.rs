@@ -1,7 +1,7 @@
 //! Every cut of the library: a closed convex stone with the proportions that its file promises.
 
+use cutlab::design::gia_envelopes::envelope;
 use cutlab::design::proportions::{self, Proportions};
-use cutlab::design::round_brilliant_measures::envelope;
 use cutlab::design::{Design, library};
 use cutlab::geometry::polyhedron::PlaneStatus;
 use std::collections::BTreeMap;

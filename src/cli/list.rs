@@ -1,12 +1,13 @@
 //! `cutlab list`: what there is to choose from, straight from the catalogues.
 
+mod catalogue_entry;
 mod entries;
 
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use crate::parse;
 use crate::scene::scene_file::GRAMMAR;
-use serde_json::Value;
+use catalogue_entry::CatalogueEntry;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -44,31 +45,6 @@ enum Catalogue {
     Lights,
     /// How much a file may hold, CUTLAB_LIMIT in the environment counted in
     Limits,
-}
-
-/// Something to choose.
-struct CatalogueEntry {
-    /// What it is called on the command line.
-    name: String,
-    /// One line about it.
-    about: String,
-    /// Everything about it, for people.
-    text: String,
-    /// Everything about it but its name and the line, as a JSON object.
-    facts: Value,
-}
-
-impl CatalogueEntry {
-    /// The entry as a JSON object.
-    fn json(&self) -> Value {
-        let mut all = serde_json::Map::new();
-        all.insert("name".into(), self.name.clone().into());
-        all.insert("about".into(), self.about.clone().into());
-        if let Value::Object(facts) = &self.facts {
-            all.extend(facts.clone());
-        }
-        all.into()
-    }
 }
 
 /// Lists a catalogue, or entries of it.

@@ -5,138 +5,24 @@ mod choices;
 mod command;
 mod conflicts;
 mod frames;
+mod options;
 mod picture;
+mod progress;
 mod progressive;
 mod remaining_time;
 mod target;
 
-use super::args::{scoring, stone, values};
+use super::args::{scoring, stone};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
-use crate::integrators::animation::Turn;
 use crate::integrators::{self, Tone, ToneCurve};
 use crate::parse;
-use crate::photons;
-use crate::scene::{self, Pose, SCENES, SceneFile, SceneOverrides};
+use crate::scene::{self, SCENES, SceneFile, SceneOverrides};
 use crate::storage::atomic_write;
-use background::Background;
-use choices::Exposure;
+pub use options::RenderArgs;
 use std::ffi::{OsStr, OsString};
-use std::path::{Path, PathBuf};
-
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Examples:
-  cutlab render                                   the default brilliant on the table
-  cutlab render octahedron --scene cornell --passes
-  cutlab render tolkowsky --scene my-scene.toml -o picture.exr
-  cutlab render stone.asc --material quartz --photon-map stone.map --frames 36 -o turn.gif
-  cutlab render --scene spot --turn stone --rock --frames 24 -o fire-%03d.png
-  cutlab render --scene studio --turn all --frames 120 --fps 30 -o turn.mp4
-  cutlab render --scene studio --background transparent -o stone.png
-  cutlab render --scene daylight --hdr garden.hdr --exposure auto
-  cutlab render --scene table --progressive --time 10min -o clean.exr
-  cutlab list scenes studio > my-scene.toml       a scene to change")]
-pub struct RenderArgs {
-    /// The stones, for the scene's places in order; without them the scene's own
-    #[arg(value_name = "STONE")]
-    stones: Vec<OsString>,
-    /// What is around it: a name of `cutlab list scenes`, or a TOML file
-    #[arg(long, default_value = "table", value_name = "NAME|FILE")]
-    scene: OsString,
-    /// Let a scene file name stones, meshes and panoramas outside its own folder
-    #[arg(long)]
-    allow_outside: bool,
-    /// The panorama (.hdr, .exr) of a scene that is lit by one, such as daylight
-    #[arg(long, value_name = "FILE")]
-    hdr: Option<PathBuf>,
-    #[command(flatten)]
-    substance: stone::MaterialArgs,
-    /// Girdle width in millimetres
-    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
-    size: Option<f64>,
-    /// How it stands: lying (as a loose stone comes to rest), table-up or table-down; the scene has a
-    /// default
-    #[arg(long, value_parser = choices::pose)]
-    pose: Option<Pose>,
-    /// Where to write: .png, .jpg, .webp, .exr (linear, with all passes); an animation to .mp4, .gif,
-    /// .apng, or to numbered pictures such as turn-%03d.png
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Pixels across; the scene has a default
-    #[arg(long, value_parser = values::whole_number(1..=scene::scene_file::MOST_PIXELS, "a width is a whole number of pixels"))]
-    width: Option<u32>,
-    /// Pixels down; the scene has a default
-    #[arg(long, value_parser = values::whole_number(1..=scene::scene_file::MOST_PIXELS, "a height is a whole number of pixels"))]
-    height: Option<u32>,
-    /// Camera rays a pixel: 25, or 1 in each round of --progressive
-    #[arg(long, value_parser = values::whole_number(1..=1_000_000, "camera rays are a whole number"))]
-    spp: Option<u32>,
-    /// Seed of all random numbers
-    #[arg(long, default_value_t = 1, value_parser = values::seed)]
-    seed: u64,
-    #[command(flatten)]
-    stops: progressive::StopArgs,
-    /// Photons in each map
-    #[arg(long, default_value_t = 100_000, value_parser = choices::counted)]
-    photons: usize,
-    /// Photons over whose distance each spreads its light
-    #[arg(long, default_value_t = 500, value_parser = choices::counted)]
-    nearest: usize,
-    /// Keep the photons in this file and use them again for other views; of an animation only where the
-    /// camera alone moves
-    #[arg(long, value_name = "FILE")]
-    photon_map: Option<PathBuf>,
-    /// Also write the direct, caustic, indirect and stone passes, of which the picture is the sum
-    #[arg(long)]
-    passes: bool,
-    /// An animation of this many pictures
-    #[arg(long, value_name = "N", value_parser = values::whole_number(1..=100_000, "an animation has a whole number of pictures"))]
-    frames: Option<u32>,
-    /// Frames a second [so many that a turn takes 3 to 6 seconds]
-    #[arg(long, value_name = "N", requires = "frames", value_parser = values::whole_number(1..=120, "frames a second are a whole number"))]
-    fps: Option<u32>,
-    /// What turns in an animation: camera, stone, light, or all (stones and meshes as one piece)
-    #[arg(long, default_value = "camera", requires = "frames", value_parser = choices::turn)]
-    turn: Turn,
-    /// Rock it by 15° to and fro instead of all the way around
-    #[arg(long, requires = "frames")]
-    rock: bool,
-    /// What is behind the stones in place of the scene's floor, walls, sky and lamps: transparent (in a
-    /// .png, .webp, .exr or .apng), white, black, or a colour as '#1e90ff'. Stones mirror and refract the
-    /// scene as ever
-    #[arg(long, value_name = "COLOUR|transparent", value_parser = background::parse)]
-    background: Option<Background>,
-    /// Exposure in stops beside the scene's own, or auto [0]
-    #[arg(long, allow_negative_numbers = true, value_parser = choices::exposure, value_name = "STOPS|auto")]
-    exposure: Option<Exposure>,
-    /// Tone curve, which acts on luminance and keeps the hue: filmic, straight up to .6, then
-    /// .6 + .4 (1 - e^(-(x - .6)/.4)), or linear, which ends at white [filmic; linear for viewers]
-    #[arg(long, value_parser = choices::curve)]
-    tone: Option<ToneCurve>,
-    /// Let what is beyond white shine out in stars, as an iris of six blades does at this f-number; an
-    /// EXR and the passes stay without [16 if given without a number]
-    #[arg(long, value_name = "F", num_args = 0..=1, require_equals = true, default_missing_value = "16", value_parser = choices::f_number)]
-    glare: Option<f32>,
-    /// Bits a channel of a PNG: 8 or 16 [8]
-    #[arg(long, value_parser = ["8", "16"])]
-    bits: Option<String>,
-    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each.
-    /// On, unless the scene says
-    #[arg(long, value_name = "on|off", value_parser = stone::on_off)]
-    polarisation: Option<bool>,
-}
-
-impl RenderArgs {
-    fn rays(&self) -> u32 {
-        self.spp.unwrap_or(if self.stops.progressive { 1 } else { 25 })
-    }
-
-    fn photons(&self) -> photons::PhotonSettings {
-        photons::PhotonSettings { photons: self.photons, nearest: self.nearest, seed: self.seed }
-    }
-}
+use std::path::Path;
 
 /// Takes the picture or pictures.
 pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError> {

@@ -12,8 +12,9 @@ use super::exit_code::{CliError, ExitStatus, MeshFacts};
 use super::outputs::{self, Outputs};
 use super::weight;
 use crate::design::LengthUnit;
+use crate::design::gia_envelopes;
 use crate::design::proportions::{self, Ratios};
-use crate::design::round_brilliant_measures::{self, FacetLengths};
+use crate::design::round_brilliant_measures::FacetLengths;
 use crate::design::symmetry::Symmetry;
 use crate::formats;
 use crate::materials::weight::Weight;
@@ -291,7 +292,7 @@ fn sheet(spec: &OsStr, args: &ShowArgs) -> Result<StoneSheet, CliError> {
         measured: MeasuredProportions::new(&p, &design, size, &weight).in_unit_of(unit_mm),
         tiers: TierRow::all(&design, &solid),
         brilliant: p.brilliant,
-        proportion_envelope: round_brilliant_measures::envelope(&p).filter(|_| weight.is_diamond()),
+        proportion_envelope: gia_envelopes::envelope(&p).filter(|_| weight.is_diamond()),
         graded: weight.is_diamond(),
         ratios: Ratios { w: p.ratios.w / unit_mm, ..p.ratios },
         symmetry: p.symmetry,

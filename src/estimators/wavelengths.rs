@@ -1,12 +1,9 @@
 //! Wavelengths in which stones are scored: the D line for a clear one, daylight for one that absorbs.
 
+pub(super) use super::trace_optics::LINES_PER_RAY;
 use super::{EstimatorError, LineOptics, TraceOptics};
 use crate::color::luminance;
 use crate::optics::dispersion::lines;
-
-/// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
-/// the point counts: as many as a picture's.
-pub(super) const LINES_PER_RAY: usize = 8;
 
 /// Classes of wavelengths, alike in luminance: a tenth of a nanometre wide in the green.
 const CLASSES: usize = 2048;

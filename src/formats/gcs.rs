@@ -7,7 +7,7 @@
 
 use super::cutting_table::{angle_of_mesh, index_of, one_line};
 use super::error::{FormatError, counted, quoted_excerpt};
-use super::gcs_write::write;
+use super::gcs_write::{FOOTERS, HEADERS, write};
 use super::input::{Input, is_no_value, number};
 use super::{Format, Parsed, Writer};
 use crate::design::tiers::facet_normal;
@@ -30,11 +30,6 @@ pub static FORMAT: Format = Format {
 /// A stored depth that differs by more than this, in parts of the corners' distance from the
 /// origin, from the corners' own is worth a remark.
 const DEPTH_OFF: f64 = 1e-3;
-
-/// Attributes of `info` that are headers and footers, in their order.
-pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"];
-/// As [`HEADERS`].
-pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {
     source.is_within(&limits::XML)?;

@@ -4,7 +4,6 @@
 use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
 use super::frames::{for_gem_cut_studio, index_drawn_for};
-use super::gcs::{FOOTERS, HEADERS};
 use crate::design::Design;
 use crate::geometry::polyhedron::PlaneStatus;
 use std::fmt::Write;
@@ -82,3 +81,9 @@ fn quoted(text: &str) -> String {
     }
     out
 }
+
+/// Attributes of `info` that are headers and footers, in their order.
+pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"];
+
+/// As [`HEADERS`].
+pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];

@@ -7,7 +7,7 @@
 
 use super::cutting_table::{angle_deg, index_of};
 use super::error::{FormatError, counted};
-use super::gem_write::write;
+use super::gem_write::{END_OF_FACETS, LINES, NAME, OFFSET_FOLLOWS, write};
 use super::input::Input;
 use super::windows_1252::decoded;
 use super::{Format, Parsed, Writer};
@@ -19,7 +19,7 @@ use std::collections::HashMap;
 
 /// GemCad binary designs.
 pub static FORMAT: Format = Format {
-    name: "gemcad-binary",
+    name: NAME,
     extensions: &["gem"],
     about: "GemCad binary design: tiers by angle, distance and index",
     sniff,
@@ -27,12 +27,6 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Design(write)),
 };
 
-/// Stands where the next facet's plane would.
-pub const END_OF_FACETS: f64 = -99999.0;
-/// Says that the gear's offset follows the refractive index.
-pub const OFFSET_FOLLOWS: u32 = 0x7FFF;
-/// Header lines, and as many footers.
-pub const LINES: usize = 4;
 /// What a nested design of the rough's shape begins with.
 const PREFORM: &[u8] = b"\x07preform";
 

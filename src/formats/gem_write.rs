@@ -3,7 +3,6 @@
 use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
-use super::gem::{END_OF_FACETS, LINES, OFFSET_FOLLOWS};
 use super::windows_1252::{byte_of, encoded};
 use crate::design::Design;
 use crate::geometry::polyhedron::PlaneStatus;
@@ -23,11 +22,7 @@ const TEXT: usize = u8::MAX as usize;
 /// Checked in `tests/receivers.rs`.
 pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     let design = &*for_gemcad(design)?;
-    let unfit = |problem: String| FormatError::Encode {
-        name: design.name.clone(),
-        format: super::gem::FORMAT.name,
-        problem,
-    };
+    let unfit = |problem: String| FormatError::Encode { name: design.name.clone(), format: NAME, problem };
     let teeth = design.gear.teeth;
     if teeth.fract() != 0.0 || teeth.abs() > f64::from(i32::MAX) {
         return Err(unfit(format!("its gear has {teeth} teeth, and the format has room for whole ones")));
@@ -108,3 +103,15 @@ fn text(bytes: &mut Vec<u8>, text: &str, most: usize) -> bool {
     bytes.extend(said);
     fits
 }
+
+/// Stands where the next facet's plane would.
+pub const END_OF_FACETS: f64 = -99999.0;
+
+/// Says that the gear's offset follows the refractive index.
+pub const OFFSET_FOLLOWS: u32 = 0x7FFF;
+
+/// Header lines, and as many footers.
+pub const LINES: usize = 4;
+
+/// The format's name.
+pub const NAME: &str = "gemcad-binary";

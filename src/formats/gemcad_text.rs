@@ -15,7 +15,6 @@ use super::input::{Input, lines, number};
 use super::{Format, Parsed, Writer};
 use crate::design::Gear;
 use crate::storage::limits;
-use tiers::TierLine;
 use words::{AscWord, AscWords, append, is_keyword_line, keyword, order};
 
 /// GemCad text designs, of every version in circulation.
@@ -372,4 +371,16 @@ impl AscFile<'_> {
 /// and has numbers.
 fn loses_facets(word: &AscWord) -> bool {
     word.indented && word.rest.split_whitespace().any(|w| number(w).is_some())
+}
+
+/// A tier as the file gives it, before it is known which way its flat facets look.
+pub(super) struct TierLine {
+    pub line: usize,
+    /// The wheel at that place of the file.
+    pub gear: Option<Gear>,
+    pub angle_deg: f64,
+    pub rho: f64,
+    pub indices: Vec<(f64, String)>,
+    pub name: String,
+    pub instructions: String,
 }

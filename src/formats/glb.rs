@@ -7,13 +7,13 @@ mod buffers;
 mod document;
 
 use super::error::{FormatError, counted, quoted_excerpt};
+pub use super::glb_write::{FacetExtras, UNIT_MM};
 use super::input::Input;
 use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
 use super::{Format, Parsed, Writer, glb_write};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::Polygon;
 use crate::storage::limits;
-use buffers::{PACKED, unsigned};
 use document::{GltfDocument, Node, Primitive, document};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use std::borrow::Cow;
@@ -40,23 +40,9 @@ pub static GLTF: Format = Format {
     write: Some(Writer::Mesh(glb_write::write_text)),
 };
 
-/// Length of glTF's unit, the metre, in millimetres.
-pub const UNIT_MM: f64 = 1000.0;
-
 fn sniff(source: &Input) -> u8 {
     let is_json = source.beginning().trim_start().starts_with('{');
     if is_json && document::is_one(&source.text()) { 80 } else { 0 }
-}
-
-/// What a facet's primitive says about itself.
-#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
-pub struct FacetExtras {
-    /// The facet's name.
-    #[serde(default)]
-    pub facet: String,
-    /// Its outward normal in the mesh's own frame, in full `f64`.
-    #[serde(default)]
-    pub normal: Option<[f64; 3]>,
 }
 
 /// Wider than this, in metres, is no stone: the unit is another one, and unknown.
@@ -252,4 +238,12 @@ fn frame(node: &Node) -> DMat4 {
         },
         |matrix| DMat4::from_cols_array(&matrix),
     )
+}
+
+/// What the names of extensions end in that pack buffers: Draco's, meshopt's.
+const PACKED: &str = "_compression";
+
+/// An unsigned number of any length, least byte first.
+fn unsigned(bytes: &[u8]) -> usize {
+    bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize)
 }

@@ -5,7 +5,6 @@
 //! of refraction, full transmission, and a volume without which renderers take it for a thin sheet.
 
 use super::error::FormatError;
-use super::glb::{FacetExtras, UNIT_MM};
 use super::mesh_export::MeshExport;
 use crate::color::Illuminant;
 use crate::materials::Material;
@@ -196,4 +195,18 @@ fn accessor(
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> [f32; 3] {
     let start = positions.first().copied().unwrap_or_default();
     positions.iter().fold(start, |m, p| [0, 1, 2].map(|k| pick(m[k], p[k])))
+}
+
+/// Length of glTF's unit, the metre, in millimetres.
+pub const UNIT_MM: f64 = 1000.0;
+
+/// What a facet's primitive says about itself.
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
+pub struct FacetExtras {
+    /// The facet's name.
+    #[serde(default)]
+    pub facet: String,
+    /// Its outward normal in the mesh's own frame, in full `f64`.
+    #[serde(default)]
+    pub normal: Option<[f64; 3]>,
 }

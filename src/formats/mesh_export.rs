@@ -1,7 +1,6 @@
 //! Mesh export, a stone's surface as the mesh formats write it: of a design, or of a mesh that is no convex stone.
 
 use super::error::FormatError;
-use super::facet_labels;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
 use crate::geometry::ClosedMesh;
 use crate::geometry::measure::{calipers, convex_hull};
@@ -85,4 +84,9 @@ impl MeshExport {
             triangles,
         }
     }
+}
+
+/// A name for each facet, in the order of [`Design::facets`]: see [`crate::design::Tier::labels`].
+pub(super) fn facet_labels(design: &Design) -> Vec<String> {
+    design.tiers.iter().enumerate().flat_map(|(t, tier)| tier.labels(t + 1)).collect()
 }

@@ -9,16 +9,18 @@
 
 mod list;
 mod pbrt;
+mod shapes;
 mod words;
 
 use super::error::FormatError;
 use super::input::Input;
-use super::mesh_import::{Digits, PolygonMesh, recover};
+use super::mesh_import::{PolygonMesh, recover};
 use super::{Format, Parsed};
 use crate::design::Design;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::Polygon;
 use glam::{DMat3, DQuat, DVec3};
+use shapes::{PolygonShape, PolygonShapes};
 
 /// A pbrt scene.
 pub static SCENE: Format = Format {
@@ -39,12 +41,6 @@ pub static LIST: Format = Format {
     read: |source| stone(source, list::mesh(source)?),
     write: None,
 };
-
-/// Corners and polygons of one shape.
-type PolygonShape = (Vec<DVec3>, Vec<Polygon>);
-
-/// The shapes of a file, and the digits of their numbers.
-type PolygonShapes = (Vec<PolygonShape>, Digits);
 
 /// The stone among the shapes: all of them together, or the only one that is a stone by itself.
 fn stone(source: &Input, (shapes, digits): PolygonShapes) -> Result<Parsed, FormatError> {

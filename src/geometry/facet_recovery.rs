@@ -6,11 +6,11 @@
 
 use super::closed_mesh::ClosedMesh;
 use super::plane::Plane;
+pub use super::polygon::{Polygon, Stored};
 use super::polyhedron::{Polyhedron, SolidError};
 use super::welded_surface::{WeldedSurface, welded};
 use crate::storage::limits::{self, Exceeded};
 use glam::DVec3;
-use std::sync::Arc;
 
 /// Corners of one facet lie in one plane within so many roundings of a stored coordinate: three coordinates of
 /// a corner, and the plane's own.
@@ -50,31 +50,6 @@ const MAX_TRUSTED_TOLERANCE: f64 = 0.25;
 /// Relative difference of volume, in parts of the coplanar tolerance, that rounding can make
 /// between a mesh and the solid of its planes.
 const VOLUME_SLACK: f64 = 30.0;
-
-/// How exactly a mesh is stored.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stored {
-    /// The most that a coordinate of a corner may be off by rounding, in the mesh's unit.
-    pub corner: f64,
-    /// The most that a coordinate of a stated unit normal may be off by rounding.
-    pub normal: f64,
-}
-
-impl Stored {
-    /// In `f64`, as good as exact.
-    pub const EXACT: Stored = Stored { corner: 0.0, normal: 0.0 };
-}
-
-/// One polygon of a mesh.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Polygon {
-    /// The facet it belongs to, or empty; shared, as thousands of polygons may have the same.
-    pub name: Arc<str>,
-    /// Numbers of its corners, in either winding.
-    pub corners: Vec<usize>,
-    /// The outward normal that the file states for the facet, if any; any length.
-    pub normal: Option<DVec3>,
-}
 
 /// What a mesh was found to be.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,8 +4,6 @@
 //! outside), and all facets around it use that judgement, so the result is a closed surface by
 //! construction however the roundings fall.
 
-use super::clip_scale::bounded;
-use super::plane::Plane;
 use glam::DVec3;
 
 /// One facet of a polyhedron.
@@ -105,23 +103,6 @@ fn list(planes: &[usize]) -> String {
 }
 
 impl Polyhedron {
-    /// The solid `{x : n·x ≤ d for every plane}`.
-    ///
-    /// - `planes`: in any order, any origin (it need not lie inside), any unit
-    ///
-    /// Coincident planes merge, planes that bound nothing are dropped; [`Polyhedron::plane_status`] tells.
-    /// Every corner lies on its planes and under all others to some 1e-11 of the solid's radius, so the
-    /// volume is the planes' own to 1e-9 of the radius cubed. Checked in `tests/geometry.rs` and
-    /// `tests/hostile/degenerate.rs` (V − E + F = 2, volumes, shuffled, turned and scaled planes).
-    pub fn from_planes(planes: &[Plane]) -> Result<Self, SolidError> {
-        for (plane, p) in planes.iter().enumerate() {
-            if !p.normal.is_finite() || !p.distance.is_finite() || (p.normal.length() - 1.0).abs() > 1e-6 {
-                return Err(SolidError::NotAPlane { plane, normal: p.normal, distance: p.distance });
-            }
-        }
-        bounded(planes)
-    }
-
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
         self.faces.iter().map(|f| f.corners.len()).sum::<usize>() / 2
@@ -141,6 +122,7 @@ impl Polyhedron {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Plane;
     use crate::sampling::random::{Purpose, Stream};
 
     /// Sixteen planes through one apex, sixteen through the rim, twice over: the worst that stones

@@ -4,6 +4,7 @@
 //! through it sixteen at a time, then on. Each has its own random stream, so a batch is the same on
 //! any thread.
 
+use super::PhotonSets;
 use super::photon_light::PhotonLight;
 use super::{Class, PhotonSet, PhotonSettings, StoredPhoton};
 use crate::photons::stone_scattering;
@@ -250,5 +251,20 @@ fn scatter_all(
         flight.light.scale(departure.share);
         flight.last = LastEvent::Stone(number);
         out.push(flight);
+    }
+}
+
+impl PhotonSets {
+    /// Sends photons through a scene until each class has as many as asked for.
+    pub fn emit(scene: &Scene, settings: &PhotonSettings) -> PhotonSets {
+        PhotonSets::resume(scene, settings, [0, 0])
+    }
+
+    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
+    pub fn resume(scene: &Scene, settings: &PhotonSettings, [caustic, indirect]: [u64; 2]) -> PhotonSets {
+        PhotonSets {
+            caustic: emit(scene, Class::Caustic, settings, caustic),
+            indirect: emit(scene, Class::Indirect, settings, indirect),
+        }
     }
 }

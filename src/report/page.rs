@@ -2,6 +2,8 @@
 
 mod scores;
 
+pub use super::html::escaped;
+pub(super) use super::html::{data_uri, svg_uri};
 pub use scores::{PageScore, Section};
 
 use super::references::STONES;
@@ -9,7 +11,6 @@ use super::tilt_curves::TiltPlot;
 use super::viewer_images::ViewerPicture;
 use crate::design::proportions::Proportions;
 use crate::sampling::stats::Estimate;
-use base64::Engine;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
@@ -51,22 +52,6 @@ pub struct Page<'a> {
     pub command: String,
     /// Files beside the page.
     pub files: &'a [String],
-}
-
-/// Text as HTML or XML, which has no control characters.
-pub fn escaped(text: &str) -> String {
-    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// A PNG picture inside the page.
-pub(super) fn data_uri(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
-}
-
-/// A drawing inside the page; as a picture of its own, so that no name in it meets another's.
-pub(super) fn svg_uri(svg: &str) -> String {
-    format!("data:image/svg+xml;base64,{}", base64::engine::general_purpose::STANDARD.encode(svg))
 }
 
 /// The beginning of a page, up to its content.

@@ -1,95 +1,25 @@
 //! Plots of sweeps as SVG: a score along one parameter, or over two.
 
+mod axes;
 mod curve;
 mod frame;
 mod map;
 mod style;
 mod surface;
 
+use crate::design::gia_envelopes;
+pub use axes::{Axis, ScorePlot, TILT, TILT_AXIS};
+use axes::{BAND, ReferenceMark};
 pub use curve::{Curves, Dot, PlotCurve};
 pub use style::{ColourScale, Style};
 
 use super::page::escaped;
 use crate::batch::table::NumericColumns;
-use crate::design::families::Family;
 use crate::design::library;
-use crate::design::round_brilliant_measures;
-use crate::metrics::Metric;
 use crate::stone_spec;
 
 /// Pixels across a plot that becomes a picture.
 pub const PIXELS: u32 = 1600;
-
-/// A half-width of 95 in 100, in standard errors.
-const BAND: f64 = 1.96;
-
-/// A parameter along an axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
-    /// Its key: the column of the table.
-    pub key: String,
-    /// What stands along the axis, with the unit.
-    pub title: String,
-}
-
-impl Axis {
-    /// The axis of the parameter `key`, of a family or of every stone.
-    pub fn new(key: &str, family: Option<&Family>) -> Axis {
-        if key == TILT {
-            return Axis { key: key.into(), title: "tilt (°)".into() };
-        }
-        let parameter = family.and_then(|f| f.parameters.iter().find(|p| p.key == key));
-        let name = if key == "ri" { "refractive index".into() } else { key.replace('-', " ") };
-        let unit = match (parameter.map(|p| p.unit.trim()), key) {
-            (Some(""), _) | (None, "ri") => String::new(),
-            (None, "size") => " (mm)".into(),
-            (unit, _) => unit.map_or(String::new(), |u| format!(" ({u})")),
-        };
-        Axis { key: key.into(), title: format!("{name}{unit}") }
-    }
-}
-
-/// What is to be drawn.
-#[derive(Clone, Copy)]
-pub struct ScorePlot<'a> {
-    /// The score.
-    pub metric: &'static Metric,
-    /// One axis for a curve, two for a map: the first is drawn across.
-    pub axes: &'a [Axis],
-    /// The stone that was swept.
-    pub stone: &'a str,
-    /// Its family.
-    pub family: Option<&'static Family>,
-    /// Whether it is of diamond, for which alone grading envelopes are published.
-    pub is_diamond: bool,
-    /// How it is to look.
-    pub style: &'a Style,
-    /// A stone to be marked above the others: its name and place on the axes.
-    pub own: Option<(&'a str, &'a [f64])>,
-}
-
-/// Column of a stone's tilt.
-pub const TILT: &str = "tilt_deg";
-
-/// Column of the azimuth about which a stone is tilted.
-pub const TILT_AXIS: &str = "tilt_axis_deg";
-
-/// A point or a line to be named in a plot.
-struct ReferenceMark {
-    name: String,
-    at: Vec<f64>,
-    /// Whether it is the stone that the plot is about.
-    own: bool,
-    /// Parameters that are not on the axes and have another value in this stone than in the plot's.
-    other: Vec<&'static str>,
-}
-
-impl ReferenceMark {
-    /// Its name; with a star if it does not belong to the values beside it.
-    fn label(&self) -> String {
-        if self.other.is_empty() { self.name.clone() } else { format!("{} *", self.name) }
-    }
-}
 
 /// Parameters that say how large a stone is, or how many facets its girdle has: no score of a clear
 /// stone follows them by more than a hundredth.
@@ -235,7 +165,7 @@ impl ScorePlot<'_> {
         }
         let mut found: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for axis in axes {
-            for (name, from, to) in round_brilliant_measures::bounds(&axis.key) {
+            for (name, from, to) in gia_envelopes::bounds(&axis.key) {
                 match found.iter_mut().find(|(n, _)| n == name) {
                     Some((_, bounds)) => bounds.push((from, to)),
                     None => found.push((name.into(), vec![(from, to)])),

@@ -1,98 +1,36 @@
 //! The entry of a scene file for a light, and how it becomes one.
 
-use super::lights::{LIGHTS, LightType};
 use super::panorama::Panorama;
 use super::scene_file::BuildContext;
-use super::schema::{FieldError, field_error, illuminant, positive, require_name, span, turned};
-use super::{BoundingSphere, Light, PhotonGuide, PlacedStone};
+use super::schema::{FieldError, field_error, positive, require_name, span, turned};
 use crate::color::daylight::ClearSky;
-use crate::color::rgb_upsampling;
 use crate::color::viewers::{VIEWERS, Viewer};
 use glam::{Mat3, Vec3};
 use serde::Deserialize;
-
-/// Greatest radiance: squares and sums of it stay far within `f32`.
-const BRIGHTEST: f32 = 1e12;
 
 /// `[[light]]`
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LightEntry {
-    kind: String,
-    at: Option<[f32; 3]>,
-    to: Option<[f32; 3]>,
-    side: Option<f32>,
-    radius: Option<f32>,
-    cone: Option<f32>,
-    viewer: Option<String>,
+    pub(super) kind: String,
+    pub(super) at: Option<[f32; 3]>,
+    pub(super) to: Option<[f32; 3]>,
+    pub(super) side: Option<f32>,
+    pub(super) radius: Option<f32>,
+    pub(super) cone: Option<f32>,
+    pub(super) viewer: Option<String>,
     pub(super) panorama: Option<String>,
-    sun_elevation: Option<f32>,
-    sun_azimuth: Option<f32>,
-    turbidity: Option<f32>,
-    turn: Option<[f64; 3]>,
-    radiance: Option<f32>,
-    power: Option<f32>,
-    colour: Option<[f32; 3]>,
-    spectrum: Option<String>,
+    pub(super) sun_elevation: Option<f32>,
+    pub(super) sun_azimuth: Option<f32>,
+    pub(super) turbidity: Option<f32>,
+    pub(super) turn: Option<[f64; 3]>,
+    pub(super) radiance: Option<f32>,
+    pub(super) power: Option<f32>,
+    pub(super) colour: Option<[f32; 3]>,
+    pub(super) spectrum: Option<String>,
 }
 
 impl LightEntry {
-    /// The light, if no part of it lies in a stone.
-    pub(super) fn light_outside(
-        &self,
-        place: &BuildContext,
-        stones: &[PlacedStone],
-    ) -> Result<Light, FieldError> {
-        let light = self.light(place)?;
-        if light.emitter.power().is_none() {
-            return Ok(light); // it is at infinity
-        }
-        /// Places of the light that are looked at, a side of the square of uniforms.
-        const GRID: u8 = 8;
-        let world = BoundingSphere { centre: place.centre, radius: 1.0 };
-        let aim = PhotonGuide { targets: Vec::new(), share: 0.0, world };
-        let shares = (0..GRID)
-            .flat_map(|y| (0..GRID).map(move |x| [x, y].map(|k| (f32::from(k) + 0.5) / f32::from(GRID))));
-        let begin: Vec<Vec3> = shares
-            .filter_map(|[s, t]| light.emitter.sample_le(&aim, [s, t, 0.5, 0.5, 0.5]))
-            .map(|start| start.point)
-            .chain(self.at.map(|p| place.point(p)))
-            .collect();
-        match stones.iter().position(|stone| begin.iter().any(|at| stone.contains(*at))) {
-            Some(i) => Err(field_error("at", format!("the light reaches into stone {}", i + 1))),
-            None => Ok(light),
-        }
-    }
-
-    fn light(&self, place: &BuildContext) -> Result<Light, FieldError> {
-        let all: Vec<&str> = LIGHTS.iter().map(|k| k.name).collect();
-        let kind = require_name("kind", LightType::by_name(&self.kind), &self.kind, &all)?;
-        let emitter = (kind.read)(self, place)?;
-        let radiance = match (self.radiance, self.power, emitter.power()) {
-            (radiance, None, _) => positive("radiance", radiance)?,
-            (None, power, Some(of_one)) => positive("power", power)? / of_one,
-            (None, Some(_), None) => return Err(field_error("power", "a light at infinity has a radiance")),
-            (Some(_), Some(_), _) => return Err(field_error("power", "a light has a radiance or a power")),
-        };
-        if radiance > BRIGHTEST || radiance.is_nan() {
-            let key = if self.power.is_some() { "power" } else { "radiance" };
-            return Err(field_error(
-                key,
-                format!("{key} makes a radiance of {radiance:e}, beyond {BRIGHTEST:e}"),
-            ));
-        }
-        if let Some(colour) = self.colour
-            && (colour.iter().any(|part| *part < 0.0) || colour.iter().all(|part| *part == 0.0))
-        {
-            return Err(field_error(
-                "colour",
-                "a colour is [red, green, blue], none below 0 and not all of them 0",
-            ));
-        }
-        let colour = self.colour.map_or(Vec3::ONE, |c| rgb_upsampling::upsample(c.into()));
-        Ok(Light::new(emitter, illuminant("spectrum", self.spectrum.as_deref())?, colour * radiance))
-    }
-
     /// Whether it shows a panorama.
     pub(super) fn has_panorama(&self) -> bool {
         self.panorama.is_some()

@@ -2,6 +2,7 @@
 
 pub mod disc;
 pub mod dome;
+mod light;
 pub mod sky;
 pub mod sphere;
 pub mod spot;
@@ -12,125 +13,11 @@ use super::PhotonGuide;
 use super::light_schema::LightEntry;
 use super::scene_file::BuildContext;
 use super::schema::FieldError;
-use crate::color::{Illuminant, rgb_upsampling};
-use glam::{Mat3, Vec3};
-use std::fmt::Debug;
-use std::sync::Arc;
-
-/// Shape of a light and how it shines, at radiance 1. Colours are parts of
-/// [`crate::color::rgb_upsampling::basis`]; white is 1, 1, 1.
-pub trait Emitter: Debug + Send + Sync {
-    /// Distance along a ray to the light and the colour seen there; no colour from behind, where it is
-    /// dark. What shines from infinity is at `f32::INFINITY`.
-    ///
-    /// The origin may lie on the light itself only if the ray does not start there: every light is
-    /// convex, so a ray that leaves it cannot meet it again.
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
-
-    /// A place of the light as seen from a point, for shadow rays.
-    ///
-    /// - `normal`: of the surface at the point; `u`: two uniforms
-    fn sample_li(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<LightSample>;
-
-    /// A photon's start.
-    ///
-    /// - `u`: five uniforms
-    fn sample_le(&self, aim: &PhotonGuide, u: [f32; 5]) -> Option<EmissionSample>;
-
-    /// Roughly the power sent at the targets of `aim`, or into the world if it has none: what
-    /// decides how many photons a light gets.
-    fn importance(&self, aim: &PhotonGuide) -> f32;
-
-    /// Power emitted; none for a light at infinity.
-    fn power(&self) -> Option<f32>;
-
-    /// Whether it shines from infinity: then it stands in no other light's way.
-    fn is_far(&self) -> bool {
-        self.power().is_none()
-    }
-
-    /// The light turned about a point.
-    fn turned(&self, turn: Mat3, about: Vec3) -> Arc<dyn Emitter>;
-}
-
-/// A place of a light, seen from a surface.
-#[derive(Debug, Clone, Copy)]
-pub struct LightSample {
-    /// Unit direction to it.
-    pub direction: Vec3,
-    /// How far away it is.
-    pub distance: f32,
-    /// Its colour over the density of the direction (per steradian): the mean over light samples,
-    /// weighted by the cosine at the surface, is the irradiance.
-    pub radiance_over_pdf: Vec3,
-}
-
-/// A photon's first ray.
-#[derive(Debug, Clone, Copy)]
-pub struct EmissionSample {
-    /// Where.
-    pub point: Vec3,
-    /// Unit direction.
-    pub direction: Vec3,
-    /// Power: the mean over starts is the power emitted.
-    pub power: Vec3,
-}
-
-/// A light of a scene.
-#[derive(Debug, Clone)]
-pub struct Light {
-    /// Shape.
-    pub emitter: Arc<dyn Emitter>,
-    /// Spectrum.
-    pub spectrum: &'static Illuminant,
-    /// Radiance as a mixture of colours of the spectrum; grey for a light of the spectrum alone.
-    /// Scaled so that a grey light has the luminance of equal-energy light of that radiance.
-    pub radiance: Vec3,
-}
-
-impl Light {
-    /// A light of equal energy.
-    pub fn white(emitter: impl Emitter + 'static, radiance: f32) -> Light {
-        Light::new(Arc::new(emitter), Illuminant::equal_energy(), Vec3::splat(radiance))
-    }
-
-    /// A light of any spectrum.
-    ///
-    /// - `radiance`: that of equal-energy light of the same luminance
-    pub fn new(emitter: Arc<dyn Emitter>, spectrum: &'static Illuminant, radiance: Vec3) -> Light {
-        Light { emitter, spectrum, radiance: radiance / spectrum.luminance() }
-    }
-
-    /// The light turned about a point.
-    pub fn turned(&self, turn: Mat3, about: Vec3) -> Light {
-        Light { emitter: self.emitter.turned(turn, about), ..self.clone() }
-    }
-
-    /// Radiance or power at `nm` of a colour that the emitter gave.
-    pub fn radiance_at(&self, colour: Vec3, nm: f32) -> f32 {
-        let colour = colour * self.radiance;
-        if colour == Vec3::ZERO {
-            0.0
-        } else if colour == Vec3::splat(colour.x) {
-            self.spectrum.power(nm) * colour.x // the parts add up to 1
-        } else {
-            self.spectrum.power(nm) * rgb_upsampling::basis(nm).dot(colour)
-        }
-    }
-}
-
-/// Makes a light's shape of its entry.
-pub type LightReader = fn(&LightEntry, &BuildContext) -> Result<Arc<dyn Emitter>, FieldError>;
-
-/// A kind of light.
-pub struct LightType {
-    /// Its name in scene files.
-    pub name: &'static str,
-    /// What it is, and what its entry states.
-    pub about: &'static str,
-    /// Makes one of its entry.
-    pub read: LightReader,
-}
+use super::schema::{field_error, illuminant, positive, require_name};
+use super::{BoundingSphere, PlacedStone};
+use crate::color::rgb_upsampling;
+use glam::Vec3;
+pub use light::{EmissionSample, Emitter, Light, LightReader, LightSample, LightType};
 
 /// Every kind of light.
 pub static LIGHTS: &[&LightType] =
@@ -140,6 +27,67 @@ impl LightType {
     /// The kind called `name`.
     pub fn by_name(name: &str) -> Option<&'static LightType> {
         LIGHTS.iter().copied().find(|k| crate::parse::is_name(k.name, name))
+    }
+}
+
+/// Greatest radiance: squares and sums of it stay far within `f32`.
+const BRIGHTEST: f32 = 1e12;
+
+impl LightEntry {
+    /// The light, if no part of it lies in a stone.
+    pub(super) fn light_outside(
+        &self,
+        place: &BuildContext,
+        stones: &[PlacedStone],
+    ) -> Result<Light, FieldError> {
+        let light = self.light(place)?;
+        if light.emitter.power().is_none() {
+            return Ok(light); // it is at infinity
+        }
+        /// Places of the light that are looked at, a side of the square of uniforms.
+        const GRID: u8 = 8;
+        let world = BoundingSphere { centre: place.centre, radius: 1.0 };
+        let aim = PhotonGuide { targets: Vec::new(), share: 0.0, world };
+        let shares = (0..GRID)
+            .flat_map(|y| (0..GRID).map(move |x| [x, y].map(|k| (f32::from(k) + 0.5) / f32::from(GRID))));
+        let begin: Vec<Vec3> = shares
+            .filter_map(|[s, t]| light.emitter.sample_le(&aim, [s, t, 0.5, 0.5, 0.5]))
+            .map(|start| start.point)
+            .chain(self.at.map(|p| place.point(p)))
+            .collect();
+        match stones.iter().position(|stone| begin.iter().any(|at| stone.contains(*at))) {
+            Some(i) => Err(field_error("at", format!("the light reaches into stone {}", i + 1))),
+            None => Ok(light),
+        }
+    }
+
+    fn light(&self, place: &BuildContext) -> Result<Light, FieldError> {
+        let all: Vec<&str> = LIGHTS.iter().map(|k| k.name).collect();
+        let kind = require_name("kind", LightType::by_name(&self.kind), &self.kind, &all)?;
+        let emitter = (kind.read)(self, place)?;
+        let radiance = match (self.radiance, self.power, emitter.power()) {
+            (radiance, None, _) => positive("radiance", radiance)?,
+            (None, power, Some(of_one)) => positive("power", power)? / of_one,
+            (None, Some(_), None) => return Err(field_error("power", "a light at infinity has a radiance")),
+            (Some(_), Some(_), _) => return Err(field_error("power", "a light has a radiance or a power")),
+        };
+        if radiance > BRIGHTEST || radiance.is_nan() {
+            let key = if self.power.is_some() { "power" } else { "radiance" };
+            return Err(field_error(
+                key,
+                format!("{key} makes a radiance of {radiance:e}, beyond {BRIGHTEST:e}"),
+            ));
+        }
+        if let Some(colour) = self.colour
+            && (colour.iter().any(|part| *part < 0.0) || colour.iter().all(|part| *part == 0.0))
+        {
+            return Err(field_error(
+                "colour",
+                "a colour is [red, green, blue], none below 0 and not all of them 0",
+            ));
+        }
+        let colour = self.colour.map_or(Vec3::ONE, |c| rgb_upsampling::upsample(c.into()));
+        Ok(Light::new(emitter, illuminant("spectrum", self.spectrum.as_deref())?, colour * radiance))
     }
 }
 
@@ -154,6 +102,7 @@ mod tests {
     use crate::sampling::random::{Purpose, Stream};
     use crate::scene::photon_guide::BoundingSphere;
     use std::f32::consts::PI;
+    use std::sync::Arc;
 
     fn every_kind() -> Vec<(&'static str, Arc<dyn Emitter>)> {
         let at = Vec3::new(0.3, -0.2, 4.0);

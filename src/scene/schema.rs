@@ -1,7 +1,9 @@
 //! Schema of scene files: the entries for camera, stones and surfaces, and how each becomes a part of the scene.
 
+use super::build_context::{BuildContext, GREATEST, SceneOverrides, stone_to_trace};
+pub use super::field_error::FieldError;
+pub(super) use super::field_error::field_error;
 use super::file_access::Files;
-use super::scene_file::{BuildContext, GREATEST, SceneOverrides, stone_to_trace};
 use super::scene_mesh::SceneMesh;
 use super::surface::{Bsdf, Plate, Shape};
 use super::{Camera, Lens, PlacedStone, Pose, Reflectance, Surface};
@@ -17,19 +19,6 @@ use crate::trace::ConvexStone;
 use glam::{DMat3, Vec3};
 use serde::Deserialize;
 use std::sync::Arc;
-
-/// What is wrong with an entry, and the key it is about.
-#[derive(Debug)]
-pub struct FieldError {
-    /// The key.
-    pub key: &'static str,
-    /// The problem, in one line.
-    pub problem: String,
-}
-
-pub(super) fn field_error(key: &'static str, problem: impl Into<String>) -> FieldError {
-    FieldError { key, problem: problem.into() }
-}
 
 /// An entry of a catalogue by name; the error lists all.
 pub(super) fn require_name<T>(
@@ -137,7 +126,10 @@ impl CameraEntry {
             }
             (None, None, width @ Some(_)) => Lens::Orthographic(place.length(positive("width", width)?)),
             _ => {
-                return Err(field_error("field", "a camera has one of field (degrees), field-short or width"));
+                return Err(field_error(
+                    "field",
+                    "a camera has one of field (degrees), field-short or width",
+                ));
             }
         };
         let position = place.point(self.at);

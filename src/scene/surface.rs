@@ -1,6 +1,7 @@
 //! Surfaces around the stones: parallelograms and meshes, diffuse or mirrors, the same on both sides.
 
 use super::scene_mesh::SceneMesh;
+pub use super::surface_hit::SurfaceHit;
 use crate::color::rgb_upsampling;
 use glam::{Mat3, Vec3};
 use std::sync::Arc;
@@ -54,18 +55,6 @@ pub enum Shape {
     Plate(Plate),
     /// Triangles, there from both sides for light and camera.
     Mesh(Arc<SceneMesh>),
-}
-
-/// Where a ray meets a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceHit {
-    /// Distance along the ray.
-    pub distance: f32,
-    /// Unit normal on the ray's side.
-    pub normal: Vec3,
-    /// Whether that side is the front: of a plate the one that u × v points to, of a triangle the one
-    /// from which its corners run counterclockwise.
-    pub front: bool,
 }
 
 /// A surface.

@@ -1,13 +1,11 @@
 //! `--progressive`: rounds of a picture until a stop.
 
 use super::RenderArgs;
+use super::options::StopArgs;
 use super::picture::PictureProgress;
 use super::remaining_time::{self, Outlook};
-use crate::cli::args::values;
 use crate::cli::exit_code::CliError;
 use crate::integrators::{Film, Progressive, RenderSettings};
-use crate::parse;
-use crate::parse::{NumberError, NumberUnit};
 use crate::scene::Scene;
 use crate::storage::checkpoint::Checkpoint;
 use indicatif::HumanDuration;
@@ -15,36 +13,6 @@ use std::time::{Duration, Instant};
 
 /// Seconds between two writings of a picture that is still getting better.
 const WRITE_EVERY: Duration = Duration::from_secs(60);
-
-/// When a progressive picture is good enough; the first stop that is reached counts.
-#[derive(Debug, Clone, clap::Args)]
-pub struct StopArgs {
-    /// Converge round by round, each with new photons and smaller estimates, to a stop: --rounds,
-    /// --time or --noise; without one to 2 % of noise, or 100 rounds
-    #[arg(long, conflicts_with = "photon_map")]
-    pub progressive: bool,
-    /// Stop after this many rounds
-    #[arg(long, value_name = "N", requires = "progressive", value_parser = values::whole_number(1..=u32::MAX, "rounds are a whole number"))]
-    rounds: Option<u32>,
-    /// Stop after the round that ends past this time: 60s, 5min, 1h30m
-    #[arg(long, value_name = "TIME", requires = "progressive", value_parser = values::duration)]
-    time: Option<Duration>,
-    /// Stop when 4×4 pixels are off by this share of the mean on average, 2% or 0.02; after eight rounds at
-    /// the earliest, for fewer cannot tell
-    #[arg(long, value_name = "SHARE", requires = "progressive", value_parser = share)]
-    noise: Option<f64>,
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    let unit = if text.trim().ends_with('%') { 0.01 } else { 1.0 };
-    match parse::parse_number(text, NumberUnit::Percent) {
-        Ok(n) if n > 0.0 && n * unit < 10.0 => Ok(n * unit),
-        Ok(_) | Err(NumberError::NotANumber | NumberError::Infinite) => {
-            Err("a share above 0 is needed, such as 2% or 0.02".into())
-        }
-        Err(error) => Err(error.to_string()),
-    }
-}
 
 impl StopArgs {
     /// Noise at which a picture is good enough if nothing is said.

@@ -1,24 +1,12 @@
 //! From the tiers of a GemCad text file to a design: wheels, flat facets, texts.
 
-use super::AscFile;
+use super::{AscFile, TierLine};
 use crate::design::tiers::facet_normal;
 use crate::design::{Design, Facet, Gear, Tier};
 use crate::formats::Parsed;
 use crate::formats::cutting_table::index_of;
 use crate::formats::error::FormatError;
 use crate::geometry::{Plane, SolidError};
-
-/// A tier as the file gives it, before it is known which way its flat facets look.
-pub(super) struct TierLine {
-    pub line: usize,
-    /// The wheel at that place of the file.
-    pub gear: Option<Gear>,
-    pub angle_deg: f64,
-    pub rho: f64,
-    pub indices: Vec<(f64, String)>,
-    pub name: String,
-    pub instructions: String,
-}
 
 impl AscFile<'_> {
     /// The design of the tiers.

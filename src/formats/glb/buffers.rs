@@ -1,7 +1,7 @@
 //! The numbers in a glTF's buffers, which lie in the file itself, in its text, or in its folder.
 
-use super::GltfReader;
 use super::document::Accessor;
+use super::{GltfReader, PACKED, unsigned};
 use crate::formats::error::{FormatError, quoted_excerpt};
 use crate::formats::include;
 use crate::storage::limits;
@@ -9,9 +9,6 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use std::borrow::Cow;
-
-/// What the names of extensions end in that pack buffers: Draco's, meshopt's.
-pub(super) const PACKED: &str = "_compression";
 
 impl<'a> GltfReader<'a> {
     pub(super) fn accessor(&self, index: usize) -> Result<&'a Accessor, FormatError> {
@@ -130,11 +127,6 @@ impl<'a> GltfReader<'a> {
         include::fetch(self.source, &unescaped(uri))
             .ok_or_else(|| self.bad("a buffer in the file's own folder", quoted_excerpt(uri)))?
     }
-}
-
-/// An unsigned number of any length, least byte first.
-pub(super) fn unsigned(bytes: &[u8]) -> usize {
-    bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize)
 }
 
 /// Type of a stored number.
