@@ -1,5 +1,7 @@
 //! Numbers and names as people type them on a command line or in a stone's parameters.
 
+pub mod plain;
+
 use std::ops::RangeInclusive;
 
 /// Text that is not the number that is needed.

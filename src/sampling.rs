@@ -2,7 +2,6 @@
 
 pub mod histogram;
 pub mod kronecker;
-pub mod plain;
 pub mod random;
 pub mod statistic;
 pub mod stats;

@@ -5,7 +5,7 @@ use super::input::{Input, lines};
 use super::{Format, Parsed, Writer};
 use crate::design::Design;
 use crate::design::design_file::{DesignFile, DocumentError};
-use crate::sampling::plain;
+use crate::parse::plain;
 use crate::storage::limits;
 use std::collections::BTreeMap;
 

@@ -9,7 +9,7 @@ use super::file_access::Files;
 use super::light_schema::LightEntry;
 use super::schema::{CameraEntry, FieldError, StoneEntry, SurfaceEntry, field_error};
 use super::{Camera, Light, PlacedStone, Scene, Surface};
-use crate::sampling::plain;
+use crate::parse::plain;
 use crate::storage::limits::{self, Exceeded};
 use crate::storage::text;
 use glam::Vec3;

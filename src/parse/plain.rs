@@ -1,7 +1,7 @@
-//! What the reader of TOML says, in words for the person who wrote the file.
+//! Complaints of the TOML reader, in words for the person who wrote the file.
 
+use super::{NumberError, NumberUnit};
 use crate::parse;
-use crate::parse::{NumberError, NumberUnit};
 
 /// The complaint of the TOML reader as a sentence.
 ///
