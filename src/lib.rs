@@ -4,7 +4,7 @@
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house.rs` keeps:
 //!
-//! `sampling storage parse` → `color optics geometry` → `materials design trace` →
+//! `sampling parse storage` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone_spec metrics` → `scene scoring` → `photons batch` → `integrators` →
 //! `report` → `cli`
 

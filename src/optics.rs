@@ -1,5 +1,4 @@
-//! Light and matter: dispersion, absorption, Fresnel, colour, and the catalogues of materials,
-//! illuminants and viewers.
+//! Light and matter: dispersion, absorption, Fresnel coefficients, Stokes vectors.
 
 pub mod absorption;
 pub mod dispersion;

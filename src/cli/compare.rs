@@ -148,7 +148,7 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
             }
         }
         if !atomic_write::is_stdout(path) {
-            console.note(&format!("wrote {}", stone::display_name(&path)));
+            console.note(&format!("wrote {}", stone::display_name(path)));
         }
     }
     Ok(if short { ExitStatus::SomeFailed } else { ExitStatus::Done })

@@ -96,13 +96,13 @@ impl CliError {
 
     /// A file that is there already and was not to be replaced.
     pub fn exists(stone: &str, target: &Path) -> CliError {
-        let target = stone::display_name(&target);
+        let target = stone::display_name(target);
         CliError::new(ExitStatus::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// A file that is there already and that another command made.
     pub fn other_is_there(target: &Path) -> CliError {
-        let target = stone::display_name(&target);
+        let target = stone::display_name(target);
         CliError::new(
             ExitStatus::Io,
             format!(

@@ -144,7 +144,7 @@ pub fn run(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliErro
     for (file, bytes) in files.iter().zip(&encoded) {
         atomic_write::write(file, bytes)?;
         if !atomic_write::is_stdout(file) {
-            console.note(&format!("wrote {}", stone::display_name(&file)));
+            console.note(&format!("wrote {}", stone::display_name(file)));
         }
     }
     let summary = format!("{}: {facets} facets = {made_up_of}", design.name);

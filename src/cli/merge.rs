@@ -64,7 +64,7 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
     };
     if atomic_write::is_stream(&args.output) {
         parts.write(form, &args.output)?;
-        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(&file))));
+        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
         return Ok(tables::code(&parts.meta.summary));
     }
     let begun = Journal::belongs_to(&Journal::path_for(&args.output), &parts.identity());

@@ -44,7 +44,7 @@ impl Plots {
             let Some(extension) = ending_of(path) else {
                 return Err(CliError::input(format!(
                     "{}: plots are .svg, .pdf or .png",
-                    stone::display_name(&path)
+                    stone::display_name(path)
                 )));
             };
             let stem = stone::display_name(path.file_stem().unwrap_or_default());
@@ -119,7 +119,7 @@ impl Plots {
 /// What a table's companion says of its axes.
 pub fn layout_of(table: &Path, meta: &TableMeta) -> Result<TableLayout, CliError> {
     let why = || {
-        let table = stone::display_name(&table);
+        let table = stone::display_name(table);
         match meta.build.is_empty() {
             true => format!("{table} is of an older cutlab, which did not note its axes: make it anew"),
             false => {
@@ -148,6 +148,6 @@ pub fn tell(files: &[PathBuf], console: &Console) -> Result<(), CliError> {
     if console.json {
         return console.print_json(&files.iter().map(stone::display_name).collect::<Vec<_>>());
     }
-    files.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(&file))));
+    files.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
     Ok(())
 }

@@ -55,7 +55,7 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
     if console.json {
         console.print_json(&files.iter().map(stone::display_name).collect::<Vec<_>>())?;
     } else {
-        files.iter().for_each(|f| console.note(&format!("wrote {}", stone::display_name(&f))));
+        files.iter().for_each(|f| console.note(&format!("wrote {}", stone::display_name(f))));
     }
     Ok(ExitStatus::Done)
 }

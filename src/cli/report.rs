@@ -188,7 +188,7 @@ fn text(bundle: &StoneReport, folder: &Path) -> String {
         text += &format!("{said}\n");
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", stone::display_name(&folder), names.join(", "))
+    text + &format!("{}: {}", stone::display_name(folder), names.join(", "))
 }
 
 impl From<ReportError> for CliError {

@@ -235,7 +235,7 @@ fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
         Some(drawing) => drawing,
         None if atomic_write::is_stream(path) => DiagramFormat::Svg,
         None => {
-            let path = stone::display_name(&path);
+            let path = stone::display_name(path);
             return Err(CliError::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
         }
     };
@@ -243,20 +243,20 @@ fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
     let bytes = drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?;
-    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stone::display_name(&path)) })
+    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stone::display_name(path)) })
 }
 
 /// Draws the virtual facets of the only stone.
 fn draw_beams(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     let spec = only(args, "--beams")?;
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !atomic_write::is_stream(path) {
-        return Err(CliError::input(format!("{}: --beams draws SVG alone", stone::display_name(&path))));
+        return Err(CliError::input(format!("{}: --beams draws SVG alone", stone::display_name(path))));
     }
     let design = stone::open(spec)?.design;
     let index = args.substance.within(spec)?.material_of(&design).index_d();
     let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
     let pattern = virtual_facets::draw(&ConvexStone::new(solid), index, LEAST_POWER);
-    let said = format!("{}: {} virtual facets", stone::display_name(&path), pattern.polygons);
+    let said = format!("{}: {} virtual facets", stone::display_name(path), pattern.polygons);
     Ok(Drawn { path: path.into(), bytes: pattern.svg.into_bytes(), said })
 }
 

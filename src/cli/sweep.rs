@@ -194,7 +194,7 @@ fn check(args: &SweepArgs) -> Result<(), CliError> {
     if args.vary.len() > 2 {
         return Err(CliError::input(format!(
             "{}: a plot has one or two varied parameters; of more the table alone is written",
-            stone::display_name(&first)
+            stone::display_name(first)
         )));
     }
     if args.table.shard.of > 1 || atomic_write::is_stream(&args.table.output) {

@@ -36,7 +36,7 @@ pub struct BatchedEstimate<E: Estimator> {
 impl<E: Estimator> BatchedEstimate<E> {
     /// The estimator before the first point.
     pub fn new(estimator: E, seed: u64) -> Self {
-        Self { estimator: estimator, seed, tallies: vec![E::Tally::default(); BATCHES], points: 0 }
+        Self { estimator, seed, tallies: vec![E::Tally::default(); BATCHES], points: 0 }
     }
 
     /// Traces on until at least `samples` points are done in all batches together.

@@ -42,7 +42,7 @@ const STOP_SHARE: f32 = 1e-3;
 pub fn scatter(placed: &PlacedStone, max_bounces: u32, arrivals: &[IncidentPhoton]) -> Vec<ScatteredPhoton> {
     let mut crossing = ScatteringClient {
         placed,
-        max_bounces: max_bounces,
+        max_bounces,
         photons: arrivals.iter(),
         scattered: Vec::with_capacity(arrivals.len()),
         photon: [0; LANES],

@@ -70,7 +70,7 @@ impl<const W: usize> NearestFacet<W> {
             let above = mul_add::<FUSED>(nx, x, mul_add::<FUSED>(ny, y, mul_add::<FUSED>(nz, z, d)));
             slack[l] = above.max(MIN_SLACK);
         }
-        self.nearer(NearestFacet { cos_num: cos_num, slack: slack, facet: [row.facet; W] })
+        self.nearer(NearestFacet { cos_num, slack, facet: [row.facet; W] })
     }
 
     /// The better of two; a tie leaves `self`.

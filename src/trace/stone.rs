@@ -94,7 +94,7 @@ impl ConvexStone {
                 .collect(),
             inclined_blocks: PlaneBlock16::split(&planes, &slopes),
             plane_coefficients: facets,
-            girdle: girdle,
+            girdle,
             normals: planes.iter().map(|p| p.normal.as_vec3()).collect(),
             isa,
             planes,

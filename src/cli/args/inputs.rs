@@ -19,7 +19,7 @@ use std::path::{Component, Path, PathBuf};
 ///
 /// A folder below that cannot be listed is given in place of its files: whoever reads it says why not.
 pub fn files(folder: &Path, skipped: Option<&Path>) -> Result<Vec<PathBuf>, CliError> {
-    let fail = |cause: std::io::Error| CliError::reading(&stone::display_name(&folder), &cause);
+    let fail = |cause: std::io::Error| CliError::reading(&stone::display_name(folder), &cause);
     let mut entries: Vec<PathBuf> = fs::read_dir(folder)
         .map_err(fail)?
         .map(|e| e.map(|e| e.path()))
@@ -166,7 +166,7 @@ fn designs(folder: &Path) -> Result<Vec<OsString>, CliError> {
     let found: Vec<OsString> =
         files(folder, None)?.iter().filter(|f| is_meant_as_stone(f)).map(|f| as_stone(f)).collect();
     if found.is_empty() {
-        return Err(CliError::input(format!("no designs and no meshes in {}", stone::display_name(&folder))));
+        return Err(CliError::input(format!("no designs and no meshes in {}", stone::display_name(folder))));
     }
     Ok(found)
 }

@@ -99,7 +99,7 @@ impl TableCommand<'_> {
         let tell = |event: JobEvent| match event {
             JobEvent::Remark(JournalRemark::Waiting) => bar.suspend(|| {
                 waited.store(true, Ordering::Relaxed);
-                let output = stone::display_name(&output);
+                let output = stone::display_name(output);
                 console.note(&format!("another cutlab is making {output}: waiting for it to end"));
             }),
             JobEvent::Remark(JournalRemark::Quarantined(path, why)) => bar.suspend(|| {
@@ -191,7 +191,7 @@ impl TableCommand<'_> {
             console.print(&terminal_table::text(&self.columns, &table, &self.plan.metrics))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
-        drawn.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(&file))));
+        drawn.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
         Ok(code(&summary))
     }
 

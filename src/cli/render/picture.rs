@@ -57,7 +57,7 @@ fn maps(args: &RenderArgs, scene: &Scene, progress: &PictureProgress) -> Result<
         Some(path) => {
             let (shots, read) = map_file::load_or_emit(path, scene, &settings)?;
             let did = if read { "used" } else { "made" };
-            progress.console().note(&format!("{did} the photon map {}", stone::display_name(&path)));
+            progress.console().note(&format!("{did} the photon map {}", stone::display_name(path)));
             shots
         }
     };

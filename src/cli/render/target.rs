@@ -101,7 +101,7 @@ impl OutputTarget {
     pub fn new(path: &Path, args: &RenderArgs) -> Result<OutputTarget, CliError> {
         let extension = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         let several = args.frames.is_some();
-        let shown = stone::display_name(&path);
+        let shown = stone::display_name(path);
         // the name of a pipe may have an extension that tells, that of a device or an open file has none
         let nameless = atomic_write::is_stream(path) && extension.is_empty();
         if nameless && (several || args.passes) {
