@@ -2,42 +2,36 @@
 //!
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
+mod args;
 mod compare;
 mod console;
-mod drawing;
-mod folders;
+mod diagram_output;
+mod exit_code;
 mod form;
 mod generate;
 mod heartbeat;
 mod import;
 mod list;
 mod merge;
-mod outcome;
 mod outputs;
-mod parameters;
 mod plot;
-mod plots;
+mod plot_output;
 mod proportion_columns;
-mod readable;
 mod render;
 mod report;
 mod score;
-mod scoring;
+mod shell_quote;
 mod show;
-mod standing;
-mod stones;
 mod sweep;
-mod tables;
+mod terminal_table;
 mod validate;
-mod values;
 mod weight;
-mod words;
 
-use crate::store::limits;
+use crate::storage::limits;
+use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
-use outcome::{Code, Failure};
-use standing::Standing;
+use exit_code::{CliError, ExitStatus};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -48,7 +42,7 @@ struct Cli {
     #[command(flatten)]
     console: Console,
     #[command(flatten)]
-    standing: Standing,
+    standing: OrientationArgs,
     #[command(subcommand)]
     command: Command,
 }
@@ -63,33 +57,33 @@ Environment: CUTLAB_LIMIT=4 raises every limit on what is read four times (all: 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Make a stone from its parameters and write it as a design or a mesh
-    Generate(generate::Args),
+    Generate(generate::GenerateArgs),
     /// Read designs and meshes and write them in another format
-    Import(import::Args),
+    Import(import::ImportArgs),
     /// Proportions, faceter's ratios, symmetry, tiers, volume and weight
-    Show(show::Args),
+    Show(show::ShowArgs),
     /// Take a photon-mapped picture, or a turntable of pictures
-    Render(render::Args),
+    Render(render::RenderArgs),
     /// Scores of brilliance and fire, one row a stone
-    Score(score::Args),
+    Score(score::ScoreArgs),
     /// Scores over a grid of parameters, with curves and maps
-    Sweep(sweep::Args),
+    Sweep(sweep::SweepArgs),
     /// Join the parts that --shard made of a table
-    Merge(merge::Args),
+    Merge(merge::MergeArgs),
     /// Draw the curves or maps of a table that is there
-    Plot(plot::Args),
+    Plot(plot::PlotArgs),
     /// Scores of stones beside each other, with their differences
-    Compare(compare::Args),
+    Compare(compare::CompareArgs),
     /// Everything about one stone: pictures, scores and a page
-    Report(report::Args),
+    Report(report::ReportArgs),
     /// Published and derivable figures against what this program computes
-    Validate(validate::Args),
+    Validate(validate::ValidateArgs),
     /// What there is to choose from
-    List(list::Args),
+    List(list::ListArgs),
 }
 
 impl Command {
-    fn run(&self, console: &Console) -> Result<Code, Failure> {
+    fn run(&self, console: &Console) -> Result<ExitStatus, CliError> {
         match self {
             Command::Generate(args) => generate::run(args, console),
             Command::Import(args) => import::run(args, console),
@@ -140,24 +134,24 @@ fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) ->
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
-/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs` and `tests/endings.rs`.
+/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs` and `tests/exits.rs`.
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
-    let _ = ctrlc::set_handler(|| outcome::interrupted());
+    let _ = ctrlc::set_handler(|| exit_code::interrupted());
     if let Some(factor) = std::env::var_os(limits::VARIABLE)
         && let Err(problem) = limits::raise(&factor.to_string_lossy())
     {
-        return Failure::input(problem).report();
+        return CliError::input(problem).report();
     }
     let mut command = command();
     let arguments = joined(std::env::args_os(), &command);
     let read = command.try_get_matches_from_mut(arguments).and_then(|found| Cli::from_arg_matches(&found));
     let cli = match read {
         Ok(cli) => cli,
-        Err(error) => return outcome::usage(&error, &self::command()),
+        Err(error) => return exit_code::usage(&error, &self::command()),
     };
     cli.console.start_threads();
-    standing::set(cli.standing, cli.console);
+    args::orientation::set(cli.standing, cli.console);
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),

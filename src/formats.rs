@@ -1,11 +1,13 @@
-//! Foreign designs and meshes: one format a file, one error type, one grammar for stones.
+//! Formats of designs and meshes: one a file, one error type.
 //!
-//! The bytes decide which reader is used; only for writing does the file's ending decide.
+//! The bytes decide which reader is used; only for writing does the file's extension decide.
 
-mod beside;
+mod asc_triangles;
 mod cs580;
+mod cutlab_toml;
 mod cutting_table;
 pub mod error;
+mod format;
 mod frames;
 mod gcs;
 mod gcs_write;
@@ -15,62 +17,37 @@ mod gemcad_text;
 mod gemcad_text_write;
 mod glb;
 mod glb_write;
+mod include;
+pub mod input;
+pub mod mesh_export;
+mod mesh_import;
 mod obj;
-mod own;
 mod perfect_diamond;
 mod ply;
-mod refused;
 mod sc_tracer;
-pub mod scenery;
-mod shell;
-pub mod source;
 mod stl;
-pub mod stone;
-pub mod surface;
-mod triangle_words;
+pub mod triangle_mesh;
+mod unsupported;
 mod windows_1252;
 
-use crate::store::text;
+use crate::storage::text;
 pub use error::FormatError;
-pub use source::Source;
-pub use surface::Surface;
+pub use format::{Format, Parsed, Writer};
+use format::{ReadOutcome, read_file, within_limit};
+pub use input::Input;
+pub use mesh_export::MeshExport;
 
-use crate::cut::{Design, USUAL_WIDTH_MM, Unit};
-use crate::optics::Material;
-use crate::solid::Body;
-use crate::solid::polyhedron::Fate;
-use crate::store::{limits, replace, stdin};
+use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
+use crate::geometry::ClosedMesh;
+use crate::geometry::polyhedron::PlaneStatus;
+use crate::materials::Material;
+use crate::storage::{atomic_write, limits, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Makes a file's bytes.
-#[derive(Debug, Clone, Copy)]
-pub enum Writer {
-    /// Of a design's planes, tiers and texts; sentences about what had no room go to the list.
-    Design(fn(&Design, &mut Vec<String>) -> Result<Vec<u8>, FormatError>),
-    /// Of a surface, whose planes need not bound it.
-    Mesh(fn(&Surface) -> Result<Vec<u8>, FormatError>),
-}
-
-/// A file format.
-pub struct Format {
-    /// Its name, as in `--to NAME` and in reports.
-    pub name: &'static str,
-    /// File endings in lower case, the usual one first.
-    pub extensions: &'static [&'static str],
-    /// One line of help.
-    pub about: &'static str,
-    /// How surely a file is of this format, 0 (not at all) to 100 (a magic number).
-    pub sniff: fn(&Source) -> u8,
-    /// Reads a design.
-    pub read: fn(&Source) -> Result<Reading, FormatError>,
-    /// Writes a design, if the format can be written.
-    pub write: Option<Writer>,
-}
-
 /// Every format that is read.
 pub static FORMATS: &[&Format] = &[
-    &own::FORMAT,
+    &cutlab_toml::FORMAT,
     &gemcad_text::FORMAT,
     &gem::FORMAT,
     &gcs::FORMAT,
@@ -87,18 +64,9 @@ pub static FORMATS: &[&Format] = &[
     &perfect_diamond::LIST,
 ];
 
-/// A design as a reader found it, and what it had to overlook.
-#[derive(Debug)]
-pub struct Reading {
-    /// The design.
-    pub design: Design,
-    /// One line each.
-    pub warnings: Vec<String>,
-}
-
 /// A design from outside.
 #[derive(Debug)]
-pub struct Imported {
+pub struct Loaded {
     /// The design. Its planes are known to bound a solid.
     pub design: Design,
     /// Name of the format it came in, or `library`.
@@ -107,55 +75,40 @@ pub struct Imported {
     pub warnings: Vec<String>,
 }
 
-/// Reads the file at `path`, whatever its ending. It may be a pipe.
+/// Reads the file at `path`, whatever its extension. It may be a pipe.
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
-pub fn read(path: &Path) -> Result<Imported, FormatError> {
+pub fn read(path: &Path) -> Result<Loaded, FormatError> {
     read_as(path, limits::FILE.read(path))
 }
 
 /// As [`read`], for what a file names: only a regular file is read.
-pub fn read_regular(path: &Path) -> Result<Imported, FormatError> {
+pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
     read_as(path, limits::FILE.read_regular(path))
 }
 
 /// Reads standard input; files that it refers to are refused.
-pub fn read_standard_input() -> Result<Imported, FormatError> {
+pub fn read_standard_input() -> Result<Loaded, FormatError> {
     let path = Path::new("standard input");
     let bytes = within_limit(path, stdin::bytes())?;
     read_bytes("standard input", &bytes, None)
 }
 
-fn read_as(path: &Path, bytes: Bytes) -> Result<Imported, FormatError> {
-    let name = text::shown(path);
+fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
+    let name = text::display_name(path);
     let bytes = within_limit(path, bytes)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
 }
 
-/// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
-/// bounded by the bytes it was given and by the other [`limits`].
-fn bytes_of(path: &Path) -> Result<Vec<u8>, FormatError> {
-    within_limit(path, limits::FILE.read_regular(path))
-}
-
-/// What [`limits::Limit::read`] gives.
-type Bytes = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
-
-fn within_limit(path: &Path, bytes: Bytes) -> Result<Vec<u8>, FormatError> {
-    let file = || text::shown(path);
-    let bytes = bytes.map_err(|cause| FormatError::Read { file: file(), cause })?;
-    bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
-}
-
 /// Reads a file from memory.
 ///
-/// - `name`: shown in errors; its ending only tells apart formats that are refused
+/// - `name`: shown in errors; its extension only tells apart formats that are refused
 /// - `folder`: where files that it refers to must lie; none refuses them
-pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imported, FormatError> {
-    let source = Source { name, bytes, folder };
+pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
+    let source = Input { name, bytes, folder };
     // a page may quote a design: it is none all the same
-    if refused::is_web_page(&source) {
-        return Err(refused::why(&source));
+    if unsupported::is_web_page(&source) {
+        return Err(unsupported::error(&source));
     }
     let (sure, format) = FORMATS
         .iter()
@@ -163,36 +116,36 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Imp
         .map(|f| ((f.sniff)(&source), *f))
         .max_by_key(|(sure, _)| *sure)
         .filter(|(sure, _)| *sure > 0)
-        .ok_or_else(|| refused::why(&source))?;
-    /// Below this other evidence is better: an ending, or how files of other kinds begin.
+        .ok_or_else(|| unsupported::error(&source))?;
+    /// Below this other evidence is better: an extension, or how files of other kinds begin.
     const GUESS: u8 = 30;
-    if sure < GUESS && refused::is_known(&source) {
-        return Err(refused::why(&source));
+    if sure < GUESS && unsupported::is_known(&source) {
+        return Err(unsupported::error(&source));
     }
-    let Reading { design, mut warnings } =
+    let Parsed { design, mut warnings } =
         (format.read)(&source).map_err(|e| e.in_format(format.name, None))?;
     let facets = design.facets().count();
-    warnings.extend(closed(name, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
-    Ok(Imported { design, format: format.name, warnings })
+    warnings.extend(check_closed(name, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
+    Ok(Loaded { design, format: format.name, warnings })
 }
 
 /// Whether a file of this content may name others, which then belong to the stone.
 pub fn may_include(name: &str, bytes: &[u8]) -> bool {
-    let source = Source { name, bytes, folder: None };
+    let source = Input { name, bytes, folder: None };
     [&glb::GLB, &glb::GLTF, &perfect_diamond::SCENE].iter().any(|f| (f.sniff)(&source) > 0)
 }
 
 /// Checks that the planes bound a solid; remarks on planes that bound nothing of it.
-fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
+fn check_closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
     let facets = design.facets().count();
     let many = |cause| FormatError::Limit { place: file.into(), cause };
     limits::FACETS.check_all(facets).map_err(many)?;
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
-    let count = |wanted: fn(&Fate) -> bool| solid.fates.iter().filter(|f| wanted(f)).count();
+    let count = |wanted: fn(&PlaneStatus) -> bool| solid.plane_status.iter().filter(|f| wanted(f)).count();
     let mut remarks = Vec::new();
     for (n, what) in [
-        (count(|f| matches!(f, Fate::Duplicate(_))), "coincide with other facets"),
-        (count(|f| matches!(f, Fate::Redundant)), "do not touch the stone"),
+        (count(|f| matches!(f, PlaneStatus::Duplicate(_))), "coincide with other facets"),
+        (count(|f| matches!(f, PlaneStatus::Redundant)), "do not touch the stone"),
     ] {
         if n > 0 {
             remarks.push(format!("{n} of {facets} facets {what}"));
@@ -201,12 +154,12 @@ fn closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
     Ok(remarks)
 }
 
-/// Writes the design to `path` in the format that its ending names.
+/// Writes the design to `path` in the format that its extension names.
 ///
 /// The file is replaced whole. Checked in `tests/formats.rs`.
 pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
-    let bytes = encode(design, written_to(path)?.name)?;
-    Ok(replace::write(path, &bytes)?)
+    let bytes = encode(design, writer_for_path(path)?.name)?;
+    Ok(atomic_write::write(path, &bytes)?)
 }
 
 /// The bytes of a file, and what of the stone had no room in it.
@@ -218,7 +171,7 @@ pub struct Encoded {
     pub remarks: Vec<String>,
 }
 
-/// The bytes of a file of the design in the format called `format`, by name or ending.
+/// The bytes of a file of the design in the format called `format`, by name or extension.
 pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
     Ok(encode_as(design, None, format)?.bytes)
 }
@@ -231,23 +184,23 @@ pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
 /// Checked in `tests/receivers.rs`.
 pub fn encode_as(design: &Design, material: Option<&Material>, format: &str) -> Result<Encoded, FormatError> {
     let mut remarks = Vec::new();
-    let bytes = match written_as(format)?.write.ok_or_else(|| no_writer(format))? {
+    let bytes = match writer_named(format)?.write.ok_or_else(|| no_writer(format))? {
         Writer::Design(write) => match material {
             Some(material) => write(&frames::drawn_for(design, material), &mut remarks)?,
             None => write(design, &mut remarks)?,
         },
         Writer::Mesh(write) => {
-            if design.unit == Unit::Free && unit_mm(format).is_some() {
+            if design.unit == LengthUnit::Free && unit_mm(format).is_some() {
                 remarks.push(format!("the design has no size: written {USUAL_WIDTH_MM} mm wide, in metres"));
             }
-            write(&Surface::of_design(design, material)?)?
+            write(&MeshExport::from_design(design, material)?)?
         }
     };
     Ok(Encoded { bytes, remarks })
 }
 
 /// Length in millimetres of the unit that every file of the format called `format` has, by name or
-/// ending; none for formats without unit, which is all but glTF.
+/// extension; none for formats without unit, which is all but glTF.
 pub fn unit_mm(format: &str) -> Option<f64> {
     let metric = [&glb::GLB, &glb::GLTF].iter().any(|f| f.name == format || f.extensions.contains(&format));
     metric.then_some(glb::UNIT_MM)
@@ -258,10 +211,15 @@ pub fn unit_mm(format: &str) -> Option<f64> {
 /// - `unit`: of the mesh's corners
 ///
 /// Formats that hold planes refuse it. Checked in `tests/cli.rs`.
-pub fn encode_mesh(name: &str, body: &Body, unit: Unit, format: &str) -> Result<Vec<u8>, FormatError> {
-    let format = written_as(format)?;
+pub fn encode_mesh(
+    name: &str,
+    mesh: &ClosedMesh,
+    unit: LengthUnit,
+    format: &str,
+) -> Result<Vec<u8>, FormatError> {
+    let format = writer_named(format)?;
     match format.write {
-        Some(Writer::Mesh(write)) => write(&Surface::of_body(name, body, unit)),
+        Some(Writer::Mesh(write)) => write(&MeshExport::from_closed_mesh(name, mesh, unit)),
         _ => {
             let meshes = FORMATS.iter().filter(|f| matches!(f.write, Some(Writer::Mesh(_))));
             let meshes: Vec<_> = meshes.map(|f| f.name).collect();
@@ -274,19 +232,19 @@ pub fn encode_mesh(name: &str, body: &Body, unit: Unit, format: &str) -> Result<
     }
 }
 
-/// The format that is written for a file of this name, by its ending.
-pub fn written_to(path: &Path) -> Result<&'static Format, FormatError> {
-    let ending = ending_of(path);
-    written(|f| f.extensions.contains(&&*ending)).ok_or_else(|| no_writer(&text::shown(path)))
+/// The format that is written for a file of this name, by its extension.
+pub fn writer_for_path(path: &Path) -> Result<&'static Format, FormatError> {
+    let extension = extension_of(path);
+    find_writer(|f| f.extensions.contains(&&*extension)).ok_or_else(|| no_writer(&text::display_name(path)))
 }
 
-/// The format to write that is called `asked`, by name or ending.
-pub fn written_as(asked: &str) -> Result<&'static Format, FormatError> {
+/// The format to write that is called `asked`, by name or extension.
+pub fn writer_named(asked: &str) -> Result<&'static Format, FormatError> {
     let name = asked.trim().trim_start_matches('.').to_lowercase();
-    written(|f| f.name == name || f.extensions.contains(&&*name)).ok_or_else(|| no_writer(asked))
+    find_writer(|f| f.name == name || f.extensions.contains(&&*name)).ok_or_else(|| no_writer(asked))
 }
 
-fn written(wanted: impl Fn(&Format) -> bool) -> Option<&'static Format> {
+fn find_writer(wanted: impl Fn(&Format) -> bool) -> Option<&'static Format> {
     FORMATS.iter().copied().find(|f| f.write.is_some() && wanted(f))
 }
 
@@ -294,30 +252,31 @@ fn no_writer(asked: &str) -> FormatError {
     let writers = FORMATS.iter().filter(|f| f.write.is_some());
     let mut known: Vec<_> = writers.filter_map(|f| f.extensions.first().copied()).collect();
     let mut seen = BTreeSet::new();
-    known.retain(|ending| seen.insert(*ending));
+    known.retain(|extension| seen.insert(*extension));
     FormatError::NoWriter { asked: asked.into(), known }
 }
 
-/// Endings that files of every kind have: their content alone tells whether one is a design.
-const COMMON_ENDINGS: [&str; 2] = ["toml", "txt"];
+/// Extensions that files of every kind have: their content alone tells whether one is a design.
+const COMMON_EXTENSIONS: [&str; 2] = ["toml", "txt"];
 
-/// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an ending that
+/// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an extension that
 /// only designs and meshes have, else by its content. A scene, a table with its companion and the
 /// settings of other programs are not; a design that is damaged is.
 pub fn is_meant_as_stone(path: &Path) -> bool {
     /// From here on no other kind of file begins like that.
-    const SURE: u8 = 90;
-    let ending = ending_of(path);
-    let has_ending = FORMATS.iter().any(|f| f.extensions.contains(&&*ending)) || refused::has_ending(&ending);
-    if has_ending && !COMMON_ENDINGS.contains(&&*ending) {
+    const CERTAIN: u8 = 90;
+    let extension = extension_of(path);
+    let has_ending =
+        FORMATS.iter().any(|f| f.extensions.contains(&&*extension)) || unsupported::has_extension(&extension);
+    if has_ending && !COMMON_EXTENSIONS.contains(&&*extension) {
         return true;
     }
-    let Ok(bytes) = bytes_of(path) else { return has_ending };
-    let name = text::shown(path);
-    let source = Source { name: &name, bytes: &bytes, folder: path.parent() };
+    let Ok(bytes) = read_file(path) else { return has_ending };
+    let name = text::display_name(path);
+    let source = Input { name: &name, bytes: &bytes, folder: path.parent() };
     let sure = FORMATS.iter().map(|f| (f.sniff)(&source)).max().unwrap_or(0);
-    if sure == (own::FORMAT.sniff)(&source) {
-        return sure > 0 && own::is_meant(&source);
+    if sure == (cutlab_toml::FORMAT.sniff)(&source) {
+        return sure > 0 && cutlab_toml::looks_like_cutlab_toml(&source);
     }
     let understood = || {
         matches!(
@@ -325,20 +284,9 @@ pub fn is_meant_as_stone(path: &Path) -> bool {
             Ok(_) | Err(FormatError::NoStone { .. } | FormatError::Limit { .. })
         )
     };
-    sure >= SURE || (sure > 0 && understood())
+    sure >= CERTAIN || (sure > 0 && understood())
 }
 
-fn ending_of(path: &Path) -> String {
+fn extension_of(path: &Path) -> String {
     path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase())
-}
-
-/// A name for each facet, in the order of [`Design::facets`]: see [`crate::cut::Tier::labels`].
-fn facet_labels(design: &Design) -> Vec<String> {
-    design.tiers.iter().enumerate().flat_map(|(t, tier)| tier.labels(t + 1)).collect()
-}
-
-impl std::fmt::Debug for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
-    }
 }

@@ -1,25 +1,30 @@
 //! cutlab: a laboratory for gem cuts.
 //!
-//! Facet planes become a solid, light walks through it, and what comes out is pictured and scored.
+//! Facet planes become a solid, light is traced through it, and what comes out is pictured and scored.
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house.rs` keeps:
 //!
-//! `math store` → `optics solid` → `cut` `walk` → `formats` → `scene` → `transport` →
-//! `photons experiments` → `metrics` `render` → `study` → `report` → `cli`
+//! `sampling storage parse` → `color optics geometry` → `materials design trace` →
+//! `formats estimators` → `stone_spec metrics` → `scene scoring` → `photons batch` → `integrators` →
+//! `report` → `cli`
 
+pub mod batch;
 pub mod cli;
-pub mod cut;
-pub mod experiments;
+pub mod color;
+pub mod design;
+pub mod estimators;
 pub mod formats;
-pub mod math;
+pub mod geometry;
+pub mod integrators;
+pub mod materials;
 pub mod metrics;
 pub mod optics;
+pub mod parse;
 pub mod photons;
-pub mod render;
 pub mod report;
+pub mod sampling;
 pub mod scene;
-pub mod solid;
-pub mod store;
-pub mod study;
-pub mod transport;
-pub mod walk;
+pub mod scoring;
+pub mod stone_spec;
+pub mod storage;
+pub mod trace;

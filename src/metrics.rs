@@ -1,4 +1,4 @@
-//! The catalogue of scores, one a file. A score reads one experiment and is a function of its sums.
+//! The catalogue of scores, one a file. A score reads one estimator and is a function of its sums.
 
 mod absorbed;
 mod aset_blue;
@@ -25,124 +25,23 @@ mod iso;
 mod leakage;
 mod leakage_strongest;
 mod light_return;
-mod lost;
+mod metric;
 mod sc2;
 mod scintillation;
 mod spread;
 mod table_cos;
 mod table_iso;
 mod table_sc2;
+mod untraced;
 mod weight_ratio;
 mod windowing;
 mod wlr;
 
-use crate::experiments;
-pub use crate::math::statistic::Statistic;
-use crate::math::typed;
-use crate::solid::Polyhedron;
-
-/// One score.
-#[derive(Debug)]
-pub struct Metric {
-    /// Its name on the command line and in tables.
-    pub name: &'static str,
-    /// What it tells, in one line for people.
-    pub about: &'static str,
-    /// Its unit; empty for a fraction.
-    pub unit: &'static str,
-    /// Least and greatest value it can take.
-    pub range: (f64, f64),
-    /// What an error asked for is measured against: 1 for fractions and degrees, 100 for percentages.
-    pub scale: f64,
-    /// Whether a stone is the better for more of it.
-    pub better: Better,
-    /// Half-angle in degrees of the observer's dark cone, for a metric that has one; a plan may set
-    /// another.
-    pub observer: Option<f64>,
-    /// Whether beams give it too (`--exact`).
-    pub by_beams: bool,
-    /// Whether stones that are not convex have it too: a sum of power.
-    pub dented: bool,
-    /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
-    pub definition: &'static str,
-    /// Where the definition is from.
-    pub source: &'static str,
-    /// The experiment it reads, and what of its sums.
-    pub reading: Reading,
-}
-
-/// Which of two values of a score is the better, all else alike.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Better {
-    /// The greater.
-    More,
-    /// The less.
-    Less,
-    /// Neither by itself: a matter of balance with others, of taste, or of no merit at all.
-    Neither,
-}
-
-impl Better {
-    /// In one word; empty for neither.
-    pub fn word(self) -> &'static str {
-        match self {
-            Better::More => "more",
-            Better::Less => "less",
-            Better::Neither => "",
-        }
-    }
-
-    /// `more is better`; empty for neither.
-    pub fn said(self) -> &'static str {
-        match self {
-            Better::More => "more is better",
-            Better::Less => "less is better",
-            Better::Neither => "",
-        }
-    }
-}
-
-/// A score as a function of the tally of the experiment that it reads. None but `scintillation`,
-/// whose axes stay, changes when the stone is turned about its own axis.
-#[derive(Debug, Clone, Copy)]
-pub enum Reading {
-    /// A dome of light: [`experiments::hemisphere`].
-    Hemisphere(Statistic<experiments::hemisphere::Tally>),
-    /// A parallel eye: [`experiments::view`].
-    View(Statistic<experiments::view::Tally>),
-    /// A parallel eye by the rules of faceters: [`experiments::iso`].
-    Iso(Statistic<experiments::iso::Tally>),
-    /// Cells of the picture: [`experiments::contrast`].
-    Contrast(Statistic<experiments::contrast::Tally>),
-    /// Cells of the rocked picture: [`experiments::scintillation`].
-    Scintillation(Statistic<experiments::scintillation::Tally>),
-    /// A point light at infinity: [`experiments::beam`].
-    Beam(Statistic<experiments::beam::Tally>),
-    /// The solid itself: a closed form.
-    Solid(fn(&Polyhedron) -> Option<f64>),
-}
-
-impl Reading {
-    /// The experiment's name.
-    pub fn experiment(self) -> &'static str {
-        match self {
-            Reading::Hemisphere(_) => "hemisphere",
-            Reading::View(_) => "view",
-            Reading::Iso(_) => "iso",
-            Reading::Contrast(_) => "contrast",
-            Reading::Scintillation(_) => "scintillation",
-            Reading::Beam(_) => "beam",
-            Reading::Solid(_) => "solid",
-        }
-    }
-}
+use crate::parse;
+pub use crate::sampling::statistic::Statistic;
+pub use metric::{Better, Metric, MetricSource};
 
 impl Metric {
-    /// Whether the score speaks of colours, and so means nothing for a material without dispersion.
-    pub fn needs_dispersion(&self) -> bool {
-        matches!(self.reading, Reading::Beam(_))
-    }
-
     /// What it tells, and which values are the better.
     pub fn about_and_better(&self) -> String {
         match self.better.said() {
@@ -152,8 +51,8 @@ impl Metric {
     }
 
     /// The metric called `name`, or none.
-    pub fn named(name: &str) -> Option<&'static Metric> {
-        METRICS.iter().copied().find(|m| typed::is_called(m.name, name))
+    pub fn by_name(name: &str) -> Option<&'static Metric> {
+        METRICS.iter().copied().find(|m| parse::is_name(m.name, name))
     }
 }
 
@@ -165,7 +64,7 @@ pub static METRICS: &[&Metric] = &[
     &leakage_strongest::LEAKAGE_STRONGEST,
     &glare::GLARE,
     &absorbed::ABSORBED,
-    &lost::LOST,
+    &untraced::UNTRACED,
     &brightness::BRIGHTNESS,
     &aset_green::ASET_GREEN,
     &aset_red::ASET_RED,
@@ -204,7 +103,7 @@ mod tests {
     fn every_metric_says_what_it_is_and_has_a_name_of_its_own() {
         for (i, m) in METRICS.iter().enumerate() {
             assert!(!m.source.is_empty() && !m.about.is_empty() && m.range.0 < m.range.1, "{}", m.name);
-            let light = !matches!(m.reading, Reading::Solid(_));
+            let light = !matches!(m.read_from, MetricSource::Solid(_));
             for word in ["npolarised", "Fresnel", "D line"].iter().filter(|_| light && !m.needs_dispersion())
             {
                 assert!(m.definition.contains(word), "{} does not state: {word}", m.name);
@@ -212,7 +111,7 @@ mod tests {
             assert_eq!(m.observer.is_some(), m.definition.contains("--observer"), "{}", m.name);
             assert_eq!(m.scale == 100.0, m.unit == "%", "{}", m.name);
             assert!(METRICS[..i].iter().all(|other| other.name != m.name), "{}", m.name);
-            assert_eq!(Metric::named(m.name).map(|m| m.name), Some(m.name));
+            assert_eq!(Metric::by_name(m.name).map(|m| m.name), Some(m.name));
         }
     }
 }

@@ -4,17 +4,17 @@
 //! caustic (last from the stone), indirect (last from another surface). The caustic map holds the
 //! second, the global map the third.
 
-mod cells;
 pub mod emission;
-pub mod file;
-mod images;
-mod light;
 pub mod map;
+pub mod map_file;
+mod mirror_images;
+mod photon_light;
+pub mod stone_scattering;
+mod surface_cells;
 
-use crate::math::random::Purpose;
-use crate::optics::colour::BANDS;
-use crate::scene::Scene;
-use crate::transport::SurfacePoint;
+use crate::color::cie::BANDS;
+use crate::sampling::random::Purpose;
+use crate::scene::intersection::SurfacePoint;
 use glam::Vec3;
 
 /// Which class of light a map holds.
@@ -27,7 +27,7 @@ pub enum Class {
 }
 
 impl Class {
-    fn purpose(self) -> Purpose {
+    pub(super) fn purpose(self) -> Purpose {
         match self {
             Class::Caustic => Purpose::CausticPhoton,
             Class::Indirect => Purpose::GlobalPhoton,
@@ -37,7 +37,7 @@ impl Class {
 
 /// A photon on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Photon {
+pub struct StoredPhoton {
     /// Where, in the world.
     pub point: Vec3,
     /// Spectral power of its strongest band, a share of the lights' total Φ: Φ is the power at each
@@ -54,13 +54,13 @@ pub struct Photon {
     pub normal: [i8; 3],
 }
 
-impl Photon {
+impl StoredPhoton {
     /// A photon that falls on a surface.
-    pub fn new(at: &SurfacePoint, spectrum: &Spectrum) -> Photon {
+    pub fn new(at: &SurfacePoint, spectrum: &BandSpectrum) -> StoredPhoton {
         let power = spectrum.iter().copied().fold(0.0, f32::max);
         let tint = spectrum.map(|p| (255.0 * p / power.max(f32::MIN_POSITIVE)).round() as u8);
         let normal = at.normal.to_array().map(|x| (127.0 * x).round() as i8);
-        Photon { point: at.point, power, tint, surface: at.surface as u16, front: at.front, normal }
+        StoredPhoton { point: at.point, power, tint, surface: at.surface as u16, front: at.front, normal }
     }
 
     /// Unit normal on the side where it fell.
@@ -75,11 +75,11 @@ impl Photon {
 }
 
 /// Power, irradiance or radiance in each band.
-pub type Spectrum = [f32; BANDS];
+pub type BandSpectrum = [f32; BANDS];
 
 /// How the maps of a picture are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct PhotonSettings {
     /// Photons kept in each map.
     pub photons: usize,
     /// Photons over whose distance each spreads its light.
@@ -90,33 +90,18 @@ pub struct Settings {
 
 /// The photons of one class, before they are arranged for look-up.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Shot {
+pub struct PhotonSet {
     /// The photons, powers scaled by the number emitted.
-    pub photons: Vec<Photon>,
+    pub photons: Vec<StoredPhoton>,
     /// Photons emitted to get them.
     pub emitted: u64,
 }
 
 /// The stored photons of a scene, both classes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shots {
+pub struct PhotonSets {
     /// Light last from the stone.
-    pub caustic: Shot,
+    pub caustic: PhotonSet,
     /// Light last from another surface.
-    pub indirect: Shot,
-}
-
-impl Shots {
-    /// Sends photons through a scene until each class has as many as asked for.
-    pub fn shoot(scene: &Scene, settings: &Settings) -> Shots {
-        Shots::go_on(scene, settings, [0, 0])
-    }
-
-    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
-    pub fn go_on(scene: &Scene, settings: &Settings, [caustic, indirect]: [u64; 2]) -> Shots {
-        Shots {
-            caustic: emission::shoot(scene, Class::Caustic, settings, caustic),
-            indirect: emission::shoot(scene, Class::Indirect, settings, indirect),
-        }
-    }
+    pub indirect: PhotonSet,
 }

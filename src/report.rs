@@ -1,18 +1,19 @@
 //! Reports: everything about one stone, with drawings, pictures and a page.
 
-pub mod bundle;
 pub mod chart;
+pub mod comparison_page;
 pub mod diagram;
+mod html;
 pub mod page;
-pub mod pattern;
 pub mod pdf;
 pub mod plot;
 pub mod raster;
 pub mod references;
-pub mod scopes;
 pub mod sections;
-pub mod tilts;
+pub mod stone_report;
+pub mod tilt_curves;
 pub mod validation;
-pub mod versus;
+pub mod viewer_images;
+pub mod virtual_facets;
 
-pub use bundle::{Bundle, ReportError, Request, make};
+pub use stone_report::{ReportError, ReportRequest, StoneReport, make};

@@ -1,51 +1,36 @@
-//! What is around the stones: surfaces, lights, camera, and how the stones lie in it.
+//! Scenes: surfaces, lights, camera, and how the stones lie in them.
 //!
 //! World frame: right-handed, z up, lengths in millimetres (in the Cornell room, in room units).
 
-pub mod aim;
+pub mod build_context;
 pub mod camera;
-pub mod entries;
-pub mod file;
-pub mod light_entry;
+mod contents;
+pub mod field_error;
+pub mod file_access;
+pub mod intersection;
+pub mod light_schema;
 pub mod lights;
-pub mod mesh;
 pub mod panorama;
-pub mod placed;
+pub mod photon_guide;
 pub mod pose;
-pub mod reach;
+pub mod scene_file;
+pub mod scene_mesh;
+pub mod schema;
+pub mod stone_instance;
 pub mod surface;
+pub mod surface_hit;
 
-use crate::math::typed;
-use glam::Vec3;
+use crate::parse;
+pub use contents::Scene;
 use std::path::Path;
 
-pub use aim::{Aim, Ball};
 pub use camera::{Camera, Lens};
-pub use file::{Cast, SceneError, SceneFile};
 pub use lights::Light;
-pub use placed::PlacedStone;
+pub use photon_guide::{BoundingSphere, PhotonGuide};
 pub use pose::Pose;
-pub use surface::{Finish, Reflectance, Surface};
-
-/// A scene ready to be traced.
-#[derive(Debug, Clone)]
-pub struct Scene {
-    /// Its name.
-    pub name: String,
-    /// Surfaces.
-    pub surfaces: Vec<Surface>,
-    /// Light sources.
-    pub lights: Vec<Light>,
-    /// The stones.
-    pub stones: Vec<PlacedStone>,
-    /// The view.
-    pub camera: Camera,
-    /// Most segments of a path from the eye to a light; none follows each to the end of its power.
-    pub depth: Option<u32>,
-    /// Whether the camera leaves the background out: what it sees directly of lights, of surfaces that
-    /// are backdrops, and of nothing at all is transparent. Stones mirror and refract all of it as ever.
-    pub cut_out: bool,
-}
+pub use scene_file::{SceneError, SceneFile, SceneOverrides};
+pub use stone_instance::PlacedStone;
+pub use surface::{Bsdf, Reflectance, Surface};
 
 /// Every scene: its name and its file.
 pub static SCENES: &[(&str, &str)] = &[
@@ -66,45 +51,8 @@ pub static SCENES: &[(&str, &str)] = &[
 
 /// The scene of the catalogue called `name`.
 pub fn preset(name: &str) -> Option<Result<SceneFile, SceneError>> {
-    let (name, text) = SCENES.iter().find(|(n, _)| typed::is_called(n, name))?;
+    let (name, text) = SCENES.iter().find(|(n, _)| parse::is_name(n, name))?;
     Some(SceneFile::parse(name, name, text, Path::new("")))
-}
-
-impl Scene {
-    /// Whether light can fall on a diffuse surface last from a stone or a mirror.
-    pub fn has_caustics(&self) -> bool {
-        let mirrors = self.surfaces.iter().filter(|s| matches!(s.finish, Finish::Mirror(_))).count();
-        mirrors < self.surfaces.len() && (mirrors > 0 || !self.stones.is_empty())
-    }
-
-    /// Whether light can go straight from one place of a diffuse surface to another: a plate alone
-    /// does not shine on itself.
-    pub fn has_indirect_light(&self) -> bool {
-        let mut diffuse = self.surfaces.iter().filter(|s| matches!(s.finish, Finish::Diffuse(_)));
-        match (diffuse.next(), diffuse.next()) {
-            (Some(one), None) => matches!(one.shape, surface::Shape::Mesh(_)),
-            (one, _) => one.is_some(),
-        }
-    }
-
-    /// Where photons are sent: at the stones, and at balls around each that double in width up to the
-    /// whole world. What lies within r of a stone sends it light as 1/r², so each of them matters about
-    /// as much as the next; without one, a photon that lands there by chance counts for very many.
-    ///
-    /// - `share`: of photons sent at any of them
-    pub fn aim(&self, share: f32) -> Aim {
-        let stones: Vec<Ball> = self.stones.iter().map(PlacedStone::ball).collect();
-        let corners = |b: &Ball| [b.centre - Vec3::splat(b.radius), b.centre + Vec3::splat(b.radius)];
-        let mut points: Vec<Vec3> = stones.iter().flat_map(corners).collect();
-        points.extend(self.surfaces.iter().flat_map(|s| <[Vec3; 2]>::from(s.bounds())));
-        let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-        let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-        let world = Ball { centre: 0.5 * (low + high), radius: 0.5 * low.distance(high) };
-        let wider =
-            |b: &Ball| Some(Ball { radius: 2.0 * b.radius, ..*b }).filter(|b| b.radius < world.radius);
-        let targets = stones.iter().flat_map(|b| std::iter::successors(Some(*b), wider)).collect();
-        Aim { share: if stones.is_empty() { 0.0 } else { share }, targets, world }
-    }
 }
 
 #[cfg(test)]
@@ -116,7 +64,7 @@ mod tests {
         for (name, _) in SCENES {
             let file = preset(name).expect("in the catalogue").expect(name);
             assert!(!file.about().is_empty(), "{name}");
-            match file.build(&Cast::default(), 1.0) {
+            match file.build(&SceneOverrides::default(), 1.0) {
                 Ok(scene) => assert!(!scene.lights.is_empty() && !scene.stones.is_empty(), "{name}"),
                 // the user's own panorama is not there
                 Err(error) => {
@@ -136,7 +84,7 @@ mod tests {
             (&*scalar, Some(true), true),
         ] {
             let file = SceneFile::parse("t", "t.toml", text, Path::new("")).expect("is sound");
-            let cast = Cast { polarisation: asked, ..Cast::default() };
+            let cast = SceneOverrides { polarisation: asked, ..SceneOverrides::default() };
             let scene = file.build(&cast, 1.0).expect("is set up");
             assert!(scene.stones.iter().all(|s| s.polarised == polarised));
         }
@@ -144,8 +92,9 @@ mod tests {
 
     #[test]
     fn only_a_plate_alone_does_not_shine_on_itself() {
-        let indirect =
-            |name| preset(name).expect("in the catalogue").expect("is sound").build(&Cast::default(), 1.0);
+        let indirect = |name| {
+            preset(name).expect("in the catalogue").expect("is sound").build(&SceneOverrides::default(), 1.0)
+        };
         assert!(!indirect("table").expect("is set up").has_indirect_light());
         assert!(indirect("cornell").expect("is set up").has_indirect_light());
     }
@@ -155,17 +104,17 @@ mod tests {
         let good = SCENES[0].1;
         let line = |text: &str| good.lines().position(|l| l.contains(text)).map(|i| i + 1).expect("is there");
         for (from, to, says) in [
-            ("kind = \"square\"", "kind = \"cube\"", "kind 'cube' is none of square, disc"),
+            ("kind = \"square\"", "kind = \"cube\"", "kind 'cube' is not one of square, disc"),
             ("unit = \"stone\"", "unit = \"furlong\"", "furlong"),
             ("reflectance = 0.45", "reflectance = 1.45", "between 0 and 1"),
             ("pose = \"lying\"", "pose = \"asleep\"", "table-up"),
             ("radiance = 2.4", "radiance = -1", "above 0"),
-            ("field = 34", "feild = 34", "unknown field"),
+            ("field = 34", "feild = 34", "'feild' is not known here"),
         ] {
             let text = good.replacen(from, to, 1);
             assert_ne!(text, good, "{from} is in the table's file");
             let error = SceneFile::parse("t", "t.toml", &text, Path::new(""))
-                .and_then(|f| f.build(&Cast::default(), 1.0))
+                .and_then(|f| f.build(&SceneOverrides::default(), 1.0))
                 .expect_err(to)
                 .to_string();
             let place = format!("t.toml, line {}:", line(from));

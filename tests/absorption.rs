@@ -1,22 +1,23 @@
-//! Absorption along the walk: energy, the `f64` twin, a plate's closed form, and what size does.
+//! Absorption along the tracer: energy, the `f64` twin, a plate's closed form, and what size does.
 
-use cutlab::cut::Design;
-use cutlab::experiments::{Medium, Traced, View};
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::math::sample;
+use cutlab::design::Design;
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::integrators::{self, PhotonMaps, Tone};
+use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
 use cutlab::optics::absorption::{Absorption, Band};
+use cutlab::optics::dispersion::lines;
 use cutlab::optics::fresnel::unpolarised;
 use cutlab::optics::stokes::Stokes;
-use cutlab::optics::{Material, dispersion::lines};
-use cutlab::photons::{self, Shots};
-use cutlab::render::{self, Maps, Tone};
-use cutlab::scene::{Cast, PlacedStone, Pose, Scene, preset};
-use cutlab::solid::{Plane, Polyhedron};
-use cutlab::study::score::{Effort, Plan, Subject, score};
-use cutlab::transport::Arrival;
-use cutlab::transport::crossing::{Entering, cross};
-use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
+use cutlab::photons::stone_scattering::{IncidentPhoton, scatter};
+use cutlab::photons::{self, PhotonSets};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::warps;
+use cutlab::scene::intersection::StoneHit;
+use cutlab::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
+use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, score};
+use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
@@ -24,20 +25,20 @@ const SEED: u64 = 29;
 const INDEX: f32 = 1.77;
 
 fn brilliant() -> Polyhedron {
-    let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+    let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
     design.solid().expect("closed")
 }
 
 /// A packet of vertical rays on the crown, every lane of another absorption, none in lane 0; and
 /// what each reflects.
-fn rain(stone: &Stone, stream: &mut Stream, polarised: bool) -> (Packet, [f32; LANES]) {
+fn rain(stone: &ConvexStone, stream: &mut Stream, polarised: bool) -> (Packet, [f32; LANES]) {
     let mut packet = Packet { absorbing: true, ..Packet::new(polarised) };
     let mut reflected = [0.0; LANES];
     for (lane, reflected) in reflected.iter_mut().enumerate() {
-        let target = (sample::disc(stream.pair()) * 0.9).extend(2.0);
-        let hit = stone.hit(target, Vec3::NEG_Z).expect("over the stone");
-        let entry = stone.enter(hit.facet, Vec3::NEG_Z, INDEX);
-        packet.enter(lane, target - Vec3::Z * hit.distance, &entry, INDEX);
+        let target = (warps::uniform_disc(stream.pair()) * 0.9).extend(2.0);
+        let hit = stone.intersect(target, Vec3::NEG_Z).expect("over the stone");
+        let entry = stone.refract_into(hit.facet, Vec3::NEG_Z, INDEX);
+        packet.load_refracted(lane, target - Vec3::Z * hit.distance, &entry, INDEX);
         packet.absorption[lane] = 0.3 * lane as f32;
         *reflected = entry.reflectance;
     }
@@ -48,13 +49,13 @@ fn rain(stone: &Stone, stream: &mut Stream, polarised: bool) -> (Packet, [f32; L
 #[test]
 fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
     for isa in Isa::all() {
-        let stone = Stone::with_isa(brilliant(), isa);
+        let stone = ConvexStone::with_isa(brilliant(), isa);
         let mut stream = Stream::new(SEED, Purpose::Test, 0);
         for polarised in [false, true] {
             for _ in 0..40 {
                 let (mut packet, reflected) = rain(&stone, &mut stream, polarised);
                 let (mut sums, mut absorbed) = (reflected.map(f64::from), [0f64; LANES]);
-                let lost = stone.walk(&mut packet, 1e-7, |m, _| {
+                let lost = stone.trace(&mut packet, 1e-7, |m, _| {
                     for l in 0..LANES {
                         sums[l] += f64::from(m.power[l]) + f64::from(m.absorbed[l]);
                         absorbed[l] += f64::from(m.absorbed[l]);
@@ -75,7 +76,7 @@ fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
 #[test]
 fn lanes_absorb_as_their_twin_does() {
     for isa in Isa::all() {
-        let stone = Stone::with_isa(brilliant(), isa);
+        let stone = ConvexStone::with_isa(brilliant(), isa);
         let planes = stone.kernel_planes();
         let mut stream = Stream::new(SEED, Purpose::Test, 1);
         let mut compared = 0;
@@ -83,7 +84,7 @@ fn lanes_absorb_as_their_twin_does() {
             let (mut packet, _) = rain(&stone, &mut stream, true);
             let start = packet.clone();
             let mut lanes: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); LANES];
-            stone.walk(&mut packet, 1e-9, |m, _| {
+            stone.trace(&mut packet, 1e-9, |m, _| {
                 (0..LANES).for_each(|l| {
                     lanes[l].push((m.facet[l] as usize, m.power[l].into(), m.absorbed[l].into()))
                 });
@@ -91,7 +92,7 @@ fn lanes_absorb_as_their_twin_does() {
             for (lane, seen) in lanes.iter().enumerate() {
                 let axis = Vec3::new(start.ax[lane], start.ay[lane], start.az[lane]).as_dvec3();
                 let power = f64::from(start.power[lane]);
-                let ray = scalar::Ray {
+                let ray = reference::ScalarRay {
                     point: start.point(lane).as_dvec3(),
                     direction: start.direction(lane).as_dvec3().normalize(),
                     power,
@@ -100,10 +101,10 @@ fn lanes_absorb_as_their_twin_does() {
                     stokes: Some(Stokes { q: start.q[lane].into(), ..Stokes::unpolarised(power, axis) }),
                 };
                 let (mut sum, mut together, mut tolerance) = (0.0, true, 2e-5);
-                let mut meetings = seen.iter();
-                sum += scalar::walk(&planes, ray, 1e-14, |m| {
+                let mut bounces = seen.iter();
+                sum += reference::trace(&planes, ray, 1e-14, |m| {
                     sum += m.power + m.absorbed;
-                    let Some((facet, left, absorbed)) = meetings.next().filter(|_| together) else { return };
+                    let Some((facet, left, absorbed)) = bounces.next().filter(|_| together) else { return };
                     together = *facet == m.facet;
                     if together {
                         compared += 1;
@@ -135,7 +136,7 @@ fn grey(per_mm: f64) -> Material {
         peak_per_mm: per_mm,
     };
     let absorption = Absorption { bands: Box::leak(Box::new([band])), about: "a test's", source: "given" };
-    Material { absorption: Some(absorption), ..Material::of_index(INDEX.into()) }
+    Material { absorption: Some(absorption), ..Material::from_index(INDEX.into()) }
 }
 
 /// [D] A plate looked at straight: with R at each face and x = exp(−aL) of one crossing,
@@ -143,18 +144,18 @@ fn grey(per_mm: f64) -> Material {
 #[test]
 fn a_plate_follows_its_closed_form() {
     let side = 3.0;
-    let stone = Stone::new(cube(side));
+    let stone = ConvexStone::new(cube(side));
     for per_mm in [0.01, 0.2, 1.0] {
         let material = grey(per_mm);
-        let view = View::new(&stone, &Medium { material: &material, polarised: true }).expect("lit");
-        let mut traced = Traced::new(view, SEED);
+        let view = View::new(&stone, &TraceOptics { material: &material, polarised: true }).expect("lit");
+        let mut traced = BatchedEstimate::new(view, SEED);
         traced.extend_to(64);
         let r = unpolarised(1.0, INDEX.into()).0;
         let x = (-per_mm * side).exp();
         let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
         let back = through * r * x;
         let share =
-            |of: fn(&cutlab::experiments::view::Tally) -> f64| traced.estimate(|t| of(t) / t.rays).value;
+            |of: fn(&cutlab::estimators::view::ViewTally) -> f64| traced.estimate(|t| of(t) / t.rays).value;
         assert!((share(|t| t.bands[3]) - through).abs() < 2e-4, "{per_mm}: {through}");
         assert!((share(|t| t.up()) - back).abs() < 2e-4, "{per_mm}: {back}");
         assert!((share(|t| t.absorbed) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
@@ -164,15 +165,15 @@ fn a_plate_follows_its_closed_form() {
 #[test]
 fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
     let scores = |material: &str, mm: f64| -> BTreeMap<&str, f64> {
-        let solid = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
-        let material = Material::named(material).expect("in the catalogue").clone();
-        let subject = Subject {
+        let solid = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let material = Material::by_name(material).expect("in the catalogue").clone();
+        let subject = ScoreInput {
             stone: "s".into(),
             material,
             shape: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed").into()),
             tilt: None,
         };
-        let plan = Plan { effort: Effort::Samples(1 << 14), seed: SEED, ..Plan::default() };
+        let plan = ScoreSettings { target: Target::Samples(1 << 14), seed: SEED, ..ScoreSettings::default() };
         let row = score(&subject, &plan);
         assert_eq!(row.error, None);
         METRICS.iter().zip(row.scores).filter_map(|(m, s)| Some((m.name, s?.value))).collect()
@@ -193,11 +194,11 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
 
 /// A scene with a stone of the given material, upright on the table.
 fn scene(design: Design, material: Material) -> Scene {
-    let cast = Cast {
+    let cast = SceneOverrides {
         designs: vec![design],
         material: Some(material),
         pose: Some(Pose::TableUp),
-        ..Cast::default()
+        ..SceneOverrides::default()
     };
     preset("table").expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
 }
@@ -206,15 +207,16 @@ fn scene(design: Design, material: Material) -> Scene {
 #[test]
 fn photons_through_a_plate_keep_what_it_does_not_absorb() {
     let (side, per_mm) = (3.0, 0.2);
-    let stone = Stone::new(cube(side));
+    let stone = ConvexStone::new(cube(side));
     let radius = stone.unit as f32;
-    let placed = PlacedStone::resting(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
+    let placed = PlacedStone::resting_on(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
     let mut stream = Stream::new(SEED, Purpose::Test, 2);
-    let top = placed.stone.hit(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
-    let arrival = Arrival { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };
-    let entering: Vec<Entering> =
-        (0..20_000).map(|_| Entering { arrival, nm: 589.0, choice: stream.unit64() }).collect();
-    let departures = cross(&placed, u32::MAX, &entering);
+    let top = placed.stone.intersect(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
+    let arrival =
+        StoneHit { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };
+    let entering: Vec<IncidentPhoton> =
+        (0..20_000).map(|_| IncidentPhoton { hit: arrival, nm: 589.0, choice: stream.unit64() }).collect();
+    let departures = scatter(&placed, u32::MAX, &entering);
     let r = unpolarised(1.0, INDEX.into()).0;
     let x = (-per_mm * side).exp();
     let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
@@ -230,16 +232,23 @@ fn photons_through_a_plate_keep_what_it_does_not_absorb() {
 #[test]
 fn pictures_show_the_colour_and_the_size() {
     let mean = |material: &str, mm: f64| -> Vec3 {
-        let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
         let scene = scene(
             design.sized(mm).expect("has a width"),
-            Material::named(material).expect("in the catalogue").clone(),
+            Material::by_name(material).expect("in the catalogue").clone(),
         );
-        let shots = Shots::shoot(&scene, &photons::Settings { photons: 2000, nearest: 50, seed: SEED });
-        let maps = Maps::new(&scene, shots, 50);
-        let settings =
-            render::Settings { width: 48, height: 48, rays: 16, round: 0, tone: Tone::default(), seed: SEED };
-        let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
+        let shots =
+            PhotonSets::emit(&scene, &photons::PhotonSettings { photons: 2000, nearest: 50, seed: SEED });
+        let maps = PhotonMaps::new(&scene, shots, 50);
+        let settings = integrators::RenderSettings {
+            width: 48,
+            height: 48,
+            samples_per_pixel: 16,
+            round: 0,
+            tone: Tone::default(),
+            seed: SEED,
+        };
+        let film = integrators::render(&scene, &scene.camera, &maps, &settings, &|| ());
         // the middle of the picture, which the stone fills
         let middle = (18..30).flat_map(|y| (18..30).map(move |x| y * 48 + x));
         let light = film.linear(None);

@@ -5,7 +5,7 @@ mod bench;
 mod room;
 
 use bench::Bench;
-use cutlab::render::write;
+use cutlab::integrators::image_io;
 use cutlab::scene::Scene;
 use glam::{Vec3, Vec4};
 use room::{ROOM, SMALL, built, taken};
@@ -35,10 +35,10 @@ fn a_stone_before_its_own_background_is_the_picture() {
     let whole = taken(&scene, 48);
     let cut = taken(&Scene { cut_out: true, ..scene }, 48);
     let (mut clear, mut partly, mut opaque) = (0, 0, 0);
-    let again = write::before(&cut, Vec3::splat(SKY));
+    let again = image_io::over_background(&cut, Vec3::splat(SKY));
     for ((a, b), c) in whole.pixels.iter().zip(&again).zip(&cut.pixels) {
         assert!(a.alpha > 0.9999);
-        assert!(luminance(a.shown - *b).abs() < 0.015, "{} {b} at coverage {}", a.shown, c.alpha);
+        assert!(luminance(a.display - *b).abs() < 0.015, "{} {b} at coverage {}", a.display, c.alpha);
         match c.alpha {
             0.0 => clear += 1,
             x if x > 0.999 => opaque += 1,
@@ -56,7 +56,7 @@ fn an_edge_has_the_colour_of_what_it_is_the_edge_of() {
     let scene = built(&before_a_sky("cube", "diamond", SKY)).expect("is sound");
     let film = taken(&Scene { cut_out: true, ..scene }, 48);
     let mut edges = 0;
-    for (pixel, straight) in film.pixels.iter().zip(write::cut_out(&film)) {
+    for (pixel, straight) in film.pixels.iter().zip(image_io::cut_out(&film)) {
         if pixel.alpha == 0.0 {
             assert_eq!(straight, Vec4::ZERO);
             continue;

@@ -1,15 +1,17 @@
-//! Exact beams: an independent tracer's figures, the sum of all light, photons, reciprocity.
+//! Exact beams: an independent tracer's figures, the sum of all light, photons.
 
-use cutlab::cut::{families, library};
-use cutlab::experiments::exact;
-use cutlab::experiments::separation;
-use cutlab::experiments::weigh::{Effort, Weighed, weigh};
-use cutlab::experiments::{Beam, Medium, Traced, View};
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::optics::Material;
-use cutlab::solid::{Plane, Polyhedron};
-use cutlab::walk::beams::{Beams, Exit, Light, Lit, Scalar, Totals, Until, Watch};
-use cutlab::walk::{Isa, Stone};
+use cutlab::design::{families, library};
+use cutlab::estimators::beam_view;
+use cutlab::estimators::colour_separation;
+use cutlab::estimators::weighted_exits::{BeamEffort, WeightedSums, integrate_exits};
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, View};
+use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::materials::Material;
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::trace::beams::{
+    BeamExit, BeamLight, BeamVisitor, Beams, EnergyBudget, IncidentBeam, StopCriteria, UnpolarisedLight,
+};
+use cutlab::trace::{ConvexStone, Isa};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 
@@ -30,18 +32,23 @@ fn brilliant(overrides: &[(&str, f64)]) -> Polyhedron {
 #[derive(Default)]
 struct Sums([f64; 3]);
 
-impl<L> Watch<L, 1> for Sums {
-    fn exit(&mut self, exit: &Exit<L, 1>) {
+impl<L> BeamVisitor<L, 1> for Sums {
+    fn exit(&mut self, exit: &BeamExit<L, 1>) {
         let z = exit.direction.z;
         self.0[usize::from(z <= 0.0)] += exit.power;
         self.0[2] += exit.power * z.max(0.0).powi(2);
     }
 }
 
-fn follow<L: Light>(stone: &Stone, direction: DVec3, light: L, until: Until) -> (Totals, [f64; 3]) {
+fn follow<L: BeamLight>(
+    stone: &ConvexStone,
+    direction: DVec3,
+    light: L,
+    until: StopCriteria,
+) -> (EnergyBudget, [f64; 3]) {
     let mut sums = Sums::default();
-    let lit = Lit { direction, indices: [DIAMOND] };
-    let totals = Beams::new(stone).follow(&lit, light, until, &mut sums);
+    let lit = IncidentBeam { direction, indices: [DIAMOND] };
+    let totals = Beams::new(stone).trace(&lit, light, until, &mut sums);
     (totals, sums.0)
 }
 
@@ -50,15 +57,15 @@ fn follow<L: Light>(stone: &Stone, direction: DVec3, light: L, until: Until) -> 
 /// alone; followed on, there are 439,441 beams and .001947 is not followed.
 #[test]
 fn the_figures_of_an_independent_tracer_come_out() {
-    let stone = Stone::new(brilliant(&[]));
+    let stone = ConvexStone::new(brilliant(&[]));
     assert_eq!(stone.facet_count(), 153);
     for (stop, expected) in [
         (1e-5, [11_025.0, 0.734823, 0.067648, 0.576448, 0.023181]),
         (1e-6, [87_049.0, 0.743030, 0.075199, 0.579620, 0.007424]),
         (1e-7, [436_465.0, 0.745918, 0.077765, 0.580646, 0.001969]),
     ] {
-        let until = Until { facets: 201, ..Until::power(stop) };
-        let (t, [up, down, cos2]) = follow(&stone, DVec3::NEG_Z, Scalar(1.0), until);
+        let until = StopCriteria { facets: 201, ..StopCriteria::at_power(stop) };
+        let (t, [up, down, cos2]) = follow(&stone, DVec3::NEG_Z, UnpolarisedLight(1.0), until);
         assert_eq!(t.beams as f64, expected[0], "beams at {stop}");
         for (got, expected) in [up, down, cos2, t.not_followed].iter().zip(&expected[1..]) {
             assert!((got - expected).abs() < 0.6e-6, "{got} for {expected} at {stop}");
@@ -66,19 +73,19 @@ fn the_figures_of_an_independent_tracer_come_out() {
         assert!((t.reflected - 0.17435).abs() < 0.6e-5, "{}", t.reflected);
         assert!((t.sum() - 1.0).abs() < 1e-9, "{}", t.sum());
     }
-    let (t, _) = follow(&stone, DVec3::NEG_Z, Scalar(1.0), Until::power(1e-7));
+    let (t, _) = follow(&stone, DVec3::NEG_Z, UnpolarisedLight(1.0), StopCriteria::at_power(1e-7));
     assert_eq!(t.beams, 439_441);
     assert!((t.not_followed - 0.001947).abs() < 0.6e-6, "{}", t.not_followed);
 }
 
-/// The limit of the same figures, by 262,144 quasi-random walks; their own error is some 1e-5.
+/// The limit of the same figures, by 262,144 quasi-random traces; their own error is some 1e-5.
 #[test]
 fn photons_finish_what_beams_leave_over() {
-    let stone = Stone::new(brilliant(&[]));
+    let stone = ConvexStone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
     for stop_power in [1e-4, 1e-5, 1e-6] {
-        let effort = Effort { until: Until::power(stop_power), photons: 32_768, seed: SEED };
-        let gaze = exact::gaze(&beams, DVec3::NEG_Z, DIAMOND, false, &effort).expect("lit");
+        let effort = BeamEffort { stop: StopCriteria::at_power(stop_power), photons: 32_768, seed: SEED };
+        let gaze = beam_view::beam_view(&beams, DVec3::NEG_Z, DIAMOND, false, &effort).expect("lit");
         for (got, limit) in
             [(gaze.reflected, 0.174347), (gaze.up, 0.74693), (gaze.up_cos2, 0.58104), (gaze.down, 0.07872)]
         {
@@ -122,7 +129,7 @@ fn hard_stones() -> Vec<(String, Polyhedron)> {
 #[test]
 fn no_light_is_clipped_away() {
     for (name, solid) in hard_stones() {
-        let stone = Stone::new(solid);
+        let stone = ConvexStone::new(solid);
         let mut stream = Stream::new(SEED, Purpose::Test, 0);
         let mut toward = || {
             let (z, phi) = (2.0 * stream.unit64() - 1.0, std::f64::consts::TAU * stream.unit64());
@@ -136,7 +143,7 @@ fn no_light_is_clipped_away() {
         directions.extend((0..8).map(|_| toward()));
         directions.extend([0, stone.facet_count() / 2].map(grazing));
         for direction in directions {
-            let (t, _) = follow(&stone, direction, Scalar(1.0), Until::power(1e-4));
+            let (t, _) = follow(&stone, direction, UnpolarisedLight(1.0), StopCriteria::at_power(1e-4));
             assert!((t.sum() - 1.0).abs() < 1e-9, "{name} along {direction}: {:e}", t.sum() - 1.0);
         }
     }
@@ -147,26 +154,27 @@ fn no_light_is_clipped_away() {
 fn a_turned_stone_in_turned_light_is_the_same() {
     let design = library::design("round-brilliant", &BTreeMap::new()).expect("there").expect("good");
     let turn = DMat3::from_rotation_z(0.3) * DMat3::from_rotation_x(0.4);
-    let plain = Stone::new(design.solid().expect("closed"));
-    let turned = Stone::new(design.turned(turn).solid().expect("closed"));
-    let (a, _) = follow(&turned, DVec3::NEG_Z, Scalar(1.0), Until::power(1e-5));
-    let (b, _) = follow(&plain, turn.transpose() * DVec3::NEG_Z, Scalar(1.0), Until::power(1e-5));
+    let plain = ConvexStone::new(design.solid().expect("closed"));
+    let turned = ConvexStone::new(design.turned(turn).solid().expect("closed"));
+    let (a, _) = follow(&turned, DVec3::NEG_Z, UnpolarisedLight(1.0), StopCriteria::at_power(1e-5));
+    let (b, _) =
+        follow(&plain, turn.transpose() * DVec3::NEG_Z, UnpolarisedLight(1.0), StopCriteria::at_power(1e-5));
     assert!(a.beams.abs_diff(b.beams) <= 2, "{} {}", a.beams, b.beams);
     assert!((a.reflected - b.reflected).abs() < 1e-12 && (a.exited - b.exited).abs() < 2e-5);
 }
 
-/// Beams against the view experiment, whose lanes know nothing of polygons: all cuts of the
+/// Beams against the view estimator, whose lanes know nothing of polygons: all cuts of the
 /// library, nearly face-up and tilted. Nearly: in a stone of cubic symmetry light that comes straight
 /// down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
 /// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron sends a tenth of its
 /// light out within 3e-5 of the horizon, four percent of that on the wrong side of it: up is off by
-/// 1 %; tests/walk/thin.rs).
+/// 1 %; tests/trace/hard_cases.rs).
 /// Of some thousand comparisons none may be off by more than five errors (of 64 batches, α = .005 for
 /// all together); of 144 views 2.2 are expected off by more than three: nine have a chance of .001.
 /// Measured once over the first 39 cuts, unpolarised, six seeds a view: 6 of 4164 comparisons and 5 of
 /// 702 views were; root mean square 0.898 errors, kurtosis 3.23: no bias, no heavy tail.
 fn beams_agree_with_photons(polarised: bool) {
-    let material = Material::named("diamond").expect("in the catalogue");
+    let material = Material::by_name("diamond").expect("in the catalogue");
     let (mut compared, mut beyond_three) = (0, 0);
     for name in library::names() {
         for tilt in [1.0f64, 10.0, 25.0] {
@@ -174,20 +182,22 @@ fn beams_agree_with_photons(polarised: bool) {
             // about an axis that no symmetry has
             let axis = DMat3::from_rotation_z(0.3) * DVec3::X;
             let turned = design.turned(DMat3::from_axis_angle(axis, tilt.to_radians()));
-            let stone = Stone::new(turned.solid().expect("closed"));
-            let mut view =
-                Traced::new(View::new(&stone, &Medium { material, polarised }).expect("lit"), SEED);
+            let stone = ConvexStone::new(turned.solid().expect("closed"));
+            let mut view = BatchedEstimate::new(
+                View::new(&stone, &TraceOptics { material, polarised }).expect("lit"),
+                SEED,
+            );
             view.extend_to(50_000);
-            let effort = Effort { seed: SEED, ..Effort::default() };
+            let effort = BeamEffort { seed: SEED, ..BeamEffort::default() };
             let (beams, index) = (Beams::new(&stone), material.index_d());
-            let gaze = exact::gaze(&beams, DVec3::NEG_Z, index, polarised, &effort).expect("lit");
+            let gaze = beam_view::beam_view(&beams, DVec3::NEG_Z, index, polarised, &effort).expect("lit");
             let mut pairs = vec![
                 (view.estimate(|t| t.reflected / t.rays), gaze.reflected),
                 (view.estimate(|t| t.up() / t.rays), gaze.up),
                 (view.estimate(|t| t.up_cos2 / t.rays), gaze.up_cos2),
             ];
             pairs.extend((0..4).map(|b| (view.estimate(|t| t.bands[b] / t.rays), gaze.bands[b])));
-            // photons are given up at 1e-4 of their power, and walk in f32
+            // photons are given up at 1e-4 of their power, and trace in f32
             let given_up = view.estimate(|t| t.lost / t.rays).value + 1e-6;
             let mut worst = 0.0f64;
             for (i, (photons, beams)) in pairs.into_iter().enumerate() {
@@ -222,10 +232,11 @@ fn polarised_beams_agree_with_polarised_photons_for_every_cut_face_up_and_tilted
 /// finish both kinds of light, so that the difference is of the whole.
 #[test]
 fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
-    let stone = Stone::new(brilliant(&[]));
+    let stone = ConvexStone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
-    let effort = Effort { until: Until::power(1e-6), photons: 32_768, seed: SEED };
-    let gaze = |polarised| exact::gaze(&beams, DVec3::NEG_Z, DIAMOND, polarised, &effort).expect("lit");
+    let effort = BeamEffort { stop: StopCriteria::at_power(1e-6), photons: 32_768, seed: SEED };
+    let gaze =
+        |polarised| beam_view::beam_view(&beams, DVec3::NEG_Z, DIAMOND, polarised, &effort).expect("lit");
     let (with, without) = (gaze(true), gaze(false));
     let change = with.up.value - without.up.value;
     println!("{change:+.6} ± {:.1e}", with.up.error.hypot(without.up.error));
@@ -240,10 +251,10 @@ fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
 fn all_instruction_sets_follow_the_same_beams() {
     let direction = DVec3::new(0.5, 0.2, -0.8).normalize();
     let stokes = cutlab::optics::stokes::Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
-    let until = Until::power(1e-5);
+    let until = StopCriteria::at_power(1e-5);
     let runs = Isa::all().into_iter().map(|isa| {
-        let stone = Stone::with_isa(brilliant(&[]), isa);
-        [follow(&stone, direction, Scalar(1.0), until), follow(&stone, direction, stokes, until)]
+        let stone = ConvexStone::with_isa(brilliant(&[]), isa);
+        [follow(&stone, direction, UnpolarisedLight(1.0), until), follow(&stone, direction, stokes, until)]
     });
     let runs: Vec<_> = runs.collect();
     for [scalar, polarised] in &runs {
@@ -262,13 +273,14 @@ fn all_instruction_sets_follow_the_same_beams() {
 /// the power threshold that leaves as much.
 #[test]
 fn beams_stop_when_little_enough_is_left() {
-    let stone = Stone::new(brilliant(&[]));
+    let stone = ConvexStone::new(brilliant(&[]));
     for direction in [DVec3::NEG_Z, DVec3::new(0.3, 0.1, -0.9).normalize()] {
-        let (t, _) = follow(&stone, direction, Scalar(1.0), Until::left(0.04));
+        let (t, _) = follow(&stone, direction, UnpolarisedLight(1.0), StopCriteria::at_residual(0.04));
         assert!(t.not_followed <= 0.04 && t.not_followed > 0.0395, "{}", t.not_followed);
         assert!((t.sum() - 1.0).abs() < 1e-9);
         let least = (1..400).map(|i| 1e-4 * 0.98f64.powi(i)).find_map(|stop| {
-            let (by_power, _) = follow(&stone, direction, Scalar(1.0), Until::power(stop));
+            let (by_power, _) =
+                follow(&stone, direction, UnpolarisedLight(1.0), StopCriteria::at_power(stop));
             (by_power.not_followed <= 0.04).then_some(by_power.beams)
         });
         let least = least.expect("some power") as f64;
@@ -279,25 +291,25 @@ fn beams_stop_when_little_enough_is_left() {
 /// Any weights: elevation bands as the gaze has them, reflection at entry, all light once.
 #[test]
 fn weights_of_a_caller_add_up_to_what_the_gaze_has() {
-    let stone = Stone::new(brilliant(&[]));
+    let stone = ConvexStone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
     let direction = DVec3::new(0.2, 0.1, -0.9).normalize();
-    let effort = Effort { seed: SEED, ..Effort::default() };
-    let lit = Lit { direction, indices: [DIAMOND] };
-    let gaze = exact::gaze(&beams, direction, DIAMOND, true, &effort).expect("lit");
-    let limits = exact::between([-90.0, 0.0, 45.0, 75.0]);
-    let bands = weigh(&beams, &lit, true, &effort, &limits).expect("lit");
+    let effort = BeamEffort { seed: SEED, ..BeamEffort::default() };
+    let lit = IncidentBeam { direction, indices: [DIAMOND] };
+    let gaze = beam_view::beam_view(&beams, direction, DIAMOND, true, &effort).expect("lit");
+    let limits = beam_view::between([-90.0, 0.0, 45.0, 75.0]);
+    let bands = integrate_exits(&beams, &lit, true, &effort, &limits).expect("lit");
     for (i, band) in [gaze.bands[3], gaze.bands[0], gaze.bands[1], gaze.bands[2]].iter().enumerate() {
         assert!((bands.sum(i).value - band.value).abs() < 1e-12, "{i}");
     }
     assert!((bands.glare.iter().sum::<f64>() - bands.reflected).abs() < 1e-12);
     // light from straight above that the table mirrors goes straight up
-    let flat = Lit { direction: DVec3::NEG_Z, indices: [DIAMOND] };
-    let up: Weighed<1> =
-        weigh(&beams, &flat, false, &effort, |l| [f64::from(l.up > 1.0 - 1e-12)]).expect("lit");
+    let flat = IncidentBeam { direction: DVec3::NEG_Z, indices: [DIAMOND] };
+    let up: WeightedSums<1> =
+        integrate_exits(&beams, &flat, false, &effort, |l| [f64::from(l.up > 1.0 - 1e-12)]).expect("lit");
     let table = beams.facets().planes.iter().position(|p| p.normal.z > 0.999).expect("a table");
-    let share =
-        beams.facets().area(table) / follow(&stone, DVec3::NEG_Z, Scalar(1.0), Until::power(1.0)).0.outline;
+    let share = beams.facets().area(table)
+        / follow(&stone, DVec3::NEG_Z, UnpolarisedLight(1.0), StopCriteria::at_power(1.0)).0.outline;
     let reflectance = ((DIAMOND - 1.0) / (DIAMOND + 1.0)).powi(2);
     assert!((up.glare[0] - share * reflectance).abs() < 1e-12, "{:?}", up.glare);
 }
@@ -305,8 +317,8 @@ fn weights_of_a_caller_add_up_to_what_the_gaze_has() {
 /// ASET areas by the strongest path (`physics.md` §4, ±.5 %).
 #[test]
 fn areas_of_the_strongest_path_are_those_of_the_reference() {
-    let stone = Stone::new(brilliant(&[]));
-    let shares = exact::strongest(&Beams::new(&stone), DVec3::NEG_Z, DIAMOND, false, 1e-7).expect("lit");
+    let stone = ConvexStone::new(brilliant(&[]));
+    let shares = beam_view::strongest(&Beams::new(&stone), DVec3::NEG_Z, DIAMOND, false, 1e-7).expect("lit");
     for (got, expected) in shares.bands.iter().zip([0.060, 0.667, 0.228, 0.045]) {
         assert!((got - expected).abs() < 0.005, "{shares:?}");
     }
@@ -314,7 +326,7 @@ fn areas_of_the_strongest_path_are_those_of_the_reference() {
     assert!(shares.undecided < 1e-3, "{shares:?}");
 }
 
-/// The mean angle between B and G against the beam experiment's photons, whose lanes are compared
+/// The mean angle between B and G against the beam estimator's photons, whose lanes are compared
 /// facet by facet.
 #[test]
 fn the_separation_of_colours_agrees_with_photons() {
@@ -323,77 +335,22 @@ fn the_separation_of_colours_agrees_with_photons() {
         ("diamond", &[("pavilion-angle", 43.0)]),
         ("moissanite", &[("girdle-facets", 16.0)]),
     ] {
-        let material = Material::named(material).expect("in the catalogue");
-        let stone = Stone::new(brilliant(overrides));
-        let medium = Medium { material, polarised: false };
-        let mut photons = Traced::new(Beam::new(&stone, &medium).expect("lit"), SEED);
+        let material = Material::by_name(material).expect("in the catalogue");
+        let stone = ConvexStone::new(brilliant(overrides));
+        let medium = TraceOptics { material, polarised: false };
+        let mut photons = BatchedEstimate::new(PointLight::new(&stone, &medium).expect("lit"), SEED);
         photons.extend_to(100_000);
         let photons = photons.estimate(|t| t.power_angle_deg / t.paired_power);
         for stop_power in [1e-4, 1e-5] {
-            let effort = Effort { until: Until::power(stop_power), seed: SEED, ..Effort::default() };
-            let beams = separation::separation(&Beams::new(&stone), DVec3::NEG_Z, &medium, &effort)
-                .expect("lit")
-                .angle_deg;
+            let effort =
+                BeamEffort { stop: StopCriteria::at_power(stop_power), seed: SEED, ..BeamEffort::default() };
+            let beams =
+                colour_separation::colour_separation(&Beams::new(&stone), DVec3::NEG_Z, &medium, &effort)
+                    .expect("lit")
+                    .angle_deg;
             let off = (photons.value - beams.value).abs();
             assert!(off < 3.5 * photons.error.hypot(beams.error), "{photons:?} {beams:?}");
             println!("{}: {photons:?} {beams:?}", material.name);
         }
     }
-}
-
-/// The strongest path that has met three facets or more, or the one that leaves in a given
-/// direction.
-#[derive(Default)]
-struct Found {
-    /// Where the light comes from, and where the path sought leaves.
-    lit: DVec3,
-    sought: Option<DVec3>,
-    meetings: u32,
-    leaves: DVec3,
-    power: f64,
-    light: f64,
-    /// Cross-sections outside, before it enters and after it leaves, as shares of the outline.
-    sections: [f64; 2],
-}
-
-impl Watch<Scalar, 1> for Found {
-    fn exit(&mut self, exit: &Exit<Scalar, 1>) {
-        let wanted = match self.sought {
-            Some(to) => exit.direction.distance(to) < 1e-9 && exit.meetings == self.meetings,
-            None => exit.meetings >= 3,
-        };
-        if wanted && exit.power > self.power {
-            let [frame] = exit.frames;
-            let [cos_out, cos_in] = [exit.direction, frame.direction].map(|d| d.dot(exit.normal));
-            // area on the entry facet over area across the light: outside, and inside
-            let outside = self.lit.dot(exit.entrance.plane.normal).abs().recip();
-            let inside = frame.across.cross(frame.along).length();
-            let leaving = exit.share * outside / inside * cos_out / cos_in;
-            (self.power, self.light, self.meetings) = (exit.power, exit.light.0, exit.meetings);
-            (self.leaves, self.sections) = (exit.direction, [exit.share, leaving]);
-        }
-    }
-}
-
-/// Light sent back along the strongest exit returns by the same facets: the same share of it, in a
-/// beam as wide as the one that left.
-#[test]
-fn light_sent_back_returns_by_the_same_way() {
-    let stone = Stone::new(brilliant(&[]));
-    let direction = DVec3::new(0.21, 0.13, -0.9).normalize();
-    let beams = Beams::new(&stone);
-    let run = |mut found: Found| {
-        let lit = Lit { direction: found.lit, indices: [DIAMOND] };
-        let totals = beams.follow(&lit, Scalar(1.0), Until::power(1e-5), &mut found);
-        (found, totals.outline)
-    };
-    let (there, outline_there) = run(Found { lit: direction, ..Found::default() });
-    let back =
-        Found { lit: -there.leaves, sought: Some(-direction), meetings: there.meetings, ..Found::default() };
-    let (back, outline_back) = run(back);
-    assert!(there.light > 0.0 && (back.light / there.light - 1.0).abs() < 1e-9);
-    let [enters, leaves] = there.sections.map(|s| s * outline_there);
-    let [enters_back, leaves_back] = back.sections.map(|s| s * outline_back);
-    assert!((enters / leaves_back - 1.0).abs() < 1e-9, "{enters} {leaves_back}");
-    assert!((leaves / enters_back - 1.0).abs() < 1e-9, "{leaves} {enters_back}");
 }

@@ -231,7 +231,7 @@ fn import_takes_folders_and_never_overwrites() {
     let outcomes: Vec<_> = (0..5).map(|i| rows[i]["outcome"].as_str().unwrap_or_default()).collect();
     assert_eq!(outcomes, ["written", "written", "failed", "written", "passed over"], "{rows}");
     assert!(
-        rows[2]["error"].as_str().is_some_and(|e| e.contains("in/bad.gem: text, no design or mesh")),
+        rows[2]["error"].as_str().is_some_and(|e| e.contains("in/bad.gem: text, not a design or mesh")),
         "{rows}"
     );
     assert!(bench.path("new/deep/b.asc").exists());

@@ -1,11 +1,13 @@
 //! Colour against published figures: whites, the spectral locus, sRGB, a chart's patches, gems.
 
-use cutlab::optics::colour::{self, adapted_srgb, chromaticity, matching, srgb_encode, srgb_matrix};
-use cutlab::optics::{Illuminant, Material};
+use cutlab::color::Illuminant;
+use cutlab::color::cie;
+use cutlab::color::cie::{adapted_srgb, chromaticity, matching, srgb_encode, srgb_matrix};
+use cutlab::materials::Material;
 use glam::Vec3;
 
 fn light(name: &str) -> &'static Illuminant {
-    Illuminant::named(name).expect("in the catalogue")
+    Illuminant::by_name(name).expect("in the catalogue")
 }
 
 fn assert_near(found: [f32; 2], published: [f32; 2], tolerance: f32, what: &str) {
@@ -135,7 +137,7 @@ fn a_colour_chart_comes_out_as_published() {
 #[test]
 fn gems_have_their_colours() {
     let colour = |name: &str, mm: f32| {
-        let material = Material::named(name).expect("in the catalogue");
+        let material = Material::by_name(name).expect("in the catalogue");
         light("D65").linear_srgb(|nm| (-mm * material.absorption_per_mm(f64::from(nm) / 1000.0) as f32).exp())
     };
     let ruby = colour("ruby", 5.0);
@@ -157,5 +159,5 @@ fn the_transfer_curve_meets_its_ends() {
     assert!((srgb_encode(1.0) - 1.0).abs() < 1e-6);
     // [P] IEC 61966-2-1: 18 % grey is 118 of 255
     assert_eq!((255.0 * srgb_encode(0.18)).round(), 118.0);
-    assert_eq!(colour::nodes().count(), 71);
+    assert_eq!(cie::nodes().count(), 71);
 }

@@ -4,9 +4,9 @@
 //! The corpus is in `$CUTLAB_CORPUS`, or in `../shared/corpus` beside the package; where there is
 //! none, the tests say so and pass.
 
-use cutlab::cut::Design;
-use cutlab::formats::{self, FORMATS, Format, Imported};
-use cutlab::solid::{Plane, Polyhedron};
+use cutlab::design::Design;
+use cutlab::formats::{self, FORMATS, Format, Loaded};
+use cutlab::geometry::{Plane, Polyhedron};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ fn corpus() -> Option<PathBuf> {
     Some(folder)
 }
 
-fn volume(stone: &Imported) -> f64 {
+fn volume(stone: &Loaded) -> f64 {
     stone.design.solid().expect("what is read is closed").volume()
 }
 
@@ -82,8 +82,8 @@ fn designs_have_the_volume_box_and_facets_known_for_them() {
                 continue;
             }
         };
-        let ending = k.file.rsplit('.').next().map(str::to_lowercase);
-        let wanted = FORMATS.iter().find(|f| ending.as_deref().is_some_and(|e| f.extensions.contains(&e)));
+        let extension = k.file.rsplit('.').next().map(str::to_lowercase);
+        let wanted = FORMATS.iter().find(|f| extension.as_deref().is_some_and(|e| f.extensions.contains(&e)));
         assert_eq!(Some(stone.format), wanted.map(|f| f.name), "{}", k.file);
         if !k.closed {
             wrong.push(format!("{}: known to be open, but was read", k.file));
@@ -122,29 +122,29 @@ fn meshes_have_the_volume_and_facets_of_the_designs_they_were_made_from() {
         let cells: Vec<_> = row.split('\t').collect();
         let (name, faces) = (cells[0], cells[3].parse::<usize>().expect("a count"));
         let known: f64 = cells[5].parse().expect("a volume");
-        for ending in [".obj", "_tri.obj", ".stl", "_ascii.stl", ".ply", "_le.ply"] {
-            let file = corpus.join("meshes").join(format!("{name}{ending}"));
+        for extension in [".obj", "_tri.obj", ".stl", "_ascii.stl", ".ply", "_le.ply"] {
+            let file = corpus.join("meshes").join(format!("{name}{extension}"));
             match formats::read(&file) {
                 Err(error) => wrong.push(error.to_string()),
                 Ok(stone) => {
                     let (volume, facets) = (volume(&stone), stone.design.facets().count());
                     println!(
-                        "{name}{ending}: {facets} facets of {faces}, volume off by {:.1e} {:?}",
+                        "{name}{extension}: {facets} facets of {faces}, volume off by {:.1e} {:?}",
                         volume / known - 1.0,
                         stone.warnings
                     );
                     read += 1;
                     if (volume / known - 1.0).abs() > 1e-6 {
-                        wrong.push(format!("{name}{ending}: volume {volume}, known {known}"));
+                        wrong.push(format!("{name}{extension}: volume {volume}, known {known}"));
                     }
                     if facets != faces {
-                        wrong.push(format!("{name}{ending}: {facets} facets, known {faces}"));
+                        wrong.push(format!("{name}{extension}: {facets} facets, known {faces}"));
                     }
                 }
             }
         }
     }
-    // an artist's diamond: its crown has dents of a fiftieth of its size
+    // an artist's diamond: its crown has concavities of a fiftieth of its size
     let dented = formats::read(&corpus.join("meshes/diamond.glb")).map(|i| i.design.facets().count());
     match dented {
         Err(error) if error.to_string().contains("not convex") => println!("refused: {error}"),
@@ -189,7 +189,7 @@ fn off(a: &Design, b: &Design, [this, that]: [&Polyhedron; 2]) -> f64 {
     let frame = |solid: &Polyhedron| (solid.volume_and_centre().1, solid.volume().cbrt());
     let ((middle, size), (other_middle, other_size)) = (frame(this), frame(that));
     let gap = |(p, q): (Plane, Plane)| {
-        let apart = p.height(middle) / size - q.height(other_middle) / other_size;
+        let apart = p.signed_distance(middle) / size - q.signed_distance(other_middle) / other_size;
         p.normal.distance(q.normal).max(apart.abs())
     };
     a.planes().into_iter().zip(b.planes()).map(gap).fold(0.0, f64::max)
@@ -203,7 +203,7 @@ fn surface_off(a: &Polyhedron, b: &[Plane], scale: f64) -> f64 {
     let size = 2.0 * a.bounding_sphere().1;
     let b: Vec<Plane> = b.iter().map(|p| p.scaled(scale.recip())).collect();
     let off = |face: usize| {
-        let apart = |p: &Plane| a.polygon(face).map(|v| p.height(v).abs()).fold(0.0, f64::max);
+        let apart = |p: &Plane| a.polygon(face).map(|v| p.signed_distance(v).abs()).fold(0.0, f64::max);
         b.iter().map(apart).fold(f64::INFINITY, f64::min)
     };
     (0..a.faces.len()).map(off).fold(0.0, f64::max) / size
@@ -274,8 +274,8 @@ fn real_designs_survive_being_written_and_read_back() {
 fn both_forms_of_a_gemcad_design_agree() {
     let Some(corpus) = corpus() else { return };
     for name in ["SRB", "Compear125", "CubeIllusionTri", "Turkey"] {
-        let read = |ending: &str| {
-            let path = corpus.join("pairs").join(name).with_extension(ending);
+        let read = |extension: &str| {
+            let path = corpus.join("pairs").join(name).with_extension(extension);
             formats::read(&path).unwrap_or_else(|e| panic!("{e}")).design
         };
         let (text, binary) = (read("asc"), read("gem"));
@@ -289,7 +289,8 @@ fn both_forms_of_a_gemcad_design_agree() {
         for (a, b) in text.tiers.iter().zip(&binary.tiers) {
             assert_eq!((&a.name, &a.instructions), (&b.name, &b.instructions));
             assert!(a.angle_deg.zip(b.angle_deg).is_some_and(|(a, b)| (a - b).abs() < 1e-6));
-            let names = |t: &cutlab::cut::Tier| t.facets.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
+            let names =
+                |t: &cutlab::design::Tier| t.facets.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
             assert_eq!(names(a), names(b), "{name}");
         }
     }

@@ -9,10 +9,10 @@
 mod brilliants;
 
 use brilliants::{SEED, plan, subject};
-use cutlab::cut::library;
-use cutlab::metrics::{METRICS, Metric, Reading, Statistic};
-use cutlab::optics::Material;
-use cutlab::study::score::{Effort, Plan, Subject, Tilt, score};
+use cutlab::design::library;
+use cutlab::materials::Material;
+use cutlab::metrics::{METRICS, Metric, MetricSource, Statistic};
+use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, Tilt, score};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ const LONG: u64 = 1 << 22;
 #[test]
 #[ignore = "two thousand runs, half a minute in release"]
 fn errors_cover_the_truth_as_often_as_they_say() {
-    let random = METRICS.iter().filter(|m| !matches!(m.reading, Reading::Solid(_)));
+    let random = METRICS.iter().filter(|m| !matches!(m.read_from, MetricSource::Solid(_)));
     // a clear stone absorbs nothing at all
     let (coloured, clear): (Vec<&str>, Vec<&str>) = random.map(|m| m.name).partition(|m| *m == "absorbed");
     let mut wrong = not_covered("quartz", &clear);
@@ -34,12 +34,12 @@ fn errors_cover_the_truth_as_often_as_they_say() {
 /// The metrics whose intervals hold the truth too rarely or too often, in a single cut.
 fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
     let design = library::design("single-cut", &BTreeMap::new()).expect("named").expect("builds");
-    let material = Material::named(material).expect("in the catalogue").clone();
+    let material = Material::by_name(material).expect("in the catalogue").clone();
     let tilt = Some(Tilt { degrees: 12.0, azimuth: 5.0 });
-    let subject = Subject { tilt, ..subject("single cut", &design, material) };
+    let subject = ScoreInput { tilt, ..subject("single cut", &design, material) };
     let plan = plan(names, SHORT);
     let run = |seed: u64, samples: u64| {
-        let row = score(&subject, &Plan { effort: Effort::Samples(samples), seed, ..plan.clone() });
+        let row = score(&subject, &ScoreSettings { target: Target::Samples(samples), seed, ..plan.clone() });
         assert_eq!(row.error, None);
         row.scores.into_iter().map(|s| s.expect("applies")).collect::<Vec<_>>()
     };
@@ -54,10 +54,10 @@ fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
         let (mean, error) = (mean / RUNS as f64, error / RUNS as f64);
         let bias = (mean - truth.value) / error;
         println!("{name:24} {:10.6} ± {error:.6}: {share:.4} covered, bias {bias:+.3} errors", truth.value);
-        let metric = Metric::named(name).expect("in the catalogue");
+        let metric = Metric::by_name(name).expect("in the catalogue");
         let longer_side = matches!(
-            metric.reading,
-            Reading::View(Statistic::Share(_)) | Reading::Beam(Statistic::Median(..))
+            metric.read_from,
+            MetricSource::View(Statistic::Share(_)) | MetricSource::PointLight(Statistic::Median(..))
         );
         if !(0.93..=if longer_side { 1.0 } else { 0.97 }).contains(&share) {
             wrong.push(format!("{name}: {share}"));

@@ -1,7 +1,7 @@
 //! Daylight against the figures of lighting engineers.
 
-use cutlab::optics::colour;
-use cutlab::optics::daylight::{ClearSky, SUN_RADIUS_DEG};
+use cutlab::color::cie;
+use cutlab::color::daylight::{ClearSky, SUN_RADIUS_DEG};
 use glam::Vec3;
 use std::f32::consts::PI;
 
@@ -41,7 +41,7 @@ fn illuminances_are_those_of_a_clear_day() {
 /// daylight's D65 (x = .3127), and hazier air makes the sun dimmer.
 #[test]
 fn colours_are_those_of_the_day() {
-    let x = |xyz: Vec3| colour::chromaticity(xyz)[0];
+    let x = |xyz: Vec3| cie::chromaticity(xyz)[0];
     let suns: Vec<f32> = [2.0, 10.0, 30.0, 80.0].map(|h| x(ClearSky::new(h, 0.0, 3.0).sun())).into();
     assert!(suns.windows(2).all(|pair| pair[0] > pair[1]), "{suns:?}");
     assert!(suns[0] > 0.45 && (0.325..0.36).contains(&suns[3]), "{suns:?}");

@@ -1,9 +1,9 @@
 //! Depth of field: the circle of confusion is that of a thin lens, a plane in focus stays sharp, and
 //! what a lens cannot be is said.
 
-use cutlab::photons::{Settings, Shots};
-use cutlab::render::{self, Maps, Tone};
-use cutlab::scene::{Cast, Scene, SceneFile};
+use cutlab::integrators::{self, PhotonMaps, Tone};
+use cutlab::photons::{PhotonSets, PhotonSettings};
+use cutlab::scene::{Scene, SceneFile, SceneOverrides};
 use std::path::Path;
 
 /// Pixels across, and down.
@@ -16,16 +16,24 @@ fn scene(lens: &str, light: &str) -> Result<Scene, String> {
          [[stone]]\nsize = 6\nat = [0, 0, 500]\n[[light]]\nradiance = 1\n{light}\n"
     );
     let file = SceneFile::parse("lens", "lens.toml", &text, Path::new("")).map_err(|e| e.to_string())?;
-    file.build(&Cast::default(), 1.0).map_err(|e| e.to_string())
+    file.build(&SceneOverrides::default(), 1.0).map_err(|e| e.to_string())
 }
 
 /// Luminance of each pixel.
 fn picture(lens: &str, light: &str) -> Vec<f64> {
     let scene = scene(lens, light).expect("a sound scene");
     let tone = Tone::default();
-    let settings = render::Settings { width: SIDE, height: SIDE, rays: 256, round: 0, tone, seed: 5 };
-    let shots = Shots::shoot(&scene, &Settings { photons: 1, nearest: 1, seed: 5 });
-    let film = render::render(&scene, &scene.camera, &Maps::new(&scene, shots, 1), &settings, &|| ());
+    let settings = integrators::RenderSettings {
+        width: SIDE,
+        height: SIDE,
+        samples_per_pixel: 256,
+        round: 0,
+        tone,
+        seed: 5,
+    };
+    let shots = PhotonSets::emit(&scene, &PhotonSettings { photons: 1, nearest: 1, seed: 5 });
+    let film =
+        integrators::render(&scene, &scene.camera, &PhotonMaps::new(&scene, shots, 1), &settings, &|| ());
     film.linear(None).iter().map(|p| f64::from(p.y)).collect()
 }
 

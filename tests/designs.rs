@@ -1,20 +1,21 @@
 //! Design files: what GemCad's two forms and Gem Cut Studio's keep of a design, in both directions.
 
-use cutlab::cut::{Design, Facet, Gear, Tier};
-use cutlab::formats::{self, Imported, stone};
-use cutlab::solid::Plane;
+use cutlab::design::{Design, Facet, Gear, Tier};
+use cutlab::formats::{self, Loaded};
+use cutlab::geometry::Plane;
+use cutlab::stone_spec;
 use glam::DVec3;
 use std::path::Path;
 
 /// The formats that hold tiers.
 const DESIGN_FORMATS: [&str; 4] = ["cutlab", "gemcad", "gemcad-binary", "gem-cut-studio"];
 
-fn good(name: &str) -> Imported {
+fn good(name: &str) -> Loaded {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good").join(name);
     formats::read(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn back(design: &Design, format: &str) -> Imported {
+fn back(design: &Design, format: &str) -> Loaded {
     let bytes = formats::encode(design, format).unwrap_or_else(|e| panic!("{e}"));
     formats::read_bytes("back", &bytes, None).unwrap_or_else(|e| panic!("{format}: {e}"))
 }
@@ -29,7 +30,8 @@ fn off(a: &Design, b: &Design) -> f64 {
     };
     let ((middle, size), (other_middle, other_size)) = (frame(a), frame(b));
     let gap = |(p, q): (&Facet, &Facet)| {
-        let apart = p.plane.height(middle) / size - q.plane.height(other_middle) / other_size;
+        let apart =
+            p.plane.signed_distance(middle) / size - q.plane.signed_distance(other_middle) / other_size;
         p.plane.normal.distance(q.plane.normal).max(apart.abs())
     };
     a.facets().zip(b.facets()).map(gap).fold(0.0, f64::max)
@@ -110,7 +112,7 @@ fn tiers_names_and_texts_survive_in_every_design_format() {
         for f in &mut tier.facets {
             f.index = f.index.map(|i| i - 0.5);
             f.plane.normal =
-                cutlab::cut::design::facet_normal(design.gear, angle, f.index.expect("an index"));
+                cutlab::design::tiers::facet_normal(design.gear, angle, f.index.expect("an index"));
         }
     }
     design.tiers[1].instructions = "Cut to a point. ".repeat(60).trim().into();
@@ -142,7 +144,7 @@ fn tiers_names_and_texts_survive_in_every_design_format() {
 
 #[test]
 fn gemcad_text_is_written_as_gemcad_reads_it() {
-    let mut design = stone::open("round-brilliant").expect("a library cut").design;
+    let mut design = stone_spec::open("round-brilliant").expect("a library cut").design;
     design.headers = (1..=6).map(|i| format!("header {i}")).collect();
     design.tiers[0].instructions = "a word ".repeat(120);
     for tier in &mut design.tiers {
@@ -183,7 +185,7 @@ fn a_mesh_gets_angles_and_indices_from_its_normals() {
 
 #[test]
 fn a_design_whose_origin_lies_outside_is_moved_for_gemcad() {
-    let mut design = stone::open("octahedron").expect("a library cut").design;
+    let mut design = stone_spec::open("octahedron").expect("a library cut").design;
     let before = shape(&design);
     for f in design.tiers.iter_mut().flat_map(|t| &mut t.facets) {
         f.plane = f.plane.moved(DVec3::new(0.0, 0.0, 100.0));
@@ -197,12 +199,12 @@ fn a_design_whose_origin_lies_outside_is_moved_for_gemcad() {
 
 #[test]
 fn table_and_culet_at_any_distance_keep_their_sides() {
-    let mut design = Design::named("box");
+    let mut design = Design::new("box");
     let gear = Gear::default();
     design.tiers = vec![
-        Tier::cut("G", gear, -90.0, 1.0, &[96.0, 24.0, 48.0, 72.0]),
-        Tier::cut("C", gear, -0.0, 0.5, &[96.0]),
-        Tier::cut("T", gear, 0.0, 0.0, &[96.0]),
+        Tier::new("G", gear, -90.0, 1.0, &[96.0, 24.0, 48.0, 72.0]),
+        Tier::new("C", gear, -0.0, 0.5, &[96.0]),
+        Tier::new("T", gear, 0.0, 0.0, &[96.0]),
     ];
     for format in DESIGN_FORMATS {
         let other = back(&design, format).design;

@@ -1,6 +1,6 @@
 //! The cutting diagram: one page, black on white, every facet once, names inside their facets.
 
-use cutlab::cut::{Design, Gear, Tier, Zone, library};
+use cutlab::design::{Design, Gear, Tier, Zone, library};
 use cutlab::formats;
 use cutlab::report::diagram::Paper;
 use cutlab::report::raster::text_width;
@@ -92,7 +92,7 @@ fn check_on(paper: Paper, name: &str, design: &Design) {
 
     // every facet once: in the crown, in the pavilion, or on the girdle
     let zones: Vec<Zone> =
-        (0..solid.faces.len()).map(|f| Zone::of(solid.area_vector(f).normalize_or_zero())).collect();
+        (0..solid.faces.len()).map(|f| Zone::from_normal(solid.area_vector(f).normalize_or_zero())).collect();
     let facets = |view: &str| {
         let node = by_id(&svg, &format!("{view}-facets"));
         node.map_or_else(Vec::new, |n| polygons(n.attribute("d").expect("data")))
@@ -200,13 +200,13 @@ fn a_girdle_of_96_is_listed_as_a_range() {
 
 /// A ball of `n` facets, each a tier of its own.
 fn ball(n: usize) -> Design {
-    let mut design = Design::named("ball <&> \u{1}");
+    let mut design = Design::new("ball <&> \u{1}");
     for i in 0..n {
         let z = 1.0 - (2.0 * i as f64 + 1.0) / n as f64;
         let index = (i as f64 * 0.381_966).fract() * 96.0;
         let angle = if z < 0.0 { -z.abs().acos().to_degrees() } else { z.acos().to_degrees() };
         let name = format!("a tier with a long name, number {i}");
-        design.tiers.push(Tier::cut(&name, Gear::default(), angle, 1.0, &[index]));
+        design.tiers.push(Tier::new(&name, Gear::default(), angle, 1.0, &[index]));
     }
     design
 }
@@ -226,7 +226,7 @@ fn forty_tiers_fit_and_of_more_than_fit_it_says_how_many_are_missing() {
 #[test]
 fn a_mesh_is_drawn_with_measured_angles_and_indices() {
     let cut = cut("classic");
-    let mesh = Design::of_facets("mesh", cut.facets().map(|f| (f.name.clone(), f.plane)));
+    let mesh = Design::from_facets("mesh", cut.facets().map(|f| (f.name.clone(), f.plane)));
     check("mesh", &mesh);
     let said = said(&mesh);
     for text in

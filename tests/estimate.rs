@@ -1,14 +1,14 @@
 //! The irradiance of a photon map holds the power of its photons: in even light, in all rings about a
 //! stone, in the dark, however few they are.
 
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::optics::Material;
-use cutlab::optics::colour::BANDS;
+use cutlab::color::cie::BANDS;
+use cutlab::integrators::{self, Film, Pass, PhotonMaps, Tone};
+use cutlab::materials::Material;
 use cutlab::photons::map::PhotonMap;
-use cutlab::photons::{Photon, Settings, Shot, Shots};
-use cutlab::render::{self, Film, Maps, Pass, Tone};
-use cutlab::scene::{Cast, Scene, SceneFile, preset};
-use cutlab::transport::SurfacePoint;
+use cutlab::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::scene::intersection::SurfacePoint;
+use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 use std::path::Path;
@@ -24,7 +24,7 @@ fn plate() -> Scene {
         light = [{ kind = "sphere", at = [0, 0, 5], radius = 0.1, radiance = 1 }]
     "#;
     let file = SceneFile::parse("plate", "plate.toml", text, Path::new("")).expect("is sound");
-    file.build(&Cast::default(), 1.0).expect("is set up")
+    file.build(&SceneOverrides::default(), 1.0).expect("is set up")
 }
 
 /// A place on the front of the plate.
@@ -33,14 +33,14 @@ fn on_plate(x: f32, y: f32) -> SurfacePoint {
 }
 
 /// Photons at random places of the plate, of powers from 0 to 2, that make an irradiance of 1.
-fn even_light(n: usize) -> Shot {
+fn even_light(n: usize) -> PhotonSet {
     let mut stream = Stream::new(SEED, Purpose::Test, 0);
     let mut photon = || {
         let [x, y] = stream.pair().map(|u| 2.0 * u - 1.0);
         let power = 2.0 * stream.unit() * 4.0 / n as f32;
-        Photon::new(&on_plate(x, y), &[power; BANDS])
+        StoredPhoton::new(&on_plate(x, y), &[power; BANDS])
     };
-    Shot { photons: (0..n).map(|_| photon()).collect(), emitted: n as u64 }
+    PhotonSet { photons: (0..n).map(|_| photon()).collect(), emitted: n as u64 }
 }
 
 /// [D] Even light is as bright on average as it is, also where estimates gather a handful of photons
@@ -88,16 +88,16 @@ fn few_photons() {
 const RINGS: [(f32, f32); 6] = [(1.3, 2.0), (2.0, 3.0), (3.0, 5.0), (5.0, 8.0), (8.0, 14.0), (14.0, 20.0)];
 
 /// The table with a stone, and the caustic photons on it.
-fn table(material: &str, photons: usize) -> (Scene, Shot) {
-    let cast = Cast { material: Material::named(material).cloned(), ..Cast::default() };
+fn table(material: &str, photons: usize) -> (Scene, PhotonSet) {
+    let cast = SceneOverrides { material: Material::by_name(material).cloned(), ..SceneOverrides::default() };
     let file = preset("table").expect("in the catalogue").expect("is sound");
     let scene = file.build(&cast, 1.0).expect("is set up");
-    let shot = Shots::shoot(&scene, &Settings { photons, nearest: 500, seed: SEED }).caustic;
+    let shot = PhotonSets::emit(&scene, &PhotonSettings { photons, nearest: 500, seed: SEED }).caustic;
     (scene, shot)
 }
 
 /// What a map shows on rings and over the whole table.
-fn seen(scene: &Scene, shot: &Shot, nearest: usize) -> [f64; 7] {
+fn seen(scene: &Scene, shot: &PhotonSet, nearest: usize) -> [f64; 7] {
     let unit = scene.stones[0].radius;
     let foot = scene.stones[0].position.truncate();
     let map = PhotonMap::new(scene, shot.clone(), nearest);
@@ -144,7 +144,7 @@ fn light_is_where_its_photons_are() {
 }
 
 /// Power and number of photons where they fell, by rings and over all.
-fn fallen(scene: &Scene, shot: &Shot) -> [(f64, u32); 7] {
+fn fallen(scene: &Scene, shot: &PhotonSet) -> [(f64, u32); 7] {
     let unit = scene.stones[0].radius;
     let foot = scene.stones[0].position.truncate();
     let mut sums = [(0.0, 0); 7];
@@ -161,7 +161,7 @@ fn mean(bands: &[f32; BANDS]) -> f64 {
     bands.iter().map(|e| f64::from(*e)).sum::<f64>() / BANDS as f64
 }
 
-fn power(photon: &Photon) -> f64 {
+fn power(photon: &StoredPhoton) -> f64 {
     mean(&std::array::from_fn(|b| photon.in_band(b)))
 }
 
@@ -189,7 +189,7 @@ fn between_lamps(stone: bool) -> Scene {
         colour = [0.1, 0.3, 1]
     "#;
     let file = SceneFile::parse("lamps", "lamps.toml", text, Path::new("")).expect("is sound");
-    let cast = Cast { material: Some(Material::of_index(1.0)), ..Cast::default() };
+    let cast = SceneOverrides { material: Some(Material::from_index(1.0)), ..SceneOverrides::default() };
     let mut scene = file.build(&cast, 1.0).expect("is set up");
     if !stone {
         scene.stones.clear();
@@ -197,11 +197,17 @@ fn between_lamps(stone: bool) -> Scene {
     scene
 }
 
-fn picture(scene: &Scene, shots: Shots, nearest: usize) -> Film {
-    let maps = Maps::new(scene, shots, nearest);
-    let settings =
-        render::Settings { width: 60, height: 60, rays: 4, round: 0, tone: Tone::default(), seed: SEED };
-    render::render(scene, &scene.camera, &maps, &settings, &|| ())
+fn picture(scene: &Scene, shots: PhotonSets, nearest: usize) -> Film {
+    let maps = PhotonMaps::new(scene, shots, nearest);
+    let settings = integrators::RenderSettings {
+        width: 60,
+        height: 60,
+        samples_per_pixel: 4,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    };
+    integrators::render(scene, &scene.camera, &maps, &settings, &|| ())
 }
 
 /// [D] Air leaves no trace: the picture has the light of the table alone, and no place far from the shadow
@@ -209,10 +215,10 @@ fn picture(scene: &Scene, shots: Shots, nearest: usize) -> Film {
 #[test]
 fn a_stone_of_air_leaves_no_trace() {
     let (with, without) = (between_lamps(true), between_lamps(false));
-    let settings = Settings { photons: 100_000, nearest: 500, seed: SEED };
-    let shown = picture(&with, Shots::shoot(&with, &settings), 500);
+    let settings = PhotonSettings { photons: 100_000, nearest: 500, seed: SEED };
+    let shown = picture(&with, PhotonSets::emit(&with, &settings), 500);
     let caustic = shown.linear(Some(Pass::Caustic));
-    let (shown, bare) = (shown.linear(None), picture(&without, Shots::shoot(&without, &settings), 500));
+    let (shown, bare) = (shown.linear(None), picture(&without, PhotonSets::emit(&without, &settings), 500));
     let bare = bare.linear(None);
     let sum = |film: &[Vec3]| film.iter().copied().sum::<Vec3>();
     let whole = sum(&shown) / sum(&bare);

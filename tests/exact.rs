@@ -4,9 +4,9 @@ mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
 use cutlab::formats;
-use cutlab::metrics::{METRICS, Metric, Reading};
-use cutlab::optics::Material;
-use cutlab::study::score::{Effort, Plan, Shape, Subject, Tilt, score};
+use cutlab::materials::Material;
+use cutlab::metrics::{METRICS, Metric, MetricSource};
+use cutlab::scoring::score::{ScoreInput, ScoreSettings, StoneShape, Target, Tilt, score};
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
 #[test]
@@ -16,9 +16,9 @@ fn beams_agree_with_photons() {
     for (stone, tilt, polarised) in
         [("reference", None, true), ("nailhead", Some(Tilt { degrees: 12.0, azimuth: 20.0 }), false)]
     {
-        let subject = Subject { tilt, ..subject(stone, &named(stone), diamond()) };
-        let random = Plan { polarised, ..plan(&names, 1 << 18) };
-        let exact = Plan { exact: true, effort: Effort::Samples(1 << 16), ..random.clone() };
+        let subject = ScoreInput { tilt, ..subject(stone, &named(stone), diamond()) };
+        let random = ScoreSettings { polarised, ..plan(&names, 1 << 18) };
+        let exact = ScoreSettings { exact: true, target: Target::Samples(1 << 16), ..random.clone() };
         let [a, b] = [random, exact].map(|plan| score(&subject, &plan));
         assert_eq!((a.error, b.error), (None, None));
         for ((name, a), b) in names.iter().zip(a.scores).zip(b.scores) {
@@ -28,10 +28,10 @@ fn beams_agree_with_photons() {
                 a.value, a.error, b.value, b.error
             );
             // beyond the errors: what the lanes give up, and the beams' undecided points
-            let metric = Metric::named(name).expect("in the catalogue");
+            let metric = Metric::by_name(name).expect("in the catalogue");
             let slack = 5e-5 * metric.scale;
             assert!((a.value - b.value).abs() < 4.2 * a.error.hypot(b.error) + slack, "{stone} {name}");
-            let faceters = matches!(metric.reading, Reading::Iso(_));
+            let faceters = matches!(metric.read_from, MetricSource::FaceterView(_));
             // a clear stone absorbs nothing
             let closed = name.ends_with("strongest") || faceters || ["windowing", "absorbed"].contains(name);
             assert_eq!(b.error == 0.0, closed, "{name}: {b:?}");
@@ -43,7 +43,7 @@ fn beams_agree_with_photons() {
 #[test]
 fn exact_scores_reach_an_error_too() {
     let asked = plan(&["aset_red", "wlr", "brightness"], 0);
-    let plan = Plan { exact: true, effort: Effort::Error(0.002), ..asked };
+    let plan = ScoreSettings { exact: true, target: Target::Error(0.002), ..asked };
     let row = score(&subject("reference", &named("reference"), diamond()), &plan);
     assert_eq!(row.error, None);
     for e in row.scores {
@@ -55,18 +55,19 @@ fn exact_scores_reach_an_error_too() {
 /// Where photons take the place of the beams that were asked for, the row says so and why.
 #[test]
 fn photons_in_place_of_beams_are_told() {
-    let asked = |metrics: &[&str]| Plan { exact: true, ..plan(metrics, 256) };
+    let asked = |metrics: &[&str]| ScoreSettings { exact: true, ..plan(metrics, 256) };
     let row = |material: Material, metrics: &[&str]| {
         let subject = subject("reference", &named("reference"), material);
         score(&subject, &asked(metrics))
     };
     // light stays in a stone of n = 10 for thousands of facets, and divides at each
-    let deep = row(Material::of_index(10.0), &["aset_red_strongest"]);
+    let deep = row(Material::from_index(10.0), &["aset_red_strongest"]);
     assert!(deep.note.is_some_and(|said| said.starts_with("too many beams")), "{deep:?}");
+    assert!(deep.left_out.is_empty(), "what photons gave is not left out: {deep:?}");
     assert!(deep.scores[0].is_some_and(|e| e.error > 0.0), "photons have an error: {deep:?}");
-    let shares = row(Material::of_index(10.0), &["aset_red"]);
+    let shares = row(Material::from_index(10.0), &["aset_red"]);
     assert_eq!((shares.note, shares.error), (None, None), "no beam's own path is needed");
-    let ruby = Material::named("ruby").expect("in the catalogue");
+    let ruby = Material::by_name("ruby").expect("in the catalogue");
     let coloured = row(ruby.clone(), &["aset_red", "spread"]);
     assert!(coloured.note.is_some_and(|said| said.contains("do not follow absorption")), "{coloured:?}");
     assert_eq!(row(ruby.clone(), &["contrast", "spread"]).note, None, "beams give none of these");
@@ -76,11 +77,11 @@ fn photons_in_place_of_beams_are_told() {
     let mesh = corners.iter().map(|v| format!("v {} {} {}\n", v[0], v[1], v[2])).collect::<String>()
         + &faces.iter().map(|f| format!("f {f}\n")).collect::<String>();
     let error = formats::read_bytes("dented.obj", mesh.as_bytes(), None).expect_err("has a dent");
-    let body = error.body().expect("it is closed").1.clone();
-    let subject = Subject {
+    let body = error.closed_mesh().expect("it is closed").1.clone();
+    let subject = ScoreInput {
         stone: "dented".into(),
         material: diamond(),
-        shape: Ok(Shape::Dented(Box::new(body))),
+        shape: Ok(StoneShape::Nonconvex(Box::new(body))),
         tilt: None,
     };
     let row = score(&subject, &asked(&["light_return"]));

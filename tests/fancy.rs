@@ -1,7 +1,7 @@
 //! Fancy brilliants against the round one: a round outline gives it back, an ellipse its affine
 //! image; step cuts against hand-derived heights.
 
-use cutlab::cut::{Design, families, proportions};
+use cutlab::design::{Design, families, proportions};
 use std::collections::BTreeMap;
 
 fn built(family: &str, values: &[(&str, f64)]) -> Design {
@@ -23,8 +23,9 @@ fn a_round_outline_gives_the_round_brilliant() {
         let fancy = built(family, &values);
         assert_eq!(fancy.facets().count(), 153, "{family}");
         for p in fancy.planes() {
-            let off =
-                |q: &cutlab::solid::Plane| (p.normal - q.normal).length() + (p.distance - q.distance).abs();
+            let off = |q: &cutlab::geometry::Plane| {
+                (p.normal - q.normal).length() + (p.distance - q.distance).abs()
+            };
             let nearest = round.planes().iter().map(off).fold(f64::INFINITY, f64::min);
             assert!(nearest < 1e-9, "{family}: {p:?} is off by {nearest:e}");
         }
@@ -57,7 +58,7 @@ fn steps_have_the_heights_of_their_angles() {
             ("pavilion-spread", 15.0),
         ],
     );
-    let p = proportions::of(&stone).expect("closed");
+    let p = proportions::of_design(&stone).expect("closed");
     let tan = |deg: f64| deg.to_radians().tan();
     // the table takes 60 %: 20 % of the width a side in two steps of 45° and 35°
     assert!((p.crown_height_percent - 10.0 * (tan(45.0) + tan(35.0))).abs() < 1e-9);
@@ -65,6 +66,6 @@ fn steps_have_the_heights_of_their_angles() {
     assert!((p.pavilion_depth_percent - 25.0 * (tan(55.0) + tan(40.0))).abs() < 1e-9);
     assert!((p.girdle_percent - 3.0).abs() < 1e-9 && (p.table_percent.expect("a table") - 60.0).abs() < 1e-9);
     // a rectangle of 1 × 1.5 less four corners of .15
-    let outline = cutlab::solid::measure::polygon_area(&stone.solid().expect("closed").outline());
+    let outline = cutlab::geometry::measure::polygon_area(&stone.solid().expect("closed").outline());
     assert!((outline / p.width.powi(2) - (1.5 - 2.0 * 0.15 * 0.15)).abs() < 1e-9);
 }

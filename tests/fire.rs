@@ -3,13 +3,13 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::cut::library;
-use cutlab::experiments::beam::Needs;
-use cutlab::experiments::weigh::Effort;
-use cutlab::experiments::{Aspect, Beam, Medium, Traced, fire};
-use cutlab::math::stats::jackknife;
-use cutlab::walk::Stone;
-use cutlab::walk::beams::Beams;
+use cutlab::design::library;
+use cutlab::estimators::point_light::PointLightNeeds;
+use cutlab::estimators::weighted_exits::BeamEffort;
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, ViewFrame, fire};
+use cutlab::sampling::stats::jackknife;
+use cutlab::trace::ConvexStone;
+use cutlab::trace::beams::Beams;
 
 /// Streaks and lit area of three stones, with and without polarisation, upright and tilted, by both:
 /// 4 errors.
@@ -18,16 +18,18 @@ fn beams_and_photons_agree_on_fire() {
     let material = diamond();
     let princess = library::design("princess", &Default::default()).expect("in the library").expect("solved");
     for (design, polarised, aspect) in [
-        (named("reference"), true, Aspect::FACE_UP),
-        (named("nailhead"), false, Aspect::tilted(9.0, 20.0)),
-        (princess, true, Aspect::FACE_UP),
+        (named("reference"), true, ViewFrame::FACE_UP),
+        (named("nailhead"), false, ViewFrame::tilted(9.0, 20.0)),
+        (princess, true, ViewFrame::FACE_UP),
     ] {
-        let stone = Stone::new(design.solid().expect("closed"));
-        let medium = Medium { material: &material, polarised };
-        let mut photons = Traced::new(Beam::seen_from(&stone, &medium, aspect).expect("lit"), SEED);
+        let stone = ConvexStone::new(design.solid().expect("closed"));
+        let medium = TraceOptics { material: &material, polarised };
+        let mut photons =
+            BatchedEstimate::new(PointLight::in_frame(&stone, &medium, aspect).expect("lit"), SEED);
         photons.extend_to(1 << 17);
-        let effort = Effort { photons: 1 << 14, seed: SEED, ..Effort::default() };
-        let beams = fire::fire(&Beams::new(&stone), &medium, aspect, Needs::ALL, &effort).expect("lit");
+        let effort = BeamEffort { photons: 1 << 14, seed: SEED, ..BeamEffort::default() };
+        let beams =
+            fire::fire(&Beams::new(&stone), &medium, aspect, PointLightNeeds::ALL, &effort).expect("lit");
         let pairs = [
             ("lit", photons.estimate(|t| t.lit / t.points), jackknife(&beams, |t| t.lit / t.points)),
             (
@@ -47,14 +49,14 @@ fn beams_and_photons_agree_on_fire() {
 /// What is left out where it is not needed changes nothing of the rest.
 #[test]
 fn streaks_are_the_same_without_what_cannot_be_seen() {
-    let (material, stone) = (diamond(), Stone::new(named("reference").solid().expect("closed")));
-    let medium = Medium { material: &material, polarised: true };
+    let (material, stone) = (diamond(), ConvexStone::new(named("reference").solid().expect("closed")));
+    let medium = TraceOptics { material: &material, polarised: true };
     let sum = |needs| {
-        let beam = Beam::seen_from(&stone, &medium, Aspect::FACE_UP).expect("lit").for_needs(needs);
-        let mut traced = Traced::new(beam, SEED);
+        let beam = PointLight::in_frame(&stone, &medium, ViewFrame::FACE_UP).expect("lit").for_needs(needs);
+        let mut traced = BatchedEstimate::new(beam, SEED);
         traced.extend_to(1 << 13);
         traced.tallies().iter().map(|t| t.streak_deg).sum::<f64>()
     };
-    let (all, seen) = (sum(Needs::ALL), sum(Needs { lit: false, faint: false }));
+    let (all, seen) = (sum(PointLightNeeds::ALL), sum(PointLightNeeds { lit: false, faint: false }));
     assert!(all > 0.0 && (all / seen - 1.0).abs() < 1e-9, "{all} {seen}");
 }

@@ -1,10 +1,11 @@
 //! Formats: what is written reads back to the same planes, good files are read, bad ones are
 //! refused in one line that says where and why, and no bytes at all make a reader panic.
 
-use cutlab::cut::{Design, Unit};
-use cutlab::formats::{self, FORMATS, Imported, stone};
-use cutlab::solid::Plane;
-use cutlab::solid::polyhedron::Fate;
+use cutlab::design::{Design, LengthUnit};
+use cutlab::formats::{self, FORMATS, Loaded};
+use cutlab::geometry::Plane;
+use cutlab::geometry::polyhedron::PlaneStatus;
+use cutlab::stone_spec;
 use glam::{DMat3, DVec3};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,7 +32,7 @@ fn data(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-fn good(name: &str) -> Imported {
+fn good(name: &str) -> Loaded {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good").join(name);
     formats::read(&path).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -39,7 +40,8 @@ fn good(name: &str) -> Imported {
 /// Names and planes of the facets that bound the stone.
 fn standing(design: &Design) -> Vec<(String, Plane)> {
     let solid = design.solid().expect("a closed stone");
-    let facets = design.facets().zip(&solid.fates).filter(|(_, fate)| matches!(fate, Fate::Facet(_)));
+    let facets =
+        design.facets().zip(&solid.plane_status).filter(|(_, fate)| matches!(fate, PlaneStatus::Facet(_)));
     facets.map(|(f, _)| (f.name.clone(), f.plane)).collect()
 }
 
@@ -57,7 +59,7 @@ fn farthest(a: &Design, b: &Design) -> f64 {
     for (_, p) in standing(a) {
         let gap = |q: &Plane| q.normal.distance(p.normal);
         let (_, q) = others.iter().min_by(|(_, x), (_, y)| gap(x).total_cmp(&gap(y))).expect("a facet");
-        let height = |p: &Plane, middle, size: f64| -p.height(middle) / size;
+        let height = |p: &Plane, middle, size: f64| -p.signed_distance(middle) / size;
         let off = height(&p, middle, size) - height(q, other_middle, other_size);
         worst = worst.max(gap(q)).max(off.abs());
     }
@@ -77,7 +79,7 @@ fn what_is_written_reads_back_to_the_same_planes() {
             1e-12
         };
         for spec in STONES {
-            let design = stone::open(spec).expect("a library stone").design;
+            let design = stone_spec::open(spec).expect("a library stone").design;
             let bytes = formats::encode(&design, format.name).expect("every stone can be written");
             let back = formats::read_bytes("back", &bytes, None).unwrap_or_else(|e| panic!("{spec}: {e}"));
             assert_eq!(back.format, format.name);
@@ -100,15 +102,15 @@ fn what_is_written_reads_back_to_the_same_planes() {
 }
 
 #[test]
-fn a_file_is_written_by_its_ending_and_read_by_its_bytes() {
+fn a_file_is_written_by_its_extension_and_read_by_its_bytes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let design = stone::open("prism:sides=5").expect("a library stone").design;
+    let design = stone_spec::open("prism:sides=5").expect("a library stone").design;
     for format in FORMATS.iter().filter(|f| f.write.is_some()) {
         let path = folder.path().join("stone").with_extension(format.extensions[0]);
         formats::write(&design, &path).expect("is written");
         let misnamed = folder.path().join("stone.asc");
         fs::rename(&path, &misnamed).expect("is renamed");
-        // of several formats with one ending the first is written
+        // of several formats with one extension the first is written
         let written =
             FORMATS.iter().find(|f| f.write.is_some() && f.extensions.contains(&format.extensions[0]));
         assert_eq!(Some(formats::read(&misnamed).expect("is read").format), written.map(|f| f.name));
@@ -116,7 +118,7 @@ fn a_file_is_written_by_its_ending_and_read_by_its_bytes() {
     let error = formats::write(&design, &folder.path().join("stone.doc")).expect_err("no such format");
     assert!(
         error.to_string().ends_with(
-            "its ending must be one of toml, asc, gem, gcs, obj, stl, ply, glb, gltf; \
+            "its extension must be one of toml, asc, gem, gcs, obj, stl, ply, glb, gltf; \
              cutlab generate also draws diagrams (.svg, .pdf, .png)"
         ),
         "{error}"
@@ -126,8 +128,8 @@ fn a_file_is_written_by_its_ending_and_read_by_its_bytes() {
 #[test]
 fn good_files_are_read() {
     for path in data("good") {
-        let ending = path.extension().unwrap_or_default();
-        if ending == "bin" {
+        let extension = path.extension().unwrap_or_default();
+        if extension == "bin" {
             continue;
         }
         let stone = formats::read(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -187,7 +189,7 @@ fn gemcad_text_is_understood_in_all_its_dialects() {
 
 #[test]
 fn meshes_come_back_as_facets() {
-    let volume = |i: &Imported| i.design.solid().expect("closed").volume();
+    let volume = |i: &Loaded| i.design.solid().expect("closed").volume();
     for (name, facets, expected) in [
         ("octahedron.obj", 8, 4.0 / 3.0),
         ("octahedron-text.stl", 8, 4.0 / 3.0),
@@ -217,7 +219,7 @@ fn meshes_come_back_as_facets() {
     let scene = good("octahedron.gltf");
     assert!(scene.warnings[0].contains("points or lines"), "{:?}", scene.warnings);
     assert!(scene.warnings[1].contains("4.000 m wide"), "{:?}", scene.warnings);
-    assert_eq!(scene.design.unit, Unit::Free);
+    assert_eq!(scene.design.unit, LengthUnit::Free);
     assert!(good("two-shapes.pbrt").warnings[0].contains("one of 2 shapes"));
 }
 
@@ -262,7 +264,7 @@ fn perfect_diamond(design: &Design) -> (String, String) {
 
 #[test]
 fn the_perfect_diamond_stands_up_again_in_both_forms() {
-    let design = stone::open("original-brilliant").expect("a library stone").design;
+    let design = stone_spec::open("original-brilliant").expect("a library stone").design;
     let (scene, list) = perfect_diamond(&design);
     let before = design.solid().expect("closed");
     for (text, format) in [(scene, "perfect-diamond"), (list, "perfect-diamond-list")] {
@@ -280,11 +282,11 @@ fn the_perfect_diamond_stands_up_again_in_both_forms() {
 
 #[test]
 fn stones_are_named_in_one_grammar() {
-    assert_eq!(stone::open("round-brilliant").expect("a library cut").format, "library");
-    let stone_of = |spec: &str| stone::open(spec).map(|i| i.design.planes().len());
+    assert_eq!(stone_spec::open("round-brilliant").expect("a library cut").format, "library");
+    let stone_of = |spec: &str| stone_spec::open(spec).map(|i| i.design.planes().len());
     assert!(stone_of("prism:sides=9,").is_ok_and(|n| n == 11));
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/square.asc");
-    assert_eq!(stone::open(file.display().to_string()).expect("a file").format, "gemcad");
+    assert_eq!(stone_spec::open(file.display().to_string()).expect("a file").format, "gemcad");
     for (spec, said) in [
         ("round-briliant", "no cut and no file is called 'round-briliant'; did you mean 'round-brilliant'?"),
         ("round-briliant:table=55", "did you mean 'round-brilliant'?"),
@@ -296,7 +298,7 @@ fn stones_are_named_in_one_grammar() {
         ("", "no cut and no file is called ''"),
         ("no/such/file.asc", "there is no file 'no/such/file.asc'"),
     ] {
-        let error = stone::open(spec).map(|i| i.format).expect_err(spec).to_string();
+        let error = stone_spec::open(spec).map(|i| i.format).expect_err(spec).to_string();
         assert!(error.contains(said) && !error.contains('\n'), "{error}");
     }
 }
@@ -350,7 +352,7 @@ fn samples() -> Vec<(String, Vec<u8>)> {
         .into_iter()
         .map(|path| (path.display().to_string(), fs::read(&path).expect("a test file")))
         .collect();
-    let octahedron = stone::open("octahedron").expect("a library cut").design;
+    let octahedron = stone_spec::open("octahedron").expect("a library cut").design;
     for format in FORMATS.iter().filter(|f| f.write.is_some()) {
         let bytes = formats::encode(&octahedron, format.name).expect("can be written");
         samples.push((format!("octahedron as {}", format.name), bytes));

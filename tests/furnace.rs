@@ -2,15 +2,15 @@
 //! out is absorbed, and what no light reaches is dark; over plates, meshes, mirrors, every kind of light and
 //! every scene of the catalogue.
 
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::optics::Illuminant;
-use cutlab::photons::{Settings, Shots};
-use cutlab::render::{self, Film, Maps, Tone};
+use cutlab::color::Illuminant;
+use cutlab::integrators::{self, Film, PhotonMaps, Tone};
+use cutlab::photons::{PhotonSets, PhotonSettings};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::scene::intersection::SurfacePoint;
 use cutlab::scene::lights::LIGHTS;
 use cutlab::scene::lights::dome::Dome;
 use cutlab::scene::surface::Shape;
-use cutlab::scene::{Cast, Finish, Light, Reflectance, SCENES, Scene, SceneFile, preset};
-use cutlab::transport::SurfacePoint;
+use cutlab::scene::{Bsdf, Light, Reflectance, SCENES, Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use std::fmt::Write;
 use std::path::Path;
@@ -32,18 +32,25 @@ fn boxed(low: Vec3, high: Vec3) -> String {
 
 fn build(text: &str, folder: &Path) -> Scene {
     let file = SceneFile::parse("t", "t.toml", text, folder).expect(text);
-    file.build(&Cast::default(), 4.0 / 3.0).expect(text)
+    file.build(&SceneOverrides::default(), 4.0 / 3.0).expect(text)
 }
 
-fn photons(photons: usize) -> Settings {
-    Settings { photons, nearest: 200, seed: SEED }
+fn photons(photons: usize) -> PhotonSettings {
+    PhotonSettings { photons, nearest: 200, seed: SEED }
 }
 
-fn picture(scene: &Scene, shots: Shots) -> Film {
-    let maps = Maps::new(scene, shots, 200);
+fn picture(scene: &Scene, shots: PhotonSets) -> Film {
+    let maps = PhotonMaps::new(scene, shots, 200);
     let tone = Tone::default();
-    let settings = render::Settings { width: 32, height: 24, rays: 9, round: 0, tone, seed: SEED };
-    render::render(scene, &scene.camera, &maps, &settings, &|| ())
+    let settings = integrators::RenderSettings {
+        width: 32,
+        height: 24,
+        samples_per_pixel: 9,
+        round: 0,
+        tone,
+        seed: SEED,
+    };
+    integrators::render(scene, &scene.camera, &maps, &settings, &|| ())
 }
 
 /// [D] A stone on a white floor or a mirror under an even sky is not to be seen, and nor is the floor.
@@ -87,7 +94,7 @@ fn in_even_light_everything_is_as_bright() {
                  surface = [{surfaces}]\nlight = [{sky}]\n"
             );
             let scene = build(&text, folder.path());
-            let film = picture(&scene, Shots::shoot(&scene, &photons(60_000)));
+            let film = picture(&scene, PhotonSets::emit(&scene, &photons(60_000)));
             let light = film.linear(None);
             let mean = light.iter().sum::<Vec3>() / light.len() as f32;
             let middle: Vec3 =
@@ -104,8 +111,8 @@ fn in_even_light_everything_is_as_bright() {
 ///
 /// - `counts`: whether a place and the normal of its side count
 fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
-    let shots = Shots::shoot(scene, &photons(200_000));
-    let maps = Maps::new(scene, shots, 200);
+    let shots = PhotonSets::emit(scene, &photons(200_000));
+    let maps = PhotonMaps::new(scene, shots, 200);
     let mut stream = Stream::new(SEED, Purpose::Test, 0);
     let mut sum = 0.0;
     for (surface, shape) in scene.surfaces.iter().map(|s| &s.shape).enumerate() {
@@ -130,7 +137,7 @@ fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
                     let direct: f32 = (0..scene.lights.len())
                         .map(|i| {
                             let places = [stream.pair(), stream.pair(), stream.pair(), stream.pair()];
-                            scene.lights[i].at(scene.direct_irradiance(i, &at, places), 560.0)
+                            scene.lights[i].radiance_at(scene.direct_irradiance(i, &at, places), 560.0)
                         })
                         .sum();
                     let maps = maps.caustic.irradiance(&at).0[3] + maps.indirect.irradiance(&at).0[3];
@@ -144,12 +151,12 @@ fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
 
 /// All of one grey, and every lamp of equal energy; the power of the lamps, none where one is at infinity.
 fn greyed(scene: &mut Scene, grey: f32) -> Option<f64> {
-    scene.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(grey)));
+    scene.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(grey)));
     for light in &mut scene.lights {
         light.spectrum = Illuminant::equal_energy();
         light.radiance = Vec3::splat(light.radiance.element_sum() / 3.0);
     }
-    let power = |light: &Light| Some(f64::from(light.emitter.power()? * light.at(Vec3::ONE, 560.0)));
+    let power = |light: &Light| Some(f64::from(light.emitter.power()? * light.radiance_at(Vec3::ONE, 560.0)));
     scene.lights.iter().map(power).sum()
 }
 
@@ -214,7 +221,7 @@ fn no_scene_gains_light() {
     let mut wrong = Vec::new();
     for (name, _) in SCENES {
         let file = preset(name).expect("in the catalogue").expect(name);
-        let Ok(mut scene) = file.build(&Cast::default(), 4.0 / 3.0) else {
+        let Ok(mut scene) = file.build(&SceneOverrides::default(), 4.0 / 3.0) else {
             assert_eq!(*name, "daylight", "its panorama is the user's");
             continue;
         };
@@ -227,10 +234,10 @@ fn no_scene_gains_light() {
             assert!(*name != "office" || absorbed > 0.85 * power, "{name} is closed: {absorbed} of {power}");
         }
         let white = if *name == "office" { 0.8 } else { 1.0 };
-        scene.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(white)));
+        scene.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(white)));
         scene.lights = vec![Light::white(Dome::uniform(), 0.5)];
         scene.camera.white = Illuminant::equal_energy();
-        let film = picture(&scene, Shots::shoot(&scene, &photons(200_000)));
+        let film = picture(&scene, PhotonSets::emit(&scene, &photons(200_000)));
         let light = film.linear(None);
         let mean = light.iter().sum::<Vec3>() / light.len() as f32;
         println!("{name}: {mean}");
@@ -264,7 +271,7 @@ fn a_sheet_lit_from_above_is_black_below() {
                  stone = [{{ cut = 'tolkowsky', size = 2 }}]\nsurface = [{surfaces}]\nlight = [{lamps}]\n"
             );
             let scene = build(&text, folder.path());
-            let film = picture(&scene, Shots::shoot(&scene, &photons(20_000)));
+            let film = picture(&scene, PhotonSets::emit(&scene, &photons(20_000)));
             let brightest = film.linear(None).iter().fold(Vec3::ZERO, |a, p| a.max(*p));
             assert_eq!(brightest, Vec3::ZERO, "{surfaces} {lamps}");
         }

@@ -1,8 +1,8 @@
 //! Half-space intersection: known solids, random ones, and the planes that bound nothing.
 
-use cutlab::cut::library;
-use cutlab::solid::polyhedron::Fate;
-use cutlab::solid::{Plane, Polyhedron, SolidError};
+use cutlab::design::library;
+use cutlab::geometry::polyhedron::PlaneStatus;
+use cutlab::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DQuat, DVec3};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap};
@@ -74,7 +74,7 @@ fn a_crown_of_no_height_merges_into_the_table() {
     let solid = library_solid("round-brilliant", &[("crown-angle", 0.0)]);
     assert_closed(&solid);
     assert_eq!(solid.faces.len(), 1 + 24 + 96);
-    let merged = solid.fates.iter().filter(|f| matches!(f, Fate::Duplicate(_))).count();
+    let merged = solid.plane_status.iter().filter(|f| matches!(f, PlaneStatus::Duplicate(_))).count();
     assert_eq!(merged, 32);
 }
 
@@ -85,16 +85,16 @@ fn coincident_and_redundant_planes_are_told_apart() {
     planes.push(Plane::new(DVec3::ONE, 5.0)); // far outside
     planes.push(Plane::new(DVec3::ONE, 3f64.sqrt())); // touches one corner
     let solid = Polyhedron::from_planes(&planes).expect("closed");
-    assert_eq!(solid.fates[6], Fate::Duplicate(4));
-    assert_eq!(solid.fates[7], Fate::Redundant);
-    assert_eq!(solid.fates[8], Fate::Redundant);
+    assert_eq!(solid.plane_status[6], PlaneStatus::Duplicate(4));
+    assert_eq!(solid.plane_status[7], PlaneStatus::Redundant);
+    assert_eq!(solid.plane_status[8], PlaneStatus::Redundant);
     assert_eq!(solid.faces.len(), 6);
     assert_near(solid.volume(), 8.0, 1e-14);
     // a plane that later cuts leave nothing of
     let mut planes = vec![Plane::new(DVec3::Z, 2.0)];
     planes.extend(cube(1.0));
     let solid = Polyhedron::from_planes(&planes).expect("closed");
-    assert_eq!(solid.fates[0], Fate::Redundant);
+    assert_eq!(solid.plane_status[0], PlaneStatus::Redundant);
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn an_open_set_names_the_direction_and_the_planes_around_it() {
 fn nothing_left_and_what_is_no_plane_are_errors() {
     let mut planes = cube(1.0);
     planes.push(Plane::new(DVec3::Z, -2.0));
-    assert_eq!(Polyhedron::from_planes(&planes).err(), Some(SolidError::Nothing { plane: 6 }));
+    assert_eq!(Polyhedron::from_planes(&planes).err(), Some(SolidError::Empty { plane: 6 }));
     for bad in [
         Plane { normal: DVec3::NAN, distance: 1.0 },
         Plane { normal: DVec3::ZERO, distance: 1.0 },
@@ -199,7 +199,7 @@ proptest! {
         assert_closed(&solid);
         assert_triangulated(&solid);
         for v in &solid.vertices {
-            prop_assert!(planes.iter().all(|p| p.height(*v) < 1e-9));
+            prop_assert!(planes.iter().all(|p| p.signed_distance(*v) < 1e-9));
         }
     }
 

@@ -3,11 +3,11 @@
 mod brilliants;
 
 use brilliants::{SEED, subject};
-use cutlab::cut::{Design, library};
-use cutlab::math::stats::Estimate;
+use cutlab::design::{Design, library};
+use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric};
-use cutlab::optics::Material;
-use cutlab::study::score::{Effort, Plan, Row, Subject, score};
+use cutlab::sampling::stats::Estimate;
+use cutlab::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, Target, score};
 
 /// Indices of refraction: quartz for faceters, diamond.
 const INDICES: [f64; 2] = [1.54, 2.417];
@@ -18,14 +18,15 @@ fn cut(name: &str) -> Design {
 
 /// Every figure of one direction that beams give; all of the sky with `whole`.
 fn by_beams(whole: bool) -> Vec<&'static Metric> {
-    let of_one_direction = |m: &Metric| matches!(m.reading.experiment(), "view" | "iso" | "beam");
+    let of_one_direction = |m: &Metric| matches!(m.read_from.estimator(), "view" | "iso" | "beam");
     METRICS.iter().copied().filter(|m| m.by_beams && (whole || of_one_direction(m))).collect()
 }
 
-fn both(subject: &Subject, metrics: &[&'static Metric], samples: u64) -> [Row; 2] {
-    let effort = Effort::Samples(samples);
-    let plan = Plan { metrics: metrics.to_vec(), effort, seed: SEED, ..Plan::default() };
-    [false, true].map(|exact| score(subject, &Plan { exact, ..plan.clone() }))
+fn both(subject: &ScoreInput, metrics: &[&'static Metric], samples: u64) -> [ScoreRow; 2] {
+    let effort = Target::Samples(samples);
+    let plan =
+        ScoreSettings { metrics: metrics.to_vec(), target: effort, seed: SEED, ..ScoreSettings::default() };
+    [false, true].map(|exact| score(subject, &ScoreSettings { exact, ..plan.clone() }))
 }
 
 /// The errors of both and what neither holds: beams leave a few parts in 10⁵ of the outline
@@ -40,7 +41,7 @@ fn scan<'a>(names: impl Iterator<Item = &'a str>, whole: bool, samples: u64) -> 
     let (mut compared, mut worst) = (0, 0.0f64);
     for name in names {
         for index in INDICES {
-            let subject = subject(name, &cut(name), Material::of_index(index));
+            let subject = subject(name, &cut(name), Material::from_index(index));
             let [photons, beams] = both(&subject, &metrics, samples);
             for ((metric, a), b) in metrics.iter().zip(photons.scores).zip(beams.scores) {
                 // a shape without a table has no scores of it
@@ -80,8 +81,8 @@ fn photons_and_beams_agree_for_every_cut() {
 #[test]
 fn level_light_is_not_light_from_above() {
     let one = |name: &str, index: f64, metric: &str| {
-        let metrics = [Metric::named(metric).expect("in the catalogue")];
-        let subject = subject(name, &cut(name), Material::of_index(index));
+        let metrics = [Metric::by_name(metric).expect("in the catalogue")];
+        let subject = subject(name, &cut(name), Material::from_index(index));
         both(&subject, &metrics, 1 << 17).map(|row| row.scores[0].expect("applies"))
     };
     for found in one("barion-square", 2.417, "brightness") {

@@ -18,8 +18,9 @@ mod slow;
 #[path = "../tools/fuzz/targets.rs"]
 mod targets;
 
-use cutlab::formats::{self, FORMATS, stone};
+use cutlab::formats::{self, FORMATS};
 use cutlab::scene::SCENES;
+use cutlab::stone_spec;
 use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -32,7 +33,7 @@ use std::sync::LazyLock;
 
 /// For each format that is written, its number and an octahedron in it; then every small good file.
 static SAMPLES: LazyLock<Vec<(u8, Vec<u8>)>> = LazyLock::new(|| {
-    let octahedron = stone::open("octahedron").expect("a library cut").design;
+    let octahedron = stone_spec::open("octahedron").expect("a library cut").design;
     let written = FORMATS.iter().enumerate().filter(|(_, f)| f.write.is_some());
     let mut samples: Vec<(u8, Vec<u8>)> = written
         .map(|(i, f)| (i as u8, formats::encode(&octahedron, f.name).expect("can be written")))

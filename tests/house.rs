@@ -7,15 +7,14 @@ use std::path::{Path, PathBuf};
 /// The rooms, lowest row first. A file imports only from lower rows; rooms of one row are
 /// strangers.
 const ROWS: &[&[&str]] = &[
-    &["math", "store"],
-    &["optics", "solid"],
-    &["cut", "walk"],
-    &["formats"],
-    &["scene"],
-    &["transport"],
-    &["photons", "experiments"],
-    &["metrics", "render"],
-    &["study"],
+    &["sampling", "storage", "parse"],
+    &["color", "optics", "geometry"],
+    &["materials", "design", "trace"],
+    &["formats", "estimators"],
+    &["stone_spec", "metrics"],
+    &["scene", "scoring"],
+    &["photons", "batch"],
+    &["integrators"],
     &["report"],
     &["cli"],
 ];
@@ -120,12 +119,12 @@ fn rooms_import_only_from_lower_rows() {
 
 #[test]
 fn the_check_of_rows_sees_every_form_of_import() {
-    assert_eq!(imports("use crate::math::random;"), ["math"]);
-    assert_eq!(imports("fn f(x: crate::cut::Design)"), ["cut"]);
-    let mut group = imports("use crate::{cut::{Design, Tier},\n    solid::Plane, walk};");
+    assert_eq!(imports("use crate::sampling::random;"), ["sampling"]);
+    assert_eq!(imports("fn f(x: crate::design::Design)"), ["design"]);
+    let mut group = imports("use crate::{design::{Design, Tier},\n    geometry::Plane, trace};");
     group.sort();
     group.dedup();
-    assert_eq!(group, ["cut", "solid", "walk"]);
+    assert_eq!(group, ["design", "geometry", "trace"]);
 }
 
 #[test]
@@ -160,13 +159,13 @@ fn nothing_in_the_program_is_made_to_panic() {
 }
 
 #[test]
-fn unsafe_stays_in_the_dispatch_of_the_walk() {
+fn unsafe_stays_in_the_dispatch_of_the_tracer() {
     for (path, text) in sources() {
         let code = code(&text);
         let found = ["unsafe {", "unsafe fn", "unsafe impl", "unsafe trait", "unsafe extern"]
             .iter()
             .any(|w| code.contains(w));
-        assert!(!found || path == Path::new("src/walk/dispatch.rs"), "{} has unsafe", path.display());
+        assert!(!found || path == Path::new("src/trace/dispatch.rs"), "{} has unsafe", path.display());
     }
 }
 
@@ -195,11 +194,12 @@ fn portable(text: &str) -> String {
 
 /// What an ARM machine compiles names no instruction of another.
 #[test]
-fn only_the_dispatch_of_the_walk_knows_architectures() {
+fn only_the_dispatch_of_the_tracer_knows_architectures() {
     for (path, text) in sources() {
         let code = code(&text);
         for word in ["::arch", "feature_detected", "target_feature", "target_arch", "Avx", "avx"] {
-            let rest = if path == Path::new("src/walk/dispatch.rs") { portable(&code) } else { code.clone() };
+            let rest =
+                if path == Path::new("src/trace/dispatch.rs") { portable(&code) } else { code.clone() };
             assert!(!rest.contains(word), "{}: {word} outside #[cfg(target_arch)]", path.display());
         }
     }

@@ -4,19 +4,19 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::cut::{Design, library};
-use cutlab::experiments::view::{Sky, Surroundings};
-use cutlab::experiments::{
-    Aspect, Beam, Contrast, Experiment, Hemisphere, Iso, Medium, Scintillation, Traced, View, cells, iso,
-    view,
+use cutlab::design::{Design, library};
+use cutlab::estimators::view::{ObserverDome, ViewerLighting};
+use cutlab::estimators::{
+    BatchedEstimate, Contrast, Estimator, FaceterView, Hemisphere, PointLight, Scintillation, TraceOptics,
+    View, ViewFrame, faceter_view, pixel_cells, view,
 };
-use cutlab::math::stats::Estimate;
-use cutlab::metrics::{METRICS, Reading, Statistic};
-use cutlab::optics::Material;
-use cutlab::photons::{Settings, Shots};
-use cutlab::render::{self, Maps, Tone};
-use cutlab::scene::{Cast, PlacedStone, preset};
-use cutlab::walk::{Isa, Stone};
+use cutlab::integrators::{self, PhotonMaps, Tone};
+use cutlab::materials::Material;
+use cutlab::metrics::{METRICS, MetricSource, Statistic};
+use cutlab::photons::{PhotonSets, PhotonSettings};
+use cutlab::sampling::stats::Estimate;
+use cutlab::scene::{PlacedStone, SceneOverrides, preset};
+use cutlab::trace::{ConvexStone, Isa};
 use std::collections::BTreeMap;
 
 const SAMPLES: u64 = 1 << 15;
@@ -37,43 +37,54 @@ fn cut(name: &str) -> Design {
 /// Name, score, and score by batch.
 type Scores = Vec<(String, Estimate, Vec<f64>)>;
 
-fn take<E: Experiment>(
+fn take<E: Estimator>(
     scores: &mut Scores,
     experiment: E,
     samples: u64,
-    of: impl Fn(Reading) -> Option<Statistic<E::Tally>>,
+    of: impl Fn(MetricSource) -> Option<Statistic<E::Tally>>,
 ) {
-    let mut traced = Traced::new(experiment, SEED);
+    let mut traced = BatchedEstimate::new(experiment, SEED);
     traced.extend_to(samples);
     for metric in METRICS {
-        let Some(of) = of(metric.reading) else { continue };
+        let Some(of) = of(metric.read_from) else { continue };
         // a cut without a table has no scores of one, on every set
         let Some(score) = traced.score(&of) else { continue };
-        let batches = traced.tallies().iter().map(|t| of.of(t)).collect();
+        let batches = traced.tallies().iter().map(|t| of.value(t)).collect();
         scores.push((metric.name.into(), score, batches));
     }
 }
 
 /// Every score that is traced.
 fn scores(design: &Design, material: &Material, isa: Isa) -> Scores {
-    let stone = &Stone::with_isa(design.solid().expect("closed"), isa);
-    let medium = &Medium { material, polarised: true };
-    let up = Aspect::FACE_UP;
-    let around = Surroundings { scope: Sky::behind(view::SCOPE_DEG), dome: Sky::behind(view::OBSERVER_DEG) };
-    let (head, dark) = (Sky::behind(iso::OBSERVER_DEG), Sky::behind(cells::OBSERVER_DEG));
+    let stone = &ConvexStone::with_isa(design.solid().expect("closed"), isa);
+    let medium = &TraceOptics { material, polarised: true };
+    let up = ViewFrame::FACE_UP;
+    let around = ViewerLighting {
+        scope: ObserverDome::with_observer(view::SCOPE_DEG),
+        dome: ObserverDome::with_observer(view::GIA_OBSERVER_DEG),
+    };
+    let (head, dark) = (
+        ObserverDome::with_observer(faceter_view::GEMRAY_OBSERVER_DEG),
+        ObserverDome::with_observer(pixel_cells::AGS_OBSERVER_DEG),
+    );
     let mut all = Scores::new();
-    let dome = Hemisphere::seen_from(stone, medium, up).expect("can be lit");
-    take(&mut all, dome, SAMPLES, |r| if let Reading::Hemisphere(f) = r { Some(f) } else { None });
-    let eye = View::seen_from(stone, medium, up, around).expect("can be seen");
-    take(&mut all, eye, SAMPLES, |r| if let Reading::View(f) = r { Some(f) } else { None });
-    let iso = Iso::seen_from(stone, medium, up, head).expect("can be seen");
-    take(&mut all, iso, SAMPLES, |r| if let Reading::Iso(f) = r { Some(f) } else { None });
-    let cells = Contrast::seen_from(stone, medium, up, dark).expect("can be seen");
-    take(&mut all, cells, SAMPLES / 2, |r| if let Reading::Contrast(f) = r { Some(f) } else { None });
-    let rocking = Scintillation::seen_from(stone, medium, up, dark).expect("can be seen");
-    take(&mut all, rocking, SAMPLES / 4, |r| if let Reading::Scintillation(f) = r { Some(f) } else { None });
-    let beam = Beam::seen_from(stone, medium, up).expect("can be lit");
-    take(&mut all, beam, SAMPLES / 4, |r| if let Reading::Beam(f) = r { Some(f) } else { None });
+    let dome = Hemisphere::in_frame(stone, medium, up).expect("can be lit");
+    take(&mut all, dome, SAMPLES, |r| if let MetricSource::Hemisphere(f) = r { Some(f) } else { None });
+    let eye = View::in_frame(stone, medium, up, around).expect("can be seen");
+    take(&mut all, eye, SAMPLES, |r| if let MetricSource::View(f) = r { Some(f) } else { None });
+    let iso = FaceterView::in_frame(stone, medium, up, head).expect("can be seen");
+    take(&mut all, iso, SAMPLES, |r| if let MetricSource::FaceterView(f) = r { Some(f) } else { None });
+    let cells = Contrast::in_frame(stone, medium, up, dark).expect("can be seen");
+    take(&mut all, cells, SAMPLES / 2, |r| if let MetricSource::Contrast(f) = r { Some(f) } else { None });
+    let rocking = Scintillation::in_frame(stone, medium, up, dark).expect("can be seen");
+    take(
+        &mut all,
+        rocking,
+        SAMPLES / 4,
+        |r| if let MetricSource::Scintillation(f) = r { Some(f) } else { None },
+    );
+    let beam = PointLight::in_frame(stone, medium, up).expect("can be lit");
+    take(&mut all, beam, SAMPLES / 4, |r| if let MetricSource::PointLight(f) = r { Some(f) } else { None });
     all
 }
 
@@ -89,7 +100,7 @@ fn difference(a: &[f64], b: &[f64]) -> (f64, f64) {
 #[test]
 #[ignore = "ten seconds: .ci/run runs it"]
 fn every_score_agrees_within_three_errors() {
-    let ruby = Material::named("ruby").expect("in the catalogue").clone();
+    let ruby = Material::by_name("ruby").expect("in the catalogue").clone();
     let stones = [
         ("reference", named("reference"), diamond()),
         ("asscher", cut("asscher"), diamond()),
@@ -120,16 +131,29 @@ fn every_score_agrees_within_three_errors() {
 
 /// Brightness of a picture of the brilliant on the table, by blocks of pixels.
 fn picture(scene: &str, isa: Isa) -> Vec<f64> {
-    let cast = Cast { designs: vec![named("reference")], material: Some(diamond()), ..Cast::default() };
+    let cast = SceneOverrides {
+        designs: vec![named("reference")],
+        material: Some(diamond()),
+        ..SceneOverrides::default()
+    };
     let mut scene = preset(scene).expect("in the catalogue").expect("is sound").build(&cast, 4.0 / 3.0);
     let scene = scene.as_mut().expect("is set up");
-    let on =
-        |p: &PlacedStone| PlacedStone { stone: Stone::with_isa(p.stone.solid.clone(), isa), ..p.clone() };
+    let on = |p: &PlacedStone| PlacedStone {
+        stone: ConvexStone::with_isa(p.stone.solid.clone(), isa),
+        ..p.clone()
+    };
     scene.stones = scene.stones.iter().map(on).collect();
-    let shots = Shots::shoot(scene, &Settings { photons: 20_000, nearest: 100, seed: SEED });
-    let settings =
-        render::Settings { width: 64, height: 48, rays: 9, round: 0, tone: Tone::default(), seed: SEED };
-    let film = render::render(scene, &scene.camera, &Maps::new(scene, shots, 100), &settings, &|| ());
+    let shots = PhotonSets::emit(scene, &PhotonSettings { photons: 20_000, nearest: 100, seed: SEED });
+    let settings = integrators::RenderSettings {
+        width: 64,
+        height: 48,
+        samples_per_pixel: 9,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    };
+    let film =
+        integrators::render(scene, &scene.camera, &PhotonMaps::new(scene, shots, 100), &settings, &|| ());
     let shown = film.linear(None);
     let block = |b: usize| {
         let (x, y) = (8 * (b % 8), 8 * (b / 8));

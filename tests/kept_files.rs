@@ -124,6 +124,45 @@ fn an_input_is_never_an_output_whatever_leads_to_it() {
     assert!(said.contains("none"), "{said}");
 }
 
+/// What a scene names, the panorama given for it and the companions of tables are inputs too.
+#[cfg(unix)]
+#[test]
+fn files_that_inputs_name_are_never_outputs() {
+    use std::os::unix::fs::symlink;
+    let bench = Bench::new();
+    inputs(&bench);
+    let quick = ["--width", "8", "--height", "4", "--spp", "1", "--photons", "100", "-q"];
+    bench.good(&["generate", "-q", "cube", "-o", "floor.obj"]);
+    bench.good(&["generate", "-q", "octahedron", "-o", "stone.asc"]);
+    bench.good(&[&["render", "cube", "-o", "sky.exr"], &quick[..]].concat());
+    let (table, _) = bench.ends(0, &["list", "scenes", "table"]);
+    let mesh = "\n[[surface]]\nmesh = \"floor.obj\"\nat = [9, 9, 9]\nreflectance = 0.5\n";
+    let scene = table.replacen("cut = \"round-brilliant\"", "cut = \"stone.asc\"", 1) + mesh;
+    assert!(scene.contains("stone.asc"));
+    std::fs::write(bench.path("s.toml"), scene).expect("writes");
+    for (link, target) in
+        [("mesh.png", "floor.obj"), ("cut.png", "stone.asc"), ("meta.svg", "whole.csv.meta.json")]
+    {
+        symlink(target, bench.path(link)).expect("links");
+    }
+    symlink("p1.csv.meta.json", bench.path("part.json")).expect("links");
+    let before = bench.files();
+    for words in [
+        vec!["render", "--scene", "s.toml", "-o", "mesh.png", "--force"],
+        vec!["render", "--scene", "s.toml", "-o", "cut.png", "--force"],
+        vec!["render", "cube", "--scene", "daylight", "--hdr", "sky.exr", "-o", "sky.exr", "--force"],
+        vec!["plot", "whole.csv", "-o", "meta.svg", "--force"],
+        vec!["merge", "p1.csv", "p2.csv", "-o", "part.json", "--force"],
+    ] {
+        let is_picture = words[0] == "render";
+        let out = bench.run(&[&words[..], if is_picture { &quick[..] } else { &[] }].concat());
+        let said = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{words:?}: {said}");
+        assert!(said.contains("is an input") || words[0] == "plot", "{words:?}: {said}");
+        assert!(bench.files() == before, "{words:?} changed a file");
+    }
+}
+
 #[test]
 fn two_outputs_are_never_one_file() {
     let bench = Bench::new();

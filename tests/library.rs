@@ -1,9 +1,9 @@
 //! Every cut of the library: a closed convex stone with the proportions that its file promises.
 
-use cutlab::cut::brilliant::envelope;
-use cutlab::cut::proportions::{self, Proportions};
-use cutlab::cut::{Design, library};
-use cutlab::solid::polyhedron::Fate;
+use cutlab::design::gia_envelopes::envelope;
+use cutlab::design::proportions::{self, Proportions};
+use cutlab::design::{Design, library};
+use cutlab::geometry::polyhedron::PlaneStatus;
 use std::collections::BTreeMap;
 
 fn made(name: &str, values: &[(&str, f64)]) -> Design {
@@ -13,7 +13,7 @@ fn made(name: &str, values: &[(&str, f64)]) -> Design {
 }
 
 fn measured(name: &str, values: &[(&str, f64)]) -> Proportions {
-    proportions::of(&made(name, values)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    proportions::of_design(&made(name, values)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// The value of a key of `[expect]`, and how far it may be off: one unit of the last digit that its
@@ -69,11 +69,11 @@ fn every_cut_is_closed_and_convex_and_every_facet_stands() {
         assert_eq!(solid.euler(), 2, "{name}");
         let width = solid.width();
         for plane in design.planes() {
-            let beyond = solid.vertices.iter().map(|v| plane.height(*v)).fold(f64::MIN, f64::max);
+            let beyond = solid.vertices.iter().map(|v| plane.signed_distance(*v)).fold(f64::MIN, f64::max);
             assert!(beyond < 1e-9 * width, "{name}: a corner lies {beyond} outside a facet");
         }
-        for (facet, fate) in design.facets().zip(&solid.fates) {
-            let area = if let Fate::Facet(face) = fate { solid.area(*face) } else { 0.0 };
+        for (facet, fate) in design.facets().zip(&solid.plane_status) {
+            let area = if let PlaneStatus::Facet(face) = fate { solid.area(*face) } else { 0.0 };
             if area < 1e-5 * width * width {
                 broken.push(format!("{name}: {} is a sliver or nothing: {fate:?}", facet.name));
             }
@@ -104,7 +104,7 @@ fn every_cut_of_tiers_can_be_drawn_out() {
         drawn += 1;
         let (before, after) = (made(name, &[]), made(name, &[("length-to-width", 1.7)]));
         let (before, after) = (before.solid().expect("closed"), after.solid().expect("closed"));
-        let size = |s: &cutlab::solid::Polyhedron| s.bounds().1 - s.bounds().0;
+        let size = |s: &cutlab::geometry::Polyhedron| s.bounds().1 - s.bounds().0;
         let (a, b) = (size(&before), size(&after));
         assert!((b.y / b.x - 1.7).abs() < 1e-9, "{name}: {}", b.y / b.x);
         // width and height stay, every facet stands, and the volume grows with the length
@@ -146,7 +146,7 @@ fn the_ratios_of_a_stone_drawn_out_are_those_of_the_round_one() {
 
 #[test]
 fn there_is_no_heart_and_it_is_said_why() {
-    let error = cutlab::formats::stone::open("heart").map(|i| i.format).expect_err("no heart").to_string();
+    let error = cutlab::stone_spec::open("heart").map(|i| i.format).expect_err("no heart").to_string();
     assert!(error.contains("dent") && error.contains("'pear'"), "{error}");
 }
 

@@ -5,7 +5,7 @@
 mod bench;
 
 use bench::Bench;
-use cutlab::store::progress::Progress;
+use cutlab::storage::journal::Journal;
 
 /// What memory may differ by from one run to another, in kB: threads' stacks and allocators' reserves.
 const ROOM: u64 = 8_000;
@@ -82,7 +82,7 @@ fn going_on_reads_what_is_there_once() {
     let dir = tempfile::tempdir().expect("a folder");
     for rows in [1_000, 20_000] {
         let path = dir.path().join(format!("{rows}"));
-        let open = || Progress::open(&path, "work", &|_| ()).expect("opens");
+        let open = || Journal::open(&path, "work", &|_| ()).expect("opens");
         let mut progress = open();
         (0..rows).for_each(|i| progress.append(i, &[b'x'; 100]).expect("appends"));
         drop(progress);
@@ -91,7 +91,7 @@ fn going_on_reads_what_is_there_once() {
         let opened = read_so_far() - before;
         let mut count = 0;
         progress
-            .each(|row| {
+            .for_each(|row| {
                 count += row.len() as u64;
                 Ok(())
             })

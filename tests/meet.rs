@@ -1,14 +1,14 @@
 //! The meet-point solver against corners derived by hand, the closed form of the round brilliant,
 //! and its errors.
 
-use cutlab::cut::Design;
-use cutlab::cut::document::{Document, DocumentError};
-use cutlab::cut::families::{self, round_brilliant::derived_angles};
-use cutlab::cut::meet::MeetError;
+use cutlab::design::Design;
+use cutlab::design::design_file::{DesignFile, DocumentError};
+use cutlab::design::families::{self, round_brilliant::derived_angles};
+use cutlab::design::meet_points::MeetError;
 use std::collections::BTreeMap;
 
 fn tried(text: &str) -> Result<Design, DocumentError> {
-    Document::parse(text).expect("well written").design(&BTreeMap::new())
+    DesignFile::parse(text).expect("well written").design(&BTreeMap::new())
 }
 
 fn solved(text: &str) -> Design {
@@ -151,7 +151,7 @@ tier = [
     let met = solved(&text);
     assert_eq!(met.facets().count(), 153);
     for facet in closed.facets() {
-        let near = |p: &cutlab::solid::Plane| {
+        let near = |p: &cutlab::geometry::Plane| {
             (p.normal - facet.plane.normal).length().max((p.distance - facet.plane.distance).abs())
         };
         let off = met.planes().iter().map(near).fold(f64::INFINITY, f64::min);

@@ -1,9 +1,9 @@
 //! Meshes: what is written has no gap and no triangle without area; closed meshes that are no convex
 //! stone are shown, and written as meshes.
 
-use cutlab::cut::{Facet, Tier, library};
-use cutlab::formats::Surface;
-use cutlab::solid::Plane;
+use cutlab::design::{Facet, Tier, library};
+use cutlab::formats::MeshExport;
+use cutlab::geometry::Plane;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -127,7 +127,7 @@ fn a_mesh_that_is_no_convex_stone_is_written_as_a_mesh() {
 }
 
 /// What `tools/check_meshes.py` asks of an independent reader, of the surface that is written.
-fn assert_sound(what: &str, surface: &Surface) {
+fn assert_sound(what: &str, surface: &MeshExport) {
     let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
     for (facet, t) in &surface.triangles {
         let [a, b, c] = t.map(|i| surface.vertices[i].as_vec3());
@@ -149,12 +149,12 @@ fn assert_sound(what: &str, surface: &Surface) {
 #[test]
 fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
     let drawn =
-        library::names().filter(|n| cutlab::formats::stone::open(format!("{n}:length-to-width=2")).is_ok());
+        library::names().filter(|n| cutlab::stone_spec::open(format!("{n}:length-to-width=2")).is_ok());
     let specs = library::names().map(String::from).chain(drawn.map(|n| format!("{n}:length-to-width=2")));
     for spec in specs {
-        let design = cutlab::formats::stone::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;
+        let design = cutlab::stone_spec::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;
         let facets = design.facets().count();
-        let surface = Surface::of_design(&design, None).unwrap_or_else(|e| panic!("{e}"));
+        let surface = MeshExport::from_design(&design, None).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(surface.facets.len(), facets, "{spec}: a facet is too small to be written");
         let corners = design.solid().expect("closed").vertices.len();
         assert_eq!(surface.vertices.len(), corners, "{spec}: facets miss the corner they should meet in");
@@ -166,14 +166,14 @@ fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
 /// of the four that it cuts is as far from the next as `f32` can tell.
 #[test]
 fn corners_that_nearly_meet_are_written_as_one() {
-    let mut design = cutlab::formats::stone::open("octahedron").expect("a library cut").design;
+    let mut design = cutlab::stone_spec::open("octahedron").expect("a library cut").design;
     let top = design.solid().expect("closed").bounds().1.z;
     let plane = Plane { normal: DVec3::Z, distance: top * (1.0 - 1e-9) };
     let facet = Facet { name: "table".into(), index: None, plane };
     let (name, instructions) = ("table".to_string(), String::new());
     design.tiers.push(Tier { name, angle_deg: Some(0.0), instructions, facets: vec![facet] });
     assert_eq!(design.solid().expect("closed").faces.len(), 9);
-    let surface = Surface::of_design(&design, None).expect("is written");
+    let surface = MeshExport::from_design(&design, None).expect("is written");
     assert_eq!((surface.polygons.len(), surface.vertices.len()), (8, 6));
     assert_sound("octahedron", &surface);
 }

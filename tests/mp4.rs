@@ -4,15 +4,15 @@
 mod bench;
 
 use bench::Bench;
-use cutlab::render::animation::{self, Pace};
-use cutlab::render::mp4;
-use cutlab::render::write::Made;
+use cutlab::integrators::animation::{self, FrameTiming};
+use cutlab::integrators::image_io::Provenance;
+use cutlab::integrators::mp4;
 use mp4_atom::{Any, Atom, Codec, Colr, Decode, DecodeAtom, Header, Ilst, Mdat, Moov, StszSamples};
 use openh264::decoder::Decoder;
 use openh264::formats::YUVSource;
 
 const SIZE: (u32, u32) = (64, 48);
-const MADE: Made = Made { command: "cutlab render 'a b.asc'", rounds: None };
+const MADE: Provenance = Provenance { command: "cutlab render 'a b.asc'", rounds: None };
 
 /// A frame of soft colours that wander.
 fn frame(number: u32) -> Vec<u8> {
@@ -21,7 +21,7 @@ fn frame(number: u32) -> Vec<u8> {
     (0..SIZE.1).flat_map(|y| (0..SIZE.0).flat_map(move |x| pixel(x, y))).collect()
 }
 
-fn film(frames: u32, pace: Pace) -> Vec<u8> {
+fn film(frames: u32, pace: FrameTiming) -> Vec<u8> {
     let mut out = Vec::new();
     mp4::mp4(&mut (0..frames).map(|n| Ok(frame(n))), SIZE, pace, MADE, &mut out).expect("encodes");
     out
@@ -48,7 +48,7 @@ fn index(file: &[u8]) -> Moov {
 
 #[test]
 fn the_index_stands_before_the_frames_and_leads_to_them() {
-    let file = film(60, Pace::of_rate(24));
+    let file = film(60, FrameTiming::of_rate(24));
     let kinds: Vec<_> = boxes(&file).iter().map(|(header, ..)| header.kind).collect();
     assert_eq!(kinds, [mp4_atom::Ftyp::KIND, Moov::KIND, Mdat::KIND]);
     let moov = index(&file);
@@ -82,7 +82,7 @@ fn the_index_stands_before_the_frames_and_leads_to_them() {
 /// Luma of BT.709 within its limits, of every pixel of every frame, and the means of its chromas.
 #[test]
 fn frames_come_out_as_they_went_in() {
-    let file = film(30, Pace::of_turn(30));
+    let file = film(30, FrameTiming::of_turn(30));
     let moov = index(&file);
     let stbl = &moov.trak[0].mdia.minf.stbl;
     let Codec::Avc1(codec) = &stbl.stsd.codecs[0] else { unreachable!("is H.264") };
@@ -122,7 +122,7 @@ fn frames_come_out_as_they_went_in() {
 
 #[test]
 fn the_same_frames_are_the_same_bytes() {
-    assert_eq!(film(12, Pace::of_rate(30)), film(12, Pace::of_rate(30)));
+    assert_eq!(film(12, FrameTiming::of_rate(30)), film(12, FrameTiming::of_rate(30)));
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn memory_of_an_animation_is_that_of_a_frame() {
         write(&mut (0..2).map(|n| Ok(frame(n))), 2); // what is made once
         allocation_counter::measure(|| write(&mut (0..frames).map(|n| Ok(frame(n))), frames)).bytes_max
     };
-    let pace = Pace::of_rate(25);
+    let pace = FrameTiming::of_rate(25);
     let gif = |frames: &mut animation::Frames, _| {
         animation::gif(frames, SIZE, pace, &mut std::io::sink()).expect("encodes")
     };
@@ -196,7 +196,7 @@ fn a_film_of_the_command_line_is_made_once_and_again() {
 #[test]
 fn a_turn_takes_three_to_six_seconds() {
     for (frames, seconds) in [(1, 3.0), (6, 3.0), (36, 3.0), (72, 6.0), (300, 6.0)] {
-        let pace = Pace::of_turn(frames);
+        let pace = FrameTiming::of_turn(frames);
         let lasts = f64::from(frames * pace.ticks) / f64::from(pace.ticks_per_second);
         assert!((lasts - seconds).abs() < 0.05, "{frames} frames: {lasts} s");
     }

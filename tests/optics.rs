@@ -1,14 +1,14 @@
 //! Dispersion, Fresnel and colour against published figures and identities.
 
-use cutlab::optics::colour;
+use cutlab::color::cie;
+use cutlab::materials::{MATERIALS, Material};
 use cutlab::optics::dispersion::lines;
 use cutlab::optics::fresnel::{critical_angle_deg, unpolarised};
-use cutlab::optics::materials::{MATERIALS, Material};
 use glam::Vec3;
 
 #[test]
 fn diamond_at_eight_fraunhofer_lines() {
-    let diamond = Material::named("diamond").expect("in the catalogue");
+    let diamond = Material::by_name("diamond").expect("in the catalogue");
     for (um, n) in [
         (lines::B, 2.40728),
         (lines::C, 2.40990),
@@ -38,7 +38,7 @@ fn indices_and_dispersions_match_the_published_ones() {
         ("strontium-titanate", 2.40799, 0.2096, 5e-5),
         ("rutile", 2.61291, 0.31, 5e-3),
     ] {
-        let m = Material::named(name).expect("in the catalogue");
+        let m = Material::by_name(name).expect("in the catalogue");
         assert!((m.index_d() - n_d).abs() < 1e-5, "{name}: {}", m.index_d());
         let separation = m.index(lines::G) - m.index(lines::B);
         assert!((separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
@@ -55,7 +55,7 @@ fn extraordinary_indices_match_the_published_ones() {
         ("moissanite", 2.68897, f64::NAN, 0.0),
         ("rutile", 2.90865, 0.40, 5e-3),
     ] {
-        let law = Material::named(name).and_then(|m| m.extraordinary).expect("uniaxial");
+        let law = Material::by_name(name).and_then(|m| m.extraordinary).expect("uniaxial");
         assert!((law.index(lines::D) - n_d).abs() < 7e-6, "{name}: {}", law.index(lines::D));
         let separation = law.index(lines::G) - law.index(lines::B);
         assert!(b_g.is_nan() || (separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
@@ -63,11 +63,11 @@ fn extraordinary_indices_match_the_published_ones() {
     for (name, birefringence) in
         [("beryl", -0.006), ("emerald", -0.006), ("tourmaline", -0.020), ("zircon", 0.059)]
     {
-        let m = Material::named(name).expect("in the catalogue");
+        let m = Material::by_name(name).expect("in the catalogue");
         let law = m.extraordinary.expect("uniaxial");
         assert!((law.index(lines::D) - m.index_d() - birefringence).abs() < 1e-12, "{name}");
     }
-    let cubic = Material::named("spinel").expect("in the catalogue");
+    let cubic = Material::by_name("spinel").expect("in the catalogue");
     assert_eq!(cubic.extraordinary, None);
 }
 
@@ -76,7 +76,7 @@ fn extraordinary_indices_match_the_published_ones() {
 /// of synthetic crystals and the middle one of gems (1.746, 1.748, 1.756). Cauchy laws go through the n_D and B–G of gemmological tables.
 #[test]
 fn the_materials_beside_the_table_have_their_indices() {
-    let named = |name: &str| Material::named(name).expect("in the catalogue");
+    let named = |name: &str| Material::by_name(name).expect("in the catalogue");
     for (name, n, tolerance) in [
         ("n-bk7", 1.51680, 1e-5),
         ("fused-silica", 1.45846, 1e-5),
@@ -129,14 +129,14 @@ fn gems_have_the_figures_of_the_tables() {
         ("citrine", 1.5442, 0.0133, 2.65),
     ];
     for (name, n, b_g, density) in figures {
-        let m = Material::named(name).expect("in the catalogue");
+        let m = Material::by_name(name).expect("in the catalogue");
         assert!((m.index_d() - n).abs() < 6e-5, "{name}: {}", m.index_d());
         let separation = m.index(lines::G) - m.index(lines::B);
         assert!((separation - b_g).abs() < 6e-5, "{name}: {separation}");
         assert_eq!(m.specific_gravity, Some(density), "{name}");
     }
     for (name, density) in [("cubic-zirconia", 5.8), ("yag", 4.57)] {
-        assert_eq!(Material::named(name).and_then(|m| m.specific_gravity), Some(density), "{name}");
+        assert_eq!(Material::by_name(name).and_then(|m| m.specific_gravity), Some(density), "{name}");
     }
 }
 
@@ -144,14 +144,14 @@ fn gems_have_the_figures_of_the_tables() {
 #[test]
 fn coloured_gems_without_a_spectrum_say_so() {
     for name in ["amethyst", "citrine", "demantoid", "tanzanite", "peridot", "rubellite", "aquamarine"] {
-        let m = Material::named(name).expect("in the catalogue");
+        let m = Material::by_name(name).expect("in the catalogue");
         assert!(m.is_clear() && m.about.contains("traced as colourless"), "{}", m.about);
     }
 }
 
 #[test]
 fn the_three_colours_of_the_original_project() {
-    let rgb = Material::named("diamond-rgb").expect("in the catalogue");
+    let rgb = Material::by_name("diamond-rgb").expect("in the catalogue");
     assert_eq!([0.65, 0.55, 0.45].map(|um| rgb.index(um)), [2.40, 2.43, 2.46]);
 }
 
@@ -177,7 +177,7 @@ fn every_material_loses_less_than_all_and_bends_what_it_says() {
 
 #[test]
 fn diamond_reflects_and_traps_what_textbooks_say() {
-    let n = Material::named("diamond").expect("in the catalogue").index_d();
+    let n = Material::by_name("diamond").expect("in the catalogue").index_d();
     assert!((unpolarised(1.0, n).0 - 0.17200).abs() < 1e-4);
     assert!((critical_angle_deg(n) - 24.44).abs() < 0.01);
 }
@@ -185,9 +185,9 @@ fn diamond_reflects_and_traps_what_textbooks_say() {
 #[test]
 fn equal_energy_light_is_white() {
     let n = 8 * 512;
-    let xyz: Vec3 = (0..n).map(|i| colour::xyz_weight(colour::wavelength((i as f32 + 0.5) / n as f32))).sum();
-    let rgb = colour::linear_srgb(xyz / n as f32);
+    let xyz: Vec3 = (0..n).map(|i| cie::xyz_weight(cie::wavelength((i as f32 + 0.5) / n as f32))).sum();
+    let rgb = cie::linear_srgb(xyz / n as f32);
     assert!((rgb - Vec3::ONE).abs().max_element() < 2e-3, "{rgb}");
-    assert_eq!(colour::srgb_encode(0.0), 0.0);
-    assert!((colour::srgb_encode(1.0) - 1.0).abs() < 1e-6);
+    assert_eq!(cie::srgb_encode(0.0), 0.0);
+    assert!((cie::srgb_encode(1.0) - 1.0).abs() < 1e-6);
 }

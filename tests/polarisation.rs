@@ -1,22 +1,22 @@
 //! Polarised light: the Mueller matrices against field components, the lanes against the twin,
 //! energy, and what polarisation does to a view.
 
-use cutlab::experiments::{Medium, Traced, View};
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::math::sample;
-use cutlab::optics::Material;
-use cutlab::optics::fresnel::Facing;
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::materials::Material;
+use cutlab::optics::fresnel::FresnelCoefficients;
 use cutlab::optics::stokes::Stokes;
-use cutlab::walk::{Isa, LANES, Packet, Stone, scalar};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::warps;
+use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
 const SEED: u64 = 7_319;
 const INDEX: f64 = 2.417;
 
-fn brilliant(isa: Isa) -> Stone {
-    let design = cutlab::cut::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
-    Stone::with_isa(design.solid().expect("closed"), isa)
+fn brilliant(isa: Isa) -> ConvexStone {
+    let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+    ConvexStone::with_isa(design.solid().expect("closed"), isa)
 }
 
 /// A complex number, for the field.
@@ -47,24 +47,27 @@ fn amplitudes(cos_i: f64, n: f64) -> (C, C) {
     (s, p)
 }
 
-/// [D] Unpolarised light is two fields at right angles, half each: the power that every meeting
+/// [D] Unpolarised light is two fields at right angles, half each: the power that every interaction
 /// lets out is the mean of both, carried as complex components over fifty facets.
 #[test]
 fn stokes_vectors_agree_with_fields() {
     let mut stream = Stream::new(SEED, Purpose::Test, 0);
-    let mut unit = || sample::about(Vec3::Z, sample::cone(stream.pair(), -1.0)).as_dvec3().normalize();
+    let mut unit =
+        || warps::to_world(Vec3::Z, warps::uniform_cone(stream.pair(), -1.0)).as_dvec3().normalize();
     for _ in 0..200 {
         let mut direction = unit();
         let mut axis = direction.any_orthonormal_vector();
         let mut light = Stokes::unpolarised(1.0, axis);
         let mut fields = [[C(1.0, 0.0), C(0.0, 0.0)], [C(0.0, 0.0), C(1.0, 0.0)]];
-        for meeting in 0..50 {
+        for interaction in 0..50 {
             let mut normal = unit();
             if normal.dot(direction) < 0.0 {
                 normal = -normal;
             }
             let cos_i = normal.dot(direction);
-            light = light.about_incidence(direction, normal).reflected(&Facing::new(cos_i, 1.0 / INDEX));
+            light = light
+                .about_incidence(direction, normal)
+                .reflected(&FresnelCoefficients::new(cos_i, 1.0 / INDEX));
 
             let across = direction.cross(normal).normalize();
             let (cos, sin) = (axis.dot(across), direction.cross(axis).dot(across));
@@ -77,7 +80,7 @@ fn stokes_vectors_agree_with_fields() {
             axis = across;
             direction = (direction - 2.0 * cos_i * normal).normalize();
             let power: f64 = fields.iter().flatten().map(|c| 0.5 * c.size2()).sum();
-            assert!((light.i - power).abs() < 1e-12, "meeting {meeting}: {} {power}", light.i);
+            assert!((light.i - power).abs() < 1e-12, "interaction {interaction}: {} {power}", light.i);
             let size2 = light.q.powi(2) + light.u.powi(2) + light.v.powi(2);
             assert!(size2 <= light.i.powi(2) * (1.0 + 1e-9), "no more polarised than whole");
         }
@@ -85,13 +88,13 @@ fn stokes_vectors_agree_with_fields() {
 }
 
 /// A packet of vertical rays on the crown, following polarisation.
-fn rain(stone: &Stone, stream: &mut Stream) -> Packet {
+fn rain(stone: &ConvexStone, stream: &mut Stream) -> Packet {
     let mut packet = Packet::new(true);
     for lane in 0..LANES {
-        let target = (sample::disc(stream.pair()) * 0.9).extend(2.0);
-        let hit = stone.hit(target, Vec3::NEG_Z).expect("over the stone");
-        let entry = stone.enter(hit.facet, Vec3::NEG_Z, INDEX as f32);
-        packet.enter(lane, target - Vec3::Z * hit.distance, &entry, INDEX as f32);
+        let target = (warps::uniform_disc(stream.pair()) * 0.9).extend(2.0);
+        let hit = stone.intersect(target, Vec3::NEG_Z).expect("over the stone");
+        let entry = stone.refract_into(hit.facet, Vec3::NEG_Z, INDEX as f32);
+        packet.load_refracted(lane, target - Vec3::Z * hit.distance, &entry, INDEX as f32);
     }
     packet
 }
@@ -109,14 +112,14 @@ fn lanes_agree_with_the_twin_on_every_instruction_set() {
             let mut packet = rain(&stone, &mut stream);
             let start = packet.clone();
             let mut lanes: Vec<Vec<(usize, f64)>> = vec![Vec::new(); LANES];
-            stone.walk(&mut packet, 1e-3, |m, _| {
+            stone.trace(&mut packet, 1e-3, |m, _| {
                 (0..LANES).for_each(|l| lanes[l].push((m.facet[l] as usize, m.power[l].into())));
             });
             for (lane, seen) in lanes.iter().enumerate() {
                 let axis = Vec3::new(start.ax[lane], start.ay[lane], start.az[lane]).as_dvec3();
                 let power = f64::from(start.power[lane]);
                 let stokes = Stokes { q: start.q[lane].into(), ..Stokes::unpolarised(power, axis) };
-                let ray = scalar::Ray {
+                let ray = reference::ScalarRay {
                     point: start.point(lane).as_dvec3(),
                     direction: start.direction(lane).as_dvec3().normalize(),
                     power,
@@ -124,10 +127,10 @@ fn lanes_agree_with_the_twin_on_every_instruction_set() {
                     absorption: 0.0,
                     stokes: Some(stokes),
                 };
-                let mut meetings = seen.iter();
+                let mut bounces = seen.iter();
                 let mut together = true;
-                scalar::walk(&planes, ray, 1e-3, |m| {
-                    let Some((facet, power)) = meetings.next().filter(|_| together) else { return };
+                reference::trace(&planes, ray, 1e-3, |m| {
+                    let Some((facet, power)) = bounces.next().filter(|_| together) else { return };
                     together = *facet == m.facet;
                     if together {
                         compared += 1;
@@ -151,7 +154,7 @@ fn entered_is_left_and_lost() {
         let mut packet = rain(&stone, &mut stream);
         let entered: f32 = packet.power.iter().sum();
         let mut left = 0.0;
-        let lost = stone.walk(&mut packet, 1e-4, |m, _| left += m.power.iter().sum::<f32>());
+        let lost = stone.trace(&mut packet, 1e-4, |m, _| left += m.power.iter().sum::<f32>());
         assert!((entered - left - lost).abs() < 2e-5 * entered, "{entered} {left} {lost}");
     }
 }
@@ -163,12 +166,12 @@ fn a_lane_at_rest_stays_dark() {
         let mut packet = rain(&brilliant(isa), &mut Stream::new(SEED, Purpose::Test, 3));
         packet.power[5] = 0.0;
         (packet.q[5], packet.u[5]) = (0.3, -0.2);
-        let mut meetings = 0;
-        brilliant(isa).walk(&mut packet, 1e-4, |m, after| {
-            meetings += 1;
+        let mut bounces = 0;
+        brilliant(isa).trace(&mut packet, 1e-4, |m, after| {
+            bounces += 1;
             assert_eq!((m.power[5], after.power[5]), (0.0, 0.0), "{}", isa.name());
         });
-        assert!(meetings > 10);
+        assert!(bounces > 10);
     }
 }
 
@@ -177,10 +180,10 @@ fn a_lane_at_rest_stays_dark() {
 #[test]
 fn polarisation_changes_a_view_by_as_much_as_is_known() {
     let stone = brilliant(Isa::best());
-    let material = Material::of_index(2.417298);
+    let material = Material::from_index(2.417298);
     let up = |polarised| {
-        let mut traced = Traced::new(
-            View::new(&stone, &Medium { material: &material, polarised }).expect("a crown"),
+        let mut traced = BatchedEstimate::new(
+            View::new(&stone, &TraceOptics { material: &material, polarised }).expect("a crown"),
             SEED,
         );
         traced.extend_to(1 << 17);

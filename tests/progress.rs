@@ -1,20 +1,20 @@
 //! The file of progress, byte by byte: torn, broken, someone else's.
 
-use cutlab::store::progress::{Progress, Remark};
+use cutlab::storage::journal::{Journal, JournalRemark};
 use std::cell::RefCell;
 use std::path::Path;
 
 /// Opens the file; what it says on the way.
-fn open(path: &Path, identity: &str) -> (Progress, Vec<Remark>) {
+fn open(path: &Path, identity: &str) -> (Journal, Vec<JournalRemark>) {
     let said = RefCell::new(Vec::new());
-    let progress = Progress::open(path, identity, &|remark| said.borrow_mut().push(remark)).expect("opens");
+    let progress = Journal::open(path, identity, &|remark| said.borrow_mut().push(remark)).expect("opens");
     (progress, said.into_inner())
 }
 
-fn rows(progress: &mut Progress) -> Vec<String> {
+fn rows(progress: &mut Journal) -> Vec<String> {
     let mut rows = Vec::new();
     progress
-        .each(|row| {
+        .for_each(|row| {
             rows.push(String::from_utf8_lossy(row).into_owned());
             Ok(())
         })
@@ -72,7 +72,7 @@ fn a_broken_file_gives_no_wrong_record() {
                 .starts_with(&kept.iter().map(String::as_str).collect::<Vec<_>>()),
             "byte {at}: {kept:?}"
         );
-        if let [Remark::SetAside(file, _)] = &said[..] {
+        if let [JournalRemark::Quarantined(file, _)] = &said[..] {
             aside += 1;
             assert_eq!(std::fs::read(file).expect("kept"), broken);
         }
@@ -87,7 +87,7 @@ fn another_identity_starts_anew_and_the_old_file_is_kept() {
     let bytes = filled(&path);
     let (progress, said) = open(&path, "other work");
     assert_eq!(progress.count(), 0);
-    let [Remark::SetAside(file, why)] = &said[..] else { panic!("{said:?}") };
+    let [JournalRemark::Quarantined(file, why)] = &said[..] else { panic!("{said:?}") };
     assert!(why.contains("another command"));
     assert_eq!(std::fs::read(file).expect("kept"), bytes);
     progress.finish().expect("ends");
@@ -108,6 +108,6 @@ fn one_at_a_time_has_it() {
         std::thread::sleep(std::time::Duration::from_millis(100));
         first.finish().expect("ends");
         let (count, said) = second.join().expect("ends");
-        assert_eq!((count, said), (0, vec![Remark::Waiting]), "it was finished: the next starts anew");
+        assert_eq!((count, said), (0, vec![JournalRemark::Waiting]), "it was finished: the next starts anew");
     });
 }

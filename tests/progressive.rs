@@ -1,14 +1,15 @@
 //! Progressive pictures: they converge to what one picture of many photons shows, by as much as they say.
 
-use cutlab::cut::library;
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::math::sample;
-use cutlab::optics::Material;
-use cutlab::photons::{self, Shots};
-use cutlab::render::{self, Film, Maps, Pass, Progressive, Tone};
-use cutlab::scene::{Cast, Scene, SceneFile, preset};
-use cutlab::transport::crossing::{self, Entering};
-use cutlab::transport::{Event, Past, SurfacePoint};
+use cutlab::design::library;
+use cutlab::integrators::{self, Film, Pass, PhotonMaps, Progressive, Tone};
+use cutlab::materials::Material;
+use cutlab::photons::stone_scattering;
+use cutlab::photons::stone_scattering::IncidentPhoton;
+use cutlab::photons::{self, PhotonSets};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::warps;
+use cutlab::scene::intersection::{Intersection, Past, SurfacePoint};
+use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::{Vec2, Vec3};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
@@ -19,15 +20,22 @@ const SEED: u64 = 20_261;
 fn table() -> Scene {
     let design =
         library::design("round-brilliant", &BTreeMap::new()).expect("in the library").expect("builds");
-    let cast = Cast { designs: vec![design], ..Cast::default() };
+    let cast = SceneOverrides { designs: vec![design], ..SceneOverrides::default() };
     preset("table").expect("in the catalogue").expect("is sound").build(&cast, 4.0 / 3.0).expect("is set up")
 }
 
-fn settings(rays: u32) -> render::Settings {
-    render::Settings { width: 40, height: 30, rays, round: 0, tone: Tone::default(), seed: SEED }
+fn settings(rays: u32) -> integrators::RenderSettings {
+    integrators::RenderSettings {
+        width: 40,
+        height: 30,
+        samples_per_pixel: rays,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    }
 }
 
-fn mean(film: &render::Film) -> Vec3 {
+fn mean(film: &integrators::Film) -> Vec3 {
     let light = film.linear(None);
     light.iter().sum::<Vec3>() / light.len() as f32
 }
@@ -37,10 +45,10 @@ fn mean(film: &render::Film) -> Vec3 {
 #[test]
 fn rounds_converge_to_the_plain_picture() {
     let scene = table();
-    let many = photons::Settings { photons: 100_000, nearest: 200, seed: SEED };
-    let maps = Maps::new(&scene, Shots::shoot(&scene, &many), many.nearest);
-    let plain = render::render(&scene, &scene.camera, &maps, &settings(64), &|| ());
-    let few = photons::Settings { photons: 3_000, nearest: 60, seed: SEED };
+    let many = photons::PhotonSettings { photons: 100_000, nearest: 200, seed: SEED };
+    let maps = PhotonMaps::new(&scene, PhotonSets::emit(&scene, &many), many.nearest);
+    let plain = integrators::render(&scene, &scene.camera, &maps, &settings(64), &|| ());
+    let few = photons::PhotonSettings { photons: 3_000, nearest: 60, seed: SEED };
     let mut picture = Progressive::new(&scene, &scene.camera, settings(1), few);
     let mut noise = Vec::new();
     for _ in 0..64 {
@@ -56,7 +64,7 @@ fn rounds_converge_to_the_plain_picture() {
 #[test]
 fn rounds_do_not_depend_on_threads() {
     let scene = table();
-    let few = photons::Settings { photons: 1_000, nearest: 30, seed: SEED };
+    let few = photons::PhotonSettings { photons: 1_000, nearest: 30, seed: SEED };
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
@@ -72,14 +80,14 @@ fn rounds_do_not_depend_on_threads() {
 #[test]
 fn a_picture_goes_on_from_its_state() {
     let scene = table();
-    let few = photons::Settings { photons: 1_000, nearest: 30, seed: SEED };
+    let few = photons::PhotonSettings { photons: 1_000, nearest: 30, seed: SEED };
     let new = || Progressive::new(&scene, &scene.camera, settings(1), few);
     let mut whole = new();
     (0..2).for_each(|_| whole.round(&|| ()));
     let (state, noise) = (whole.state(), whole.noise());
     let mut later = new();
-    assert!(!later.go_on_from(&state[1..]) && !later.go_on_from(&[]));
-    assert!(later.go_on_from(&state));
+    assert!(!later.restore(&state[1..]) && !later.restore(&[]));
+    assert!(later.restore(&state));
     assert_eq!((later.rounds(), later.noise(), later.film()), (2, noise, whole.film()));
     for picture in [&mut whole, &mut later] {
         (0..2).for_each(|_| picture.round(&|| ()));
@@ -98,7 +106,7 @@ fn wide_floor() -> Scene {
         light = [{ kind = "square", at = [2, -1, 8], to = [0, 0, 0], side = 5, radiance = 3 }]
     "#;
     let file = SceneFile::parse("floor", "floor.toml", text, Path::new("")).expect("is sound");
-    let cast = Cast { material: Some(Material::of_index(1.54)), ..Cast::default() };
+    let cast = SceneOverrides { material: Some(Material::from_index(1.54)), ..SceneOverrides::default() };
     file.build(&cast, 1.0).expect("is set up")
 }
 
@@ -106,33 +114,35 @@ fn wide_floor() -> Scene {
 /// drawn by power, on until a lamp is found; of what comes back to the floor all light counts.
 fn by_paths(scene: &Scene, at: &SurfacePoint, stream: &mut Stream) -> f32 {
     let stone = &scene.stones[0];
-    let ball = stone.ball();
+    let ball = stone.bounding_sphere();
     let to = ball.centre - at.point;
     let cos_max = (1.0 - (ball.radius / to.length()).powi(2)).max(0.0).sqrt();
-    let direction = sample::about(to.normalize(), sample::cone(stream.pair(), cos_max));
+    let direction = warps::to_world(to.normalize(), warps::uniform_cone(stream.pair(), cos_max));
     let cos = direction.dot(at.normal);
-    let Event::Stone(_, arrival) = scene.first(at.point, direction, Past::Surface(0)) else { return 0.0 };
-    let entering = Entering { arrival, nm: 560.0, choice: stream.unit64() };
-    let out = crossing::cross(stone, u32::MAX, &[entering])[0];
+    let Intersection::Stone(_, arrival) = scene.intersect(at.point, direction, Past::Surface(0)) else {
+        return 0.0;
+    };
+    let entering = IncidentPhoton { hit: arrival, nm: 560.0, choice: stream.unit64() };
+    let out = stone_scattering::scatter(stone, u32::MAX, &[entering])[0];
     let (from, toward) = (stone.point_to_world(out.point), stone.direction_to_world(out.direction));
-    let seen = match scene.first(from, toward, Past::Stone(0)) {
-        Event::Light(i, colour) => scene.lights[i].at(colour, 560.0),
-        Event::Surface(floor) if floor.front => {
+    let seen = match scene.intersect(from, toward, Past::Stone(0)) {
+        Intersection::Light(i, colour) => scene.lights[i].radiance_at(colour, 560.0),
+        Intersection::Surface(floor) if floor.front => {
             let direct = scene.direct_irradiance(0, &floor, [stream.pair()]);
             let more = if stream.unit() < 0.5 { 2.0 * by_paths(scene, &floor, stream) } else { 0.0 };
-            0.3 / PI * (scene.lights[0].at(direct, 560.0) + more)
+            0.3 / PI * (scene.lights[0].radiance_at(direct, 560.0) + more)
         }
         _ => 0.0,
     };
-    cos.max(0.0) / sample::cone_pdf(cos_max) * out.share * seen
+    cos.max(0.0) / warps::uniform_cone_pdf(cos_max) * out.share * seen
 }
 
 /// [C] Rounds approach what paths find, near the stone and where one photon in a hundred falls.
 #[test]
 fn rounds_approach_paths_in_light_and_in_dark() {
     let scene = wide_floor();
-    let settings = render::Settings { width: 48, height: 48, ..settings(1) };
-    let first = photons::Settings { photons: 20_000, nearest: 200, seed: SEED };
+    let settings = integrators::RenderSettings { width: 48, height: 48, ..settings(1) };
+    let first = photons::PhotonSettings { photons: 20_000, nearest: 200, seed: SEED };
     let mut picture = Progressive::new(&scene, &scene.camera, settings, first);
     (0..30).for_each(|_| picture.round(&|| ()));
     let caustic = picture.film().linear(Some(Pass::Caustic));
@@ -171,10 +181,10 @@ fn rounds_approach_paths_in_light_and_in_dark() {
 fn noise_is_told_by_rounds_enough() {
     let scene = table();
     let asked = 0.25;
-    let few = |seed| photons::Settings { photons: 2_000, nearest: 60, seed };
+    let few = |seed| photons::PhotonSettings { photons: 2_000, nearest: 60, seed };
     let taken: Vec<(u32, f64, Film)> = (0..20)
         .map(|seed| {
-            let settings = render::Settings { seed, ..settings(1) };
+            let settings = integrators::RenderSettings { seed, ..settings(1) };
             let mut picture = Progressive::new(&scene, &scene.camera, settings, few(seed));
             while !picture.is_converged(asked) {
                 picture.round(&|| ());
@@ -207,7 +217,7 @@ fn noise_is_told_by_rounds_enough() {
 #[test]
 fn a_black_picture_converges() {
     let mut scene = table();
-    let first = photons::Settings { photons: 100, nearest: 30, seed: SEED };
+    let first = photons::PhotonSettings { photons: 100, nearest: 30, seed: SEED };
     scene.camera.target = Vec3::new(0.0, 0.0, 1000.0);
     scene.camera.position = Vec3::new(0.0, 0.0, 500.0);
     let unlit = Scene { lights: Vec::new(), ..scene.clone() };

@@ -1,10 +1,11 @@
 //! What the programs that read our files accept: a stand-in of each receiver's limits, because a round
 //! trip through cutlab's own readers cannot show them.
 
-use cutlab::cut::{Design, Gear, Tier, library};
-use cutlab::formats::{self, stone};
-use cutlab::optics::Material;
-use cutlab::solid::{Plane, Polyhedron};
+use cutlab::design::{Design, Gear, Tier, library};
+use cutlab::formats::{self};
+use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::materials::Material;
+use cutlab::stone_spec;
 use glam::DVec3;
 use std::path::Path;
 
@@ -14,7 +15,7 @@ const ROUGH: f64 = 2.2;
 fn library_designs() -> impl Iterator<Item = (String, Design)> {
     let extra = ["round-brilliant:size=0.5", "emerald:size=80", "prism:sides=7,size=100"];
     let names = library::names().map(String::from).chain(extra.map(String::from));
-    names.map(|spec| (spec.clone(), stone::open(&spec).unwrap_or_else(|e| panic!("{e}")).design))
+    names.map(|spec| (spec.clone(), stone_spec::open(&spec).unwrap_or_else(|e| panic!("{e}")).design))
 }
 
 fn data(name: &str) -> Design {
@@ -80,7 +81,7 @@ fn gemcad_words(text: &str) -> Vec<Plane> {
                     let down = if tier.0 == 0.0 { tier.1 < 0.0 } else { tier.0.is_sign_negative() };
                     let angle = tier.0.abs().copysign(if down { -1.0 } else { 1.0 });
                     let normal =
-                        cutlab::cut::design::facet_normal(Gear { teeth: gear, offset: 0.0 }, angle, index);
+                        cutlab::design::tiers::facet_normal(Gear { teeth: gear, offset: 0.0 }, angle, index);
                     planes.push(Plane { normal, distance: tier.1.abs() });
                 }
             }
@@ -150,7 +151,8 @@ fn gemcad_cuts_every_stone_whole_out_of_its_rough_from_binary() {
         assert!(texts.iter().all(|t| t.len() <= 79), "{name}");
         assert!((1.0..3.5).contains(&index), "{name}");
     }
-    let (.., index) = gemcad_binary(&encoded(&stone::open("tolkowsky").expect("a cut").design, "gem").bytes);
+    let (.., index) =
+        gemcad_binary(&encoded(&stone_spec::open("tolkowsky").expect("a cut").design, "gem").bytes);
     assert_eq!(index, 2.417);
 }
 
@@ -255,7 +257,7 @@ fn viewed(bytes: &[u8]) -> (DVec3, gltf::Document) {
 
 #[test]
 fn gltf_is_in_metres_upright_and_of_its_material() {
-    let design = stone::open("tolkowsky").expect("a cut").design;
+    let design = stone_spec::open("tolkowsky").expect("a cut").design;
     let (low, high) = design.solid().expect("closed").bounds();
     for format in ["glb", "gltf"] {
         let (size, document) = viewed(&encoded(&design, format).bytes);
@@ -276,10 +278,10 @@ fn gltf_is_in_metres_upright_and_of_its_material() {
         }
         // and back in millimetres
         let back = formats::read_bytes("x", &encoded(&design, format).bytes, None).expect("reads").design;
-        assert_eq!(back.unit, cutlab::cut::Unit::Millimetre);
+        assert_eq!(back.unit, cutlab::design::LengthUnit::Millimetre);
         assert!((back.solid().expect("closed").width() - 6.5).abs() < 1e-5);
     }
-    let ruby = formats::encode_as(&design, Material::named("ruby"), "glb").expect("is written");
+    let ruby = formats::encode_as(&design, Material::by_name("ruby"), "glb").expect("is written");
     let (_, document) = viewed(&ruby.bytes);
     let material = document.materials().next().expect("a material");
     let volume = material.volume().expect("a body");
@@ -287,7 +289,7 @@ fn gltf_is_in_metres_upright_and_of_its_material() {
     assert!(r > 2.0 * g && r > 2.0 * b && volume.attenuation_distance() == 0.01, "{r} {g} {b}");
     assert_eq!(material.name(), Some("ruby"));
     // a shape without size gets one, and that is said
-    let classic = stone::open("classic").expect("a cut").design;
+    let classic = stone_spec::open("classic").expect("a cut").design;
     let written = encoded(&classic, "glb");
     assert!(written.remarks[0].contains("6.5 mm wide"), "{:?}", written.remarks);
     assert!((viewed(&written.bytes).0.x - 0.0065).abs() < 2e-4);
@@ -296,13 +298,13 @@ fn gltf_is_in_metres_upright_and_of_its_material() {
 #[test]
 fn every_design_file_states_an_index_of_refraction() {
     let line = |design: &Design, material: Option<&str>| {
-        let material = material.and_then(Material::named);
+        let material = material.and_then(Material::by_name);
         let bytes = formats::encode_as(design, material, "asc").expect("is written").bytes;
         let text = String::from_utf8_lossy(&bytes).into_owned();
         text.lines().find(|l| l.starts_with("I ")).map(String::from).unwrap_or_default()
     };
-    let classic = stone::open("classic").expect("a cut").design;
-    let tolkowsky = stone::open("tolkowsky").expect("a cut").design;
+    let classic = stone_spec::open("classic").expect("a cut").design;
+    let tolkowsky = stone_spec::open("tolkowsky").expect("a cut").design;
     assert_eq!(line(&classic, None), "I 1.54");
     assert_eq!(line(&tolkowsky, None), "I 2.417");
     assert_eq!(line(&classic, Some("corundum")), "I 1.768");
@@ -310,12 +312,12 @@ fn every_design_file_states_an_index_of_refraction() {
 
 #[test]
 fn a_stone_off_its_origin_comes_to_stand_about_it() {
-    let mut design = Design::named("box");
+    let mut design = Design::new("box");
     let gear = Gear::default();
     design.tiers = vec![
-        Tier::cut("G", gear, -90.0, 1.0, &[96.0, 24.0, 48.0, 72.0]),
-        Tier::cut("C", gear, -0.0, 0.5, &[96.0]),
-        Tier::cut("T", gear, 0.0, 0.7, &[96.0]),
+        Tier::new("G", gear, -90.0, 1.0, &[96.0, 24.0, 48.0, 72.0]),
+        Tier::new("C", gear, -0.0, 0.5, &[96.0]),
+        Tier::new("T", gear, 0.0, 0.7, &[96.0]),
     ];
     for facet in design.tiers.iter_mut().flat_map(|t| &mut t.facets) {
         facet.plane = facet.plane.moved(DVec3::new(100.0, -50.0, 30.0));

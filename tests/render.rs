@@ -1,17 +1,17 @@
 //! The picture: energy of the photon maps, the estimate, the passes, determinism.
 
-use cutlab::cut::library;
-use cutlab::math::random::{Purpose, Stream};
-use cutlab::math::sample;
-use cutlab::optics::Material;
-use cutlab::optics::colour::BANDS;
-use cutlab::photons::{Photon, Settings, Shot, Shots, file};
-use cutlab::render::write::{self, Bits};
-use cutlab::render::{self, Maps, Pass, Tone};
+use cutlab::color::cie::BANDS;
+use cutlab::design::library;
+use cutlab::integrators::image_io::{self, Bits};
+use cutlab::integrators::{self, Pass, PhotonMaps, Tone};
+use cutlab::materials::Material;
+use cutlab::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton, map_file};
+use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::warps;
+use cutlab::scene::intersection::{Intersection, Past, SurfacePoint};
 use cutlab::scene::lights::square::Square;
 use cutlab::scene::surface::{Plate, Shape};
-use cutlab::scene::{Cast, Finish, Lens, Light, Reflectance, Scene, SceneFile, Surface, preset};
-use cutlab::transport::{Event, Past, SurfacePoint};
+use cutlab::scene::{Bsdf, Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,10 +19,10 @@ use std::path::Path;
 const SEED: u64 = 20_260;
 
 fn scene(name: &str, cut: &str, material: &str) -> Scene {
-    let cast = Cast {
+    let cast = SceneOverrides {
         designs: vec![library::design(cut, &BTreeMap::new()).expect("in the library").expect("builds")],
-        material: Some(Material::named(material).expect("in the catalogue").clone()),
-        ..Cast::default()
+        material: Some(Material::by_name(material).expect("in the catalogue").clone()),
+        ..SceneOverrides::default()
     };
     preset(name).expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
 }
@@ -47,7 +47,7 @@ fn closed_room(grey: f32) -> Scene {
     let floor = plate(&room.surfaces[0]);
     let height = Vec3::Z * floor.u.length();
     room.surfaces.push(Surface::plate(floor.corner, height, floor.u, Reflectance::Grey(grey)));
-    room.surfaces.iter_mut().for_each(|s| s.finish = Finish::Diffuse(Reflectance::Grey(grey)));
+    room.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(grey)));
     room.lights = vec![Light::white(small_light(), 10.0)];
     room
 }
@@ -61,8 +61,8 @@ fn small_light() -> Square {
     Square::facing_down(Vec3::new(1.5, 0.0, 5.4), 0.3)
 }
 
-fn flux(shot: &Shot) -> f64 {
-    let one = |p: &Photon| {
+fn flux(shot: &PhotonSet) -> f64 {
+    let one = |p: &StoredPhoton| {
         let tint: f32 = p.tint.iter().map(|t| f32::from(*t)).sum();
         f64::from(p.power * tint) / (255.0 * BANDS as f64)
     };
@@ -77,11 +77,11 @@ fn first_meetings(room: &Scene) -> (f64, f64) {
     let (mut on_stone, mut on_wall) = (0, 0);
     for _ in 0..n {
         let origin = light.point(stream.pair());
-        let direction = sample::about(light.normal(), sample::cosine_hemisphere(stream.pair()));
-        match room.first(origin, direction, Past::Light(0)) {
-            Event::Stone(..) => on_stone += 1,
-            Event::Surface(..) => on_wall += 1,
-            Event::Light(..) | Event::Nothing => {}
+        let direction = warps::to_world(light.normal(), warps::cosine_hemisphere(stream.pair()));
+        match room.intersect(origin, direction, Past::Light(0)) {
+            Intersection::Stone(..) => on_stone += 1,
+            Intersection::Surface(..) => on_wall += 1,
+            Intersection::Light(..) | Intersection::None => {}
         }
     }
     (f64::from(on_stone) / f64::from(n), f64::from(on_wall) / f64::from(n))
@@ -96,11 +96,11 @@ fn a_closed_grey_room_balances_with_and_without_the_stone() {
     let grey = 0.5;
     let with = closed_room(grey as f32);
     let without = Scene { stones: Vec::new(), ..with.clone() };
-    let settings = Settings { photons: 1_000_000, nearest: 500, seed: SEED };
+    let settings = PhotonSettings { photons: 1_000_000, nearest: 500, seed: SEED };
     let power = f64::from(small_light().area()) * 10.0 * std::f64::consts::PI;
     let expected = power / (1.0 - grey);
     for room in [&with, &without] {
-        let shots = Shots::shoot(room, &settings);
+        let shots = PhotonSets::emit(room, &settings);
         let (on_stone, on_wall) = first_meetings(room);
         assert_eq!(on_stone > 0.01, !room.stones.is_empty(), "the stone is lit: {on_stone}");
         assert_eq!(shots.caustic.photons.is_empty(), room.stones.is_empty());
@@ -121,12 +121,12 @@ fn the_estimate_is_uniform_to_the_edges() {
     let photons = (0..n)
         .map(|_| {
             let at = on(&room.surfaces, 0, stream.pair());
-            Photon::new(&at, &[area / n as f32; BANDS])
+            StoredPhoton::new(&at, &[area / n as f32; BANDS])
         })
         .collect();
-    let map = render::Maps::new(
+    let map = integrators::PhotonMaps::new(
         &room,
-        Shots { caustic: Shot { photons, emitted: n }, indirect: Shot::default() },
+        PhotonSets { caustic: PhotonSet { photons, emitted: n }, indirect: PhotonSet::default() },
         2000,
     )
     .caustic;
@@ -149,19 +149,25 @@ fn a_stone_in_uniform_light_disappears() {
         for i in 0..grid * grid {
             let [s, t] = [i % grid, i / grid].map(|k| (k as f32 + 0.5) / grid as f32);
             let power = wall.u.cross(wall.v).length() / (grid * grid) as f32;
-            photons.push(Photon::new(&on(&room.surfaces, number, [s, t]), &[power; BANDS]));
+            photons.push(StoredPhoton::new(&on(&room.surfaces, number, [s, t]), &[power; BANDS]));
         }
     }
-    let shots = Shots { caustic: Shot { photons, emitted: 1 }, indirect: Shot::default() };
-    let maps = Maps::new(&room, shots, 500);
+    let shots = PhotonSets { caustic: PhotonSet { photons, emitted: 1 }, indirect: PhotonSet::default() };
+    let maps = PhotonMaps::new(&room, shots, 500);
     // look at the stone alone
     let mut camera = room.camera;
     camera.target = room.stones[0].position;
     camera.lens = Lens::Perspective(6.0);
     camera.position = Vec3::new(0.3, -2.7, 1.2);
-    let settings =
-        render::Settings { width: 24, height: 24, rays: 16, round: 0, tone: Tone::default(), seed: SEED };
-    let film = render::render(&room, &camera, &maps, &settings, &|| ());
+    let settings = integrators::RenderSettings {
+        width: 24,
+        height: 24,
+        samples_per_pixel: 16,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    };
+    let film = integrators::render(&room, &camera, &maps, &settings, &|| ());
     let radiance = 0.5 / std::f32::consts::PI;
     let mean = film.linear(None).into_iter().sum::<Vec3>() / (24.0 * 24.0);
     for channel in (mean / radiance).to_array() {
@@ -184,18 +190,24 @@ fn direct_light_follows_the_square_of_the_distance() {
     }
 }
 
-fn small_picture(scene: &Scene, shots: &Shots) -> render::Film {
-    let maps = Maps::new(scene, shots.clone(), 100);
-    let settings =
-        render::Settings { width: 40, height: 30, rays: 4, round: 0, tone: Tone::default(), seed: SEED };
-    render::render(scene, &scene.camera, &maps, &settings, &|| ())
+fn small_picture(scene: &Scene, shots: &PhotonSets) -> integrators::Film {
+    let maps = PhotonMaps::new(scene, shots.clone(), 100);
+    let settings = integrators::RenderSettings {
+        width: 40,
+        height: 30,
+        samples_per_pixel: 4,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    };
+    integrators::render(scene, &scene.camera, &maps, &settings, &|| ())
 }
 
 #[test]
 fn passes_add_up_and_show_what_they_should() {
     let room = scene("cornell", "octahedron", "diamond");
-    let settings = Settings { photons: 20_000, nearest: 100, seed: SEED };
-    let film = small_picture(&room, &Shots::shoot(&room, &settings));
+    let settings = PhotonSettings { photons: 20_000, nearest: 100, seed: SEED };
+    let film = small_picture(&room, &PhotonSets::emit(&room, &settings));
     let passes: Vec<_> = Pass::ALL.iter().map(|(pass, _)| film.linear(Some(*pass))).collect();
     for (i, sum) in film.linear(None).iter().enumerate() {
         let of_passes: Vec3 = passes.iter().map(|p| p[i]).sum();
@@ -213,13 +225,13 @@ fn passes_add_up_and_show_what_they_should() {
 #[test]
 fn one_two_and_five_threads_give_the_same_bytes() {
     let table = scene("table", "round-brilliant", "diamond");
-    let settings = Settings { photons: 5_000, nearest: 50, seed: SEED };
+    let settings = PhotonSettings { photons: 5_000, nearest: 50, seed: SEED };
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let shots = Shots::shoot(&table, &settings);
-            let shown = write::shown(&small_picture(&table, &shots), None, &Tone::default());
-            write::png(&shown, 40, 30, Bits::Eight, None).expect("encodes")
+            let shots = PhotonSets::emit(&table, &settings);
+            let shown = image_io::display_rgb(&small_picture(&table, &shots), None, &Tone::default());
+            image_io::png(&shown, 40, 30, Bits::Eight, None).expect("encodes")
         })
     };
     let one = on(1);
@@ -232,10 +244,10 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("table.map");
     let table = scene("table", "round-brilliant", "diamond");
-    let settings = Settings { photons: 4_000, nearest: 50, seed: SEED };
-    let (made, read) = file::load_or_shoot(&path, &table, &settings).expect("made");
+    let settings = PhotonSettings { photons: 4_000, nearest: 50, seed: SEED };
+    let (made, read) = map_file::load_or_emit(&path, &table, &settings).expect("made");
     assert!(!read);
-    let (kept, read) = file::load_or_shoot(&path, &table, &settings).expect("read");
+    let (kept, read) = map_file::load_or_emit(&path, &table, &settings).expect("read");
     assert!(read);
     assert_eq!(made, kept);
     assert_eq!(small_picture(&table, &made), small_picture(&table, &kept));
@@ -247,11 +259,11 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
         (scene("table", "round-brilliant", "cape-diamond"), settings, "material"),
         (unpolarised, settings, "--polarisation"),
         (scene("cornell", "round-brilliant", "diamond"), settings, "scene"),
-        (scene("table", "round-brilliant", "diamond"), Settings { seed: 1, ..settings }, "seed"),
-        (scene("table", "round-brilliant", "diamond"), Settings { photons: 1, ..settings }, "photons"),
+        (scene("table", "round-brilliant", "diamond"), PhotonSettings { seed: 1, ..settings }, "seed"),
+        (scene("table", "round-brilliant", "diamond"), PhotonSettings { photons: 1, ..settings }, "photons"),
     ];
     for (scene, settings, word) in others {
-        let error = file::load_or_shoot(&path, &scene, &settings).expect_err("another map").to_string();
+        let error = map_file::load_or_emit(&path, &scene, &settings).expect_err("another map").to_string();
         assert!(error.contains(word) && !error.contains('\n'), "{error}");
     }
 }
@@ -263,19 +275,26 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
 fn the_brilliant_is_as_bright_as_other_renderers_have_it() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tools/peers/table.toml");
     let file = SceneFile::open(&file).expect("is in the repository");
-    let s = file.build(&Cast::default(), 4.0 / 3.0).expect("is sound");
+    let s = file.build(&SceneOverrides::default(), 4.0 / 3.0).expect("is sound");
     let (width, height) = (200, 150);
-    let shots = Shots::shoot(&s, &Settings { photons: 200_000, nearest: 300, seed: SEED });
-    let maps = Maps::new(&s, shots, 300);
-    let settings = render::Settings { width, height, rays: 25, round: 0, tone: Tone::default(), seed: SEED };
-    let picture = render::render(&s, &s.camera, &maps, &settings, &|| ()).linear(None);
+    let shots = PhotonSets::emit(&s, &PhotonSettings { photons: 200_000, nearest: 300, seed: SEED });
+    let maps = PhotonMaps::new(&s, shots, 300);
+    let settings = integrators::RenderSettings {
+        width,
+        height,
+        samples_per_pixel: 25,
+        round: 0,
+        tone: Tone::default(),
+        seed: SEED,
+    };
+    let picture = integrators::render(&s, &s.camera, &maps, &settings, &|| ()).linear(None);
     let (mut stone, mut shadow, mut open) = (Vec::new(), Vec::new(), Vec::new());
     for (i, pixel) in picture.iter().enumerate() {
         let (u, v) = ((i as u32 % width) as f32 + 0.5, (i as u32 / width) as f32 + 0.5);
         let (origin, direction) = s.camera.ray(u / width as f32, v / height as f32);
-        let event = s.first_seen(origin, direction, Past::Nothing);
-        let Event::Surface(at) = event else {
-            if let Event::Stone(..) = event {
+        let event = s.intersect_seen(origin, direction, Past::Nothing);
+        let Intersection::Surface(at) = event else {
+            if let Intersection::Stone(..) = event {
                 stone.push(*pixel);
             }
             continue;
@@ -308,13 +327,23 @@ fn white_stays_white() {
             2.0 * light
         );
         let file = SceneFile::parse("white", "white.toml", &text, Path::new("")).expect("is sound");
-        let scene = file.build(&Cast::default(), 1.0).expect("is set up");
-        let maps =
-            Maps::new(&scene, Shots::shoot(&scene, &Settings { photons: 10, nearest: 5, seed: SEED }), 5);
+        let scene = file.build(&SceneOverrides::default(), 1.0).expect("is set up");
+        let maps = PhotonMaps::new(
+            &scene,
+            PhotonSets::emit(&scene, &PhotonSettings { photons: 10, nearest: 5, seed: SEED }),
+            5,
+        );
         let tone = Tone::default();
-        let settings = render::Settings { width: 24, height: 24, rays: 25, round: 0, tone, seed: SEED };
-        let film = render::render(&scene, &scene.camera, &maps, &settings, &|| ());
-        let mean = film.pixels.iter().map(|p| p.shown).sum::<Vec3>() / (24.0 * 24.0);
+        let settings = integrators::RenderSettings {
+            width: 24,
+            height: 24,
+            samples_per_pixel: 25,
+            round: 0,
+            tone,
+            seed: SEED,
+        };
+        let film = integrators::render(&scene, &scene.camera, &maps, &settings, &|| ());
+        let mean = film.pixels.iter().map(|p| p.display).sum::<Vec3>() / (24.0 * 24.0);
         assert!((mean - shown).abs().max_element() < 1e-3, "{mean} {shown}");
     }
 }

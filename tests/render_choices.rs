@@ -48,7 +48,7 @@ fn options_that_cannot_go_together_are_one_sentence_and_leave_no_file() {
         (&["--background", "transparent", "--frames", "2", "-o", "a.mp4"], "transparen"),
         (&["--background", "white", "-o", "a.exr"], "transparent"),
         (&["--background", "mauve", "-o", "a.png"], "#1e90ff"),
-        // endings and sizes
+        // extensions and sizes
         (&["-o", "a.mp4"], "--frames"),
         (&["-o", "a.gif"], "--frames"),
         (&["--frames", "2", "-o", "a.jpg"], ".mp4"),
@@ -121,7 +121,7 @@ fn nothing_of_a_start_that_was_killed_stays_beside_a_picture() {
         ("p.jpg", &["-o", "p.jpg"]),
     ] {
         let bench = Bench::new();
-        let left = |ending: &str| bench.path(&format!(".{output}.{ending}"));
+        let left = |extension: &str| bench.path(&format!(".{output}.{extension}"));
         std::fs::write(left("kept"), "of rounds").expect("writes");
         std::fs::write(left("lock"), "").expect("writes");
         std::fs::create_dir(left("frames")).expect("makes");

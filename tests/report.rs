@@ -5,12 +5,12 @@ mod brilliants;
 
 use bench::Bench;
 use brilliants::{SEED, design, diamond, named, plan, stone, subject};
-use cutlab::cut::library;
+use cutlab::design::library;
+use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
-use cutlab::optics::Material;
 use cutlab::report::references::{References, STONES};
-use cutlab::report::scopes::{self, ASET, IDEAL_SCOPE, SCOPES, WINDOWS};
-use cutlab::study::score::{Effort, Plan, score};
+use cutlab::report::viewer_images::{self, ASET, IDEAL_SCOPE, VIEWER_IMAGES, WINDOWS};
+use cutlab::scoring::score::{ScoreSettings, Target, score};
 
 /// Shares of the strongest path from the project's sources (reference tracer): green 6.0, red 66.7,
 /// blue 22.8, leakage 4.5, ±.5 % of the face-up area.
@@ -18,7 +18,7 @@ use cutlab::study::score::{Effort, Plan, score};
 fn the_aset_picture_has_the_reference_shares() {
     let index = diamond().index_d() as f32;
     let pictures =
-        scopes::pictures(&stone(&named("reference")), index, &[&ASET], 160).expect("can be encoded");
+        viewer_images::pictures(&stone(&named("reference")), index, &[&ASET], 160).expect("can be encoded");
     let shares = &pictures[0].shares;
     for (share, expected) in shares.iter().zip([0.060, 0.667, 0.228, 0.045]) {
         assert!((share - expected).abs() < 0.005, "{shares:?}");
@@ -30,12 +30,12 @@ fn the_aset_picture_has_the_reference_shares() {
 /// in a shallow stone of glass, which has a window.
 #[test]
 fn the_other_pictures_have_the_shares_that_are_scored() {
-    let glass = Material::of_index(1.5);
+    let glass = Material::from_index(1.5);
     for (material, pavilion) in [(diamond(), 40.5), (glass, 38.0)] {
         let design = design(&[("pavilion-angle", pavilion)]);
         let index = material.index_d() as f32;
-        let pictures =
-            scopes::pictures(&stone(&design), index, &[&IDEAL_SCOPE, &WINDOWS], 160).expect("can be encoded");
+        let pictures = viewer_images::pictures(&stone(&design), index, &[&IDEAL_SCOPE, &WINDOWS], 160)
+            .expect("can be encoded");
         let metrics = ["leakage_strongest", "windowing", "extinction"];
         let scored = score(&subject("", &design, material), &plan(&metrics, 1 << 16)).scores;
         let seen = [pictures[0].shares[2], pictures[1].shares[0], pictures[1].shares[1]];
@@ -53,7 +53,8 @@ fn the_pictures_are_the_same_on_any_number_of_threads() {
     let stone = stone(&named("reference"));
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        let pictures = pool.install(|| scopes::pictures(&stone, 2.417, &SCOPES, 48).expect("can be encoded"));
+        let pictures = pool
+            .install(|| viewer_images::pictures(&stone, 2.417, &VIEWER_IMAGES, 48).expect("can be encoded"));
         pictures.into_iter().map(|p| p.png).collect::<Vec<_>>()
     };
     let one = on(1);
@@ -66,7 +67,7 @@ fn the_pictures_are_the_same_on_any_number_of_threads() {
 #[test]
 fn the_reference_stones_have_the_scores_of_this_program() {
     let references = References::read().expect("can be read");
-    let plan = Plan { effort: Effort::Samples(1 << 14), seed: SEED + 1, ..Plan::default() };
+    let plan = ScoreSettings { target: Target::Samples(1 << 14), seed: SEED + 1, ..ScoreSettings::default() };
     for (i, (_, _, stone)) in STONES.iter().enumerate() {
         let parameters = stone.split_once(':').map_or("", |(_, p)| p);
         let name = stone.split(':').next().expect("a name");
@@ -75,7 +76,8 @@ fn the_reference_stones_have_the_scores_of_this_program() {
         let design = library::design(name, &parameters).expect("in the library").expect("can be made");
         let scored = score(&subject(name, &design, diamond()), &plan).scores;
         for (metric, fresh) in METRICS.iter().zip(scored) {
-            let (fresh, kept) = (fresh.expect("applies"), references.of(metric)[i].expect("in the table"));
+            let (fresh, kept) =
+                (fresh.expect("applies"), references.scores(metric)[i].expect("in the table"));
             let off = (fresh.value - kept.value).abs();
             let error = fresh.error.hypot(kept.error);
             assert!(off <= 4.5 * error + 1e-6, "{} of {stone}: {fresh:?}, {kept:?}", metric.name);
@@ -87,12 +89,12 @@ fn the_reference_stones_have_the_scores_of_this_program() {
 /// that other random numbers give.
 #[test]
 fn the_reference_stones_are_of_the_stones_own_material() {
-    let quartz = Material::named("quartz").expect("in the catalogue");
-    let ruby = Material::named("ruby").expect("in the catalogue");
-    let glass = Material::of_index(1.54);
+    let quartz = Material::by_name("quartz").expect("in the catalogue");
+    let ruby = Material::by_name("ruby").expect("in the catalogue");
+    let glass = Material::from_index(1.54);
     let names = ["wlr", "leakage", "iso", "fire_streak", "absorbed"];
     let metrics = || names.iter().filter_map(|n| METRICS.iter().copied().find(|m| m.name == *n));
-    let scalar = Plan { polarised: false, ..Plan::default() };
+    let scalar = ScoreSettings { polarised: false, ..ScoreSettings::default() };
     let in_diamond = References::read().expect("can be read");
     for (material, width) in [(quartz, 8.0), (ruby, 5.0), (&glass, 6.5)] {
         let references = References::within(material, width, &scalar).expect("can be scored");
@@ -100,7 +102,7 @@ fn the_reference_stones_are_of_the_stones_own_material() {
         let design = named("tolkowsky").sized(width).expect("can be sized");
         let fresh = score(&subject("", &design, material.clone()), &plan(&names, 1 << 16)).scores;
         for (metric, fresh) in metrics().zip(fresh) {
-            let kept = references.of(metric)[1];
+            let kept = references.scores(metric)[1];
             let Some((fresh, kept)) = fresh.zip(kept) else {
                 assert!(metric.name == "fire_streak" && material.name == "n=1.54", "{}", metric.name);
                 assert_eq!((fresh, kept), (None, None));
@@ -109,7 +111,7 @@ fn the_reference_stones_are_of_the_stones_own_material() {
             let error = fresh.error.hypot(kept.error);
             let off = (fresh.value - kept.value).abs();
             assert!(off <= 4.5 * error + 1e-6, "{} in {}: {fresh:?}, {kept:?}", metric.name, material.name);
-            let diamond = in_diamond.of(metric)[1].expect("in the table");
+            let diamond = in_diamond.scores(metric)[1].expect("in the table");
             let differs = (diamond.value - kept.value).abs() > 10.0 * error;
             assert!(differs || metric.name == "absorbed", "{} in {}", metric.name, material.name);
         }

@@ -3,7 +3,7 @@
 mod bench;
 
 use bench::{Bench, text};
-use cutlab::walk::Isa;
+use cutlab::trace::Isa;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ fn instruction_set() {
 fn pages_are_of_this_version() {
     let version = format!("cutlab {}", env!("CARGO_PKG_VERSION"));
     assert!(committed("VERSION").starts_with(&version), "{}", committed("VERSION"));
-    for page in ["gallery/README.md", "polarisation.md", "beams.md", "walk.md", "peers.md"] {
+    for page in ["gallery/README.md", "polarisation.md", "beams.md", "trace.md", "peers.md"] {
         let text = committed(page);
         let blocks = text.split("<!-- made by tools/reports: ").skip(1).collect::<Vec<_>>();
         assert!(!blocks.is_empty(), "{page} has no part that tools/reports makes");
@@ -34,7 +34,7 @@ fn pages_are_of_this_version() {
             let made = block.split_once("-->").expect("the marker ends").1;
             let made = made.split_once("<!-- end -->").expect("the part ends").0.trim();
             // benchmarks are filled in on a quiet machine
-            let may_wait = ["beams.md", "walk.md", "peers.md"].contains(&page);
+            let may_wait = ["beams.md", "trace.md", "peers.md"].contains(&page);
             assert!(
                 may_wait && made.is_empty() || made.starts_with(&version),
                 "{page}: made by another version"

@@ -1,8 +1,8 @@
 //! The round brilliant against the worked rows of the project's sources.
 
-use cutlab::cut::families::round_brilliant::derived_angles;
-use cutlab::cut::proportions;
-use cutlab::cut::{Design, library};
+use cutlab::design::families::round_brilliant::derived_angles;
+use cutlab::design::proportions;
+use cutlab::design::{Design, library};
 use std::collections::BTreeMap;
 
 fn brilliant(values: &[(&str, f64)]) -> Design {
@@ -58,7 +58,7 @@ fn stars_and_halves_follow_from_the_lengths() {
 
 #[test]
 fn heights_of_the_reference_stone() {
-    let p = proportions::of(&brilliant(&[])).expect("closed");
+    let p = proportions::of_design(&brilliant(&[])).expect("closed");
     assert_near(p.width, 6.5, 1e-12, "width");
     assert_near(p.table_percent.expect("a table"), 56.0, 1e-9, "table");
     assert_near(p.crown_angle_deg.expect("a crown"), 34.0, 1e-9, "crown angle");
@@ -100,7 +100,7 @@ fn the_published_ideal_brilliant_comes_out() {
     // gemcad.blogspot.com 2015-08-04: P/W .443 and C/W .157 to the girdle valley, Vol/W³ .206
     let values = [("pavilion-angle", 41.0), ("star", 54.8), ("lower-half", 76.8)];
     let design = brilliant(&values);
-    let p = proportions::of(&design).expect("closed");
+    let p = proportions::of_design(&design).expect("closed");
     let dip = |deg: f64| 50.0 * (1.0 - 11.25f64.to_radians().cos()) * deg.to_radians().tan();
     assert_near(p.pavilion_depth_percent + dip(42.20), 44.3, 0.05, "P/W");
     assert_near(p.crown_height_percent + dip(41.20), 15.7, 0.05, "C/W");

@@ -5,8 +5,8 @@ mod bench;
 mod room;
 
 use bench::Bench;
-use cutlab::render::animation::{self, Turn};
-use cutlab::scene::{Cast, Scene, SceneFile, preset};
+use cutlab::integrators::animation::{self, Turn};
+use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use room::{ROOM, SMALL, built, taken};
 use std::path::Path;
@@ -157,7 +157,7 @@ fn meshes_of_every_format_are_scenery() {
         let text = ROOM.replacen("[[light]]", &block, 1);
         let folder = bench.path("");
         let file = SceneFile::parse("t", "t.toml", &text, &folder).expect("is sound");
-        let scene = file.build(&Cast::default(), 1.0).expect(name);
+        let scene = file.build(&SceneOverrides::default(), 1.0).expect(name);
         assert!(!scene.surfaces[1].backdrop && scene.surfaces[0].backdrop);
         scene.surfaces[1].bounds()
     };
@@ -172,7 +172,7 @@ fn meshes_of_every_format_are_scenery() {
 /// Flat colours that are at least a hundredth of a viewer's picture, and what all flat ones are together.
 fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
     let file = preset(scene).expect("in the catalogue").expect("is sound");
-    let scene = file.build(&Cast::default(), 1.0).expect("is set up");
+    let scene = file.build(&SceneOverrides::default(), 1.0).expect("is set up");
     assert!(scene.camera.flat);
     let film = taken(&scene, 96);
     let flat = [
@@ -184,7 +184,7 @@ fn flat_colours(scene: &str) -> (Vec<&'static str>, f64) {
     ];
     let count = film.pixels.len() as f64;
     let shares = flat.map(|(name, colour)| {
-        let near = film.pixels.iter().filter(|p| (p.shown - colour).abs().max_element() < 0.05);
+        let near = film.pixels.iter().filter(|p| (p.display - colour).abs().max_element() < 0.05);
         (name, near.count() as f64 / count)
     });
     let names = shares.iter().filter(|(_, share)| *share >= 0.01).map(|(name, _)| *name).collect();
@@ -214,13 +214,13 @@ fn the_whole_piece_turns_and_the_room_does_not() {
         [[stone]]\ncut = \"octahedron\"\nsize = 4\nat = [0, 12, 5]\n[[light]]";
     let text = ROOM.replacen("[[light]]", block, 1);
     let file = SceneFile::parse("t", "t.toml", &text, &bench.path("")).expect("is sound");
-    let rest = file.build(&Cast::default(), 1.0).expect("is set up");
+    let rest = file.build(&SceneOverrides::default(), 1.0).expect("is set up");
     let middle = |scene: &Scene| {
         let (low, high) = scene.surfaces[1].bounds();
         0.5 * (low + high)
     };
     let centre = rest.stones[0].position;
-    let half = animation::at(&rest, Turn::All, false, 1, 2);
+    let half = animation::scene_at(&rest, Turn::All, false, 1, 2);
     let mirrored = |p: Vec3| Vec3::new(2.0 * centre.x - p.x, 2.0 * centre.y - p.y, p.z);
     assert!((middle(&half) - mirrored(middle(&rest))).length() < 1e-4);
     assert!((half.stones[1].position - mirrored(rest.stones[1].position)).length() < 1e-4);
@@ -228,7 +228,7 @@ fn the_whole_piece_turns_and_the_room_does_not() {
     assert_eq!(half.surfaces[0].bounds(), rest.surfaces[0].bounds());
     assert_eq!(format!("{:?}", half.lights), format!("{:?}", rest.lights));
     // rocked, nothing sinks into the table
-    let rocked = animation::at(&rest, Turn::All, true, 1, 4);
+    let rocked = animation::scene_at(&rest, Turn::All, true, 1, 4);
     let lowest =
         |scene: &Scene| scene.stones.iter().map(|s| s.lowest()).fold(scene.surfaces[1].lowest(), f32::min);
     assert!((lowest(&rocked) - lowest(&rest)).abs() < 1e-4);
@@ -262,7 +262,7 @@ fn the_grammar_is_a_scene_but_for_its_files() {
     let bench = Bench::new();
     let (grammar, _) = bench.ends(0, &["list", "scene-grammar"]);
     let file = SceneFile::parse("g", "g.toml", &grammar, Path::new("")).expect("is a scene file");
-    assert!(file.places() == 1 && file.picture() == (640, 480));
+    assert!(file.stone_count() == 1 && file.picture() == (640, 480));
     let (head, rest) = grammar.split_once("[[surface]]               # a mesh").expect("has a mesh");
     let (_, light) = rest.split_once("[[light]]").expect("has a light");
     built(&format!("{head}[[light]]{light}")).expect("is sound");

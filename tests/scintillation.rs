@@ -3,13 +3,15 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::cut::library;
-use cutlab::experiments::view::Sky;
-use cutlab::experiments::{Aspect, Medium, Scintillation, Traced, cells, scintillation};
-use cutlab::math::stats::Estimate;
-use cutlab::optics::Material;
-use cutlab::solid::Polyhedron;
-use cutlab::walk::Stone;
+use cutlab::design::library;
+use cutlab::estimators::view::ObserverDome;
+use cutlab::estimators::{
+    BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, scintillation,
+};
+use cutlab::geometry::Polyhedron;
+use cutlab::materials::Material;
+use cutlab::sampling::stats::Estimate;
+use cutlab::trace::ConvexStone;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -23,14 +25,14 @@ fn solid(name: &str) -> Polyhedron {
 
 /// Scintillation about a point of the design's frame, or about the product's own.
 fn about(solid: &Polyhedron, material: &Material, pivot: Option<DVec3>) -> Estimate {
-    let stone = Stone::new(solid.clone());
-    let medium = Medium { material, polarised: true };
-    let sky = Sky::behind(cells::OBSERVER_DEG);
+    let stone = ConvexStone::new(solid.clone());
+    let medium = TraceOptics { material, polarised: true };
+    let sky = ObserverDome::with_observer(pixel_cells::AGS_OBSERVER_DEG);
     let rocked = match pivot {
-        Some(pivot) => Scintillation::about(&stone, &medium, Aspect::FACE_UP, sky, pivot),
-        None => Scintillation::seen_from(&stone, &medium, Aspect::FACE_UP, sky),
+        Some(pivot) => Scintillation::with_pivot(&stone, &medium, ViewFrame::FACE_UP, sky, pivot),
+        None => Scintillation::in_frame(&stone, &medium, ViewFrame::FACE_UP, sky),
     };
-    let mut traced = Traced::new(rocked.expect("lit"), SEED);
+    let mut traced = BatchedEstimate::new(rocked.expect("lit"), SEED);
     traced.extend_to(1 << 18);
     traced.estimate(|t| t.change / t.luminance)
 }
@@ -49,7 +51,7 @@ fn heights(solid: &Polyhedron) -> [f64; 2] {
 /// the same stone differs by 8 to 17 %.
 #[test]
 fn the_pivot_matters_as_an_independent_tracer_says() {
-    let gem = Material::of_index(1.54);
+    let gem = Material::from_index(1.54);
     for (name, material, box_middle, girdle) in [
         ("emerald", &gem, (0.0921, 0.0016), (0.1081, 0.0016)),
         ("reference", &diamond(), (0.0782, 0.0005), (0.0845, 0.0007)),
@@ -76,7 +78,7 @@ fn the_pivot_is_the_middle_of_the_table() {
         let pivot = scintillation::pivot(&solid);
         let (_, high) = solid.bounds();
         assert!((pivot - high.z * DVec3::Z).length() < 1e-9 * solid.width(), "{name}: {pivot}");
-        let gem = Material::of_index(1.54);
+        let gem = Material::from_index(1.54);
         assert_eq!(about(&solid, &gem, None), about(&solid, &gem, Some(pivot)));
     }
     let rose = solid("rose-cut");

@@ -142,9 +142,9 @@ fn progress_of_another_command_or_broken_is_set_aside_with_a_note() {
 fn shards_merge_into_the_bytes_of_one_machine() {
     let bench = Bench::new();
     let stones = ["tolkowsky", "octahedron", "missing", "cube", "asscher"];
-    for (whole, ending) in [("all.csv", "csv"), ("all.json", "json")] {
+    for (whole, extension) in [("all.csv", "csv"), ("all.json", "json")] {
         bench.ends(1, &score(&stones, &["--error", "0.01", "-o", whole]));
-        let parts: Vec<String> = (1..=3).map(|i| format!("p{i}.{ending}")).collect();
+        let parts: Vec<String> = (1..=3).map(|i| format!("p{i}.{extension}")).collect();
         for (i, part) in parts.iter().enumerate() {
             let shard = format!("{}/3", i + 1);
             let options = ["--error", "0.01", "--shard", &shard, "-o", part];
@@ -157,7 +157,7 @@ fn shards_merge_into_the_bytes_of_one_machine() {
         assert!(said.contains("shard 2/3 is missing: rows 2, 5 (2 of 5)"), "{said}");
         assert!(bench.ends(2, &merge(&[0, 0, 1, 2])).1.contains("both shard 1/3"));
         assert!(!bench.exists("m.csv"));
-        let merged = format!("merged.{ending}");
+        let merged = format!("merged.{extension}");
         bench.ends(1, &["merge", &parts[2], &parts[0], &parts[1], "-o", &merged]);
         assert_eq!(bench.read(&merged), bench.read(whole));
         let companion = |table: &str| bench.read(&format!("{table}.meta.json"));

@@ -4,19 +4,19 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, stone, subject};
-use cutlab::experiments::{Beam, Medium, Traced};
+use cutlab::batch::table;
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics};
+use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
-use cutlab::optics::Material;
-use cutlab::study::score::{Effort, Plan, Row, Subject, score, score_all};
-use cutlab::study::table;
+use cutlab::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, Target, score, score_all};
 use glam::DMat3;
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let subjects = [subject("a", &named("reference"), diamond()), subject("b", &named("nailhead"), n2417())];
     let plans = [
-        Plan { effort: Effort::Samples(5000), seed: SEED, ..Plan::default() },
-        Plan { effort: Effort::Error(0.01), seed: SEED, ..Plan::default() },
+        ScoreSettings { target: Target::Samples(5000), seed: SEED, ..ScoreSettings::default() },
+        ScoreSettings { target: Target::Error(0.01), seed: SEED, ..ScoreSettings::default() },
     ];
     let bytes = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -35,7 +35,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 fn turning_a_stone_about_its_axis_changes_no_score() {
     let still = named("steep-deep");
     let turned = still.clone().turned(DMat3::from_rotation_z(0.3));
-    let plan = Plan { effort: Effort::Samples(1 << 15), seed: SEED, ..Plan::default() };
+    let plan = ScoreSettings { target: Target::Samples(1 << 15), seed: SEED, ..ScoreSettings::default() };
     let [a, b] = [still, turned].map(|d| score(&subject("stone", &d, diamond()), &plan));
     for ((metric, a), b) in METRICS.iter().zip(a.scores).zip(b.scores) {
         let (a, b) = (a.expect("applies"), b.expect("applies"));
@@ -53,13 +53,13 @@ fn an_error_asked_for_is_reached_or_the_row_says_so() {
         let metrics = plan(&["wlr", "aset_red"], 0).metrics;
         score(
             &subject,
-            &Plan {
+            &ScoreSettings {
                 metrics,
-                effort: Effort::Error(target),
+                target: Target::Error(target),
                 polarised: false,
                 seed: SEED,
                 cap,
-                ..Plan::default()
+                ..ScoreSettings::default()
             },
         )
     };
@@ -78,17 +78,17 @@ fn rows_hold_what_applies_and_say_what_failed() {
     let mut subjects = vec![
         subject("plain, with a comma", &named("reference"), n2417()),
         subject("sparkling", &named("reference"), diamond()),
-        subject("impossible", &named("reference"), Material::of_index(0.5)),
+        subject("impossible", &named("reference"), Material::from_index(0.5)),
     ];
     subjects[1].material = diamond();
-    subjects.push(Subject {
+    subjects.push(ScoreInput {
         stone: "open".into(),
         material: diamond(),
         shape: Err("open: no table".into()),
         tilt: None,
     });
     let plan = plan(&["wlr", "fire_streak"], 1000);
-    let rows: Vec<Row> = score_all(&subjects, &plan);
+    let rows: Vec<ScoreRow> = score_all(&subjects, &plan);
     let text = String::from_utf8(table::csv(&plan.metrics, &rows).expect("csv")).expect("text");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().expect("a header").iter().collect::<Vec<_>>().join(",");
@@ -110,8 +110,10 @@ fn rows_hold_what_applies_and_say_what_failed() {
 #[test]
 fn a_constant_index_separates_nothing() {
     let stone = stone(&named("reference"));
-    let mut beam =
-        Traced::new(Beam::new(&stone, &Medium { material: &n2417(), polarised: false }).expect("lit"), SEED);
+    let mut beam = BatchedEstimate::new(
+        PointLight::new(&stone, &TraceOptics { material: &n2417(), polarised: false }).expect("lit"),
+        SEED,
+    );
     beam.extend_to(1000);
     assert_eq!(beam.estimate(|t| t.power_angle_deg / t.paired_power).value, 0.0);
     assert_eq!(beam.estimate(|t| t.streak_deg / t.points).value, 0.0);

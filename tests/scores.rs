@@ -7,11 +7,11 @@
 mod brilliants;
 
 use brilliants::{SEED, design, diamond, n2417, named, scores, stone};
-use cutlab::cut::library;
-use cutlab::experiments::{Hemisphere, Medium, Traced, View, hemisphere, view};
-use cutlab::math::stats::Estimate;
-use cutlab::optics::Material;
-use cutlab::study::validate::returns::{BY_CROWN, BY_TABLE};
+use cutlab::batch::validate::returns::{BY_CROWN, BY_TABLE};
+use cutlab::design::library;
+use cutlab::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, hemisphere, view};
+use cutlab::materials::Material;
+use cutlab::sampling::stats::Estimate;
 use std::collections::BTreeMap;
 
 #[track_caller]
@@ -52,14 +52,14 @@ fn wlr_of_the_other_stones() {
 #[test]
 fn wlr_by_other_normalisations() {
     let stone = stone(&named("reference"));
-    let mut dome = Traced::new(
-        Hemisphere::new(&stone, &Medium { material: &n2417(), polarised: false }).expect("lit"),
+    let mut dome = BatchedEstimate::new(
+        Hemisphere::new(&stone, &TraceOptics { material: &n2417(), polarised: false }).expect("lit"),
         SEED,
     );
     dome.extend_to(1 << 18);
-    let drawn = dome.estimate(|t: &hemisphere::Tally| t.returned_cos2 / t.drawn);
+    let drawn = dome.estimate(|t: &hemisphere::HemisphereTally| t.returned_cos2 / t.drawn);
     assert_near("rejected counted", drawn, 0.264, 0.001);
-    let areas = dome.experiment().crown_area / dome.experiment().outline_area;
+    let areas = dome.estimator().crown_area / dome.estimator().outline_area;
     let disc = Estimate { value: drawn.value * areas, error: drawn.error * areas };
     assert_near("by the girdle disc", disc, 0.3055, 0.001);
 }
@@ -97,15 +97,15 @@ fn wlr_trends_of_the_1998_paper() {
 /// tracer, another sampling, the same definition.
 #[test]
 fn wlr_against_a_plain_tracer() {
-    use cutlab::math::{random::*, sample};
     use cutlab::optics::fresnel;
-    use cutlab::walk::scalar;
+    use cutlab::sampling::{random::*, warps};
+    use cutlab::trace::reference;
     let stone = stone(&named("nailhead"));
     let up = |facet: usize| stone.planes[facet].normal.z > 1e-3;
     let mut triangles = Vec::new();
     let mut area = 0.0;
     for facet in (0..stone.facet_count()).filter(|f| up(*f)) {
-        let corners: Vec<_> = stone.solid.polygon(facet).map(|v| stone.from_design(v)).collect();
+        let corners: Vec<_> = stone.solid.polygon(facet).map(|v| stone.point_from_design(v)).collect();
         for pair in corners[1..].windows(2) {
             area += (pair[0] - corners[0]).cross(pair[1] - corners[0]).length();
             triangles.push((area, facet, [corners[0], pair[0], pair[1]]));
@@ -116,15 +116,15 @@ fn wlr_against_a_plain_tracer() {
     while accepted < count {
         let u = area * s.unit64();
         let (_, facet, [a, b, c]) = triangles[triangles.partition_point(|t| t.0 < u)];
-        let weights = sample::triangle(s.pair()).map(f64::from);
-        let sky = sample::about(stone.normals[facet], sample::cosine_hemisphere(s.pair())).as_dvec3();
+        let weights = warps::uniform_triangle(s.pair()).map(f64::from);
+        let sky = warps::to_world(stone.normals[facet], warps::cosine_hemisphere(s.pair())).as_dvec3();
         if sky.z <= 0.0 {
             continue;
         }
         accepted += 1;
         let normal = stone.planes[facet].normal;
         let (reflectance, cos_t) = fresnel::unpolarised(sky.dot(normal).clamp(0.0, 1.0), n);
-        let ray = scalar::Ray {
+        let ray = reference::ScalarRay {
             point: a + (b - a) * weights[0] + (c - a) * weights[1],
             direction: (-sky / n + normal * (sky.dot(normal) / n - cos_t)).normalize(),
             power: 1.0 - reflectance,
@@ -133,7 +133,7 @@ fn wlr_against_a_plain_tracer() {
             stokes: None,
         };
         let mut returned = 0.0;
-        scalar::walk(&stone.planes, ray, 1e-4, |m| {
+        reference::trace(&stone.planes, ray, 1e-4, |m| {
             returned += if up(m.facet) { m.power * m.direction.z.max(0.0).powi(2) } else { 0.0 };
         });
         sum += returned;
@@ -218,18 +218,19 @@ fn fire_of_the_reference_stone_and_the_nailhead_s_separation() {
     assert!(nailhead.value > separation.value + 0.3);
 }
 
-/// [R] 262,144 quasi-random walks, vertical view, n = 2.417298: reflected .174347, up .74693,
+/// [R] 262,144 quasi-random traces, vertical view, n = 2.417298: reflected .174347, up .74693,
 /// up × cos² .58104, down .07872.
 #[test]
 fn vertical_view_splits_as_the_reference_tracer_says() {
     let stone = stone(&named("reference"));
-    let view = View::new(&stone, &Medium { material: &Material::of_index(2.417298), polarised: false })
-        .expect("lit");
-    let mut seen = Traced::new(view, SEED);
+    let view =
+        View::new(&stone, &TraceOptics { material: &Material::from_index(2.417298), polarised: false })
+            .expect("lit");
+    let mut seen = BatchedEstimate::new(view, SEED);
     seen.extend_to(1 << 18);
-    let share = |of: fn(&view::Tally) -> f64| seen.estimate(|t| of(t) / t.rays);
+    let share = |of: fn(&view::ViewTally) -> f64| seen.estimate(|t| of(t) / t.rays);
     assert_near("reflected", share(|t| t.reflected), 0.174347, 1e-6);
-    assert_near("up", share(view::Tally::up), 0.74693, 2e-4);
+    assert_near("up", share(view::ViewTally::up), 0.74693, 2e-4);
     assert_near("up cos²", share(|t| t.up_cos2), 0.58104, 2e-4);
     assert_near("down", share(|t| t.bands[3]), 0.07872, 2e-4);
     let all = share(|t| t.reflected + t.up() + t.bands[3] + t.lost);
@@ -241,7 +242,7 @@ fn vertical_view_splits_as_the_reference_tracer_says() {
 fn energy_balances() {
     for name in library::names() {
         let design = library::design(name, &BTreeMap::new()).expect("named").expect("builds");
-        for material in [n2417(), Material::of_index(1.54)] {
+        for material in [n2417(), Material::from_index(1.54)] {
             let parts = scores(&design, material, ["light_return", "glare", "leakage", "lost"], 1 << 12);
             let sum: f64 = parts.iter().map(|e| e.value).sum();
             assert!((sum - 1.0).abs() < 1e-4, "{name}: {parts:?}");
@@ -254,7 +255,7 @@ fn energy_balances() {
 #[test]
 fn an_index_of_one_is_air() {
     let metrics = ["light_return", "glare", "leakage", "aset_leak"];
-    let found = scores(&named("reference"), Material::of_index(1.0), metrics, 1 << 12);
+    let found = scores(&named("reference"), Material::from_index(1.0), metrics, 1 << 12);
     for (e, expected) in found.into_iter().zip([0.0, 0.0, 1.0, 1.0]) {
         assert!((e.value - expected).abs() < 1e-5, "{e:?}");
     }

@@ -62,7 +62,7 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
                 "-q",
                 "cube",
                 "--width",
-                "16",
+                "32",
                 "--spp",
                 "1",
                 "--photons",
@@ -92,7 +92,7 @@ fn every_command_writes_into_a_pipe_what_it_writes_into_a_file() {
 }
 
 #[test]
-fn a_device_takes_what_has_no_ending() {
+fn a_device_takes_what_has_no_extension() {
     let bench = Bench::new();
     for words in [
         &["import", "-q", "cube"][..],

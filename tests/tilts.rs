@@ -3,11 +3,11 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, subject};
-use cutlab::experiments::view::Surroundings;
-use cutlab::experiments::{Aspect, Iso, Medium, Traced, View, iso};
-use cutlab::math::stats::Estimate;
-use cutlab::study::score::{Subject, Tilt, score};
-use cutlab::walk::Stone;
+use cutlab::estimators::view::ViewerLighting;
+use cutlab::estimators::{BatchedEstimate, FaceterView, TraceOptics, View, ViewFrame, faceter_view};
+use cutlab::sampling::stats::Estimate;
+use cutlab::scoring::score::{ScoreInput, Tilt, score};
+use cutlab::trace::ConvexStone;
 use glam::{DMat3, DVec3};
 
 #[track_caller]
@@ -21,28 +21,29 @@ fn a_turned_viewer_sees_a_turned_stone() {
     let design = named("steep-deep");
     let axle = DVec3::new(40f64.to_radians().cos(), 40f64.to_radians().sin(), 0.0);
     let turned = design.clone().turned(DMat3::from_axis_angle(axle, 17f64.to_radians()));
-    let [still, turned] = [design, turned].map(|d| Stone::new(d.solid().expect("closed")));
+    let [still, turned] = [design, turned].map(|d| ConvexStone::new(d.solid().expect("closed")));
     let material = n2417();
-    let medium = Medium { material: &material, polarised: true };
-    let aspect = Aspect::tilted(17.0, 40.0);
+    let medium = TraceOptics { material: &material, polarised: true };
+    let aspect = ViewFrame::tilted(17.0, 40.0);
     let view = |stone, aspect| {
-        let view = View::seen_from(stone, &medium, aspect, Surroundings::default()).expect("lit");
-        let mut seen = Traced::new(view, SEED);
+        let view = View::in_frame(stone, &medium, aspect, ViewerLighting::default()).expect("lit");
+        let mut seen = BatchedEstimate::new(view, SEED);
         seen.extend_to(1 << 16);
         let bands = (0..4).map(|b| seen.estimate(|t| t.bands[b] / t.rays)).collect::<Vec<_>>();
         (bands, [seen.estimate(|t| t.luminance / t.rays), seen.estimate(|t| t.scope_bright / t.rays)])
     };
-    let (a, b) = (view(&still, aspect), view(&turned, Aspect::FACE_UP));
+    let (a, b) = (view(&still, aspect), view(&turned, ViewFrame::FACE_UP));
     for (a, b) in a.0.into_iter().chain(a.1).zip(b.0.into_iter().chain(b.1)) {
         assert_same("view", a, b);
     }
     let iso = |stone, aspect| {
-        let sky = cutlab::experiments::view::Sky::behind(iso::OBSERVER_DEG);
-        let mut seen = Traced::new(Iso::seen_from(stone, &medium, aspect, sky).expect("lit"), SEED);
+        let sky = cutlab::estimators::view::ObserverDome::with_observer(faceter_view::GEMRAY_OBSERVER_DEG);
+        let mut seen =
+            BatchedEstimate::new(FaceterView::in_frame(stone, &medium, aspect, sky).expect("lit"), SEED);
         seen.extend_to(1 << 16);
-        seen.estimate(|t| t.percent(iso::Weight::Sc2))
+        seen.estimate(|t| t.percent(faceter_view::FaceterWeight::Sc2))
     };
-    assert_same("sc2", iso(&still, aspect), iso(&turned, Aspect::FACE_UP));
+    assert_same("sc2", iso(&still, aspect), iso(&turned, ViewFrame::FACE_UP));
 }
 
 /// [D] what arrives leaves or is counted whatever the tilt, and a quarter turn of an eightfold stone
@@ -52,7 +53,7 @@ fn tilts_keep_energy_and_symmetry() {
     let metrics = ["light_return", "glare", "leakage", "lost", "wlr", "fire_lit", "contrast", "iso"];
     let tilted = |degrees, azimuth| {
         let tilt = Some(Tilt { degrees, azimuth });
-        let subject = Subject { tilt, ..subject("reference", &named("reference"), diamond()) };
+        let subject = ScoreInput { tilt, ..subject("reference", &named("reference"), diamond()) };
         let row = score(&subject, &plan(&metrics, 1 << 16));
         assert_eq!(row.error, None);
         row.scores.into_iter().map(|s| s.expect("applies")).collect::<Vec<_>>()

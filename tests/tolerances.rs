@@ -1,16 +1,17 @@
 //! What counts as one plane and one corner follows from how a mesh is stored: stones far from the origin, few
 //! decimals, edges divided on one side, scans with noise.
 
-use cutlab::cut::Design;
-use cutlab::formats::{self, Imported, stone};
-use cutlab::solid::mesh::Mesh;
+use cutlab::design::Design;
+use cutlab::formats::{self, Loaded};
+use cutlab::geometry::triangulation::TriangleMesh;
+use cutlab::stone_spec;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::process::Command;
 
 fn tolkowsky() -> Design {
-    stone::open("tolkowsky").expect("a library cut").design.sized(6.5).expect("closed")
+    stone_spec::open("tolkowsky").expect("a library cut").design.sized(6.5).expect("closed")
 }
 
 /// A binary STL of triangles, without normals.
@@ -25,11 +26,11 @@ fn stl(triangles: &[[DVec3; 3]]) -> Vec<u8> {
     bytes
 }
 
-fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
+fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
     mesh.triangles.iter().map(|t| t.map(|i| mesh.vertices[i])).collect()
 }
 
-fn read(name: &str, bytes: &[u8]) -> Imported {
+fn read(name: &str, bytes: &[u8]) -> Loaded {
     formats::read_bytes(name, bytes, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -132,7 +133,7 @@ fn a_corner_on_an_edge_opens_no_stone() {
 }
 
 /// The triangles, each cut into four so many times, their corners moved by noise.
-fn scan(mesh: &Mesh, times: usize, mut noise: impl FnMut() -> f64) -> Vec<[DVec3; 3]> {
+fn scan(mesh: &TriangleMesh, times: usize, mut noise: impl FnMut() -> f64) -> Vec<[DVec3; 3]> {
     let (mut vertices, mut all) = (mesh.vertices.clone(), mesh.triangles.clone());
     for _ in 0..times {
         let mut middle: HashMap<(usize, usize), usize> = HashMap::new();
@@ -221,7 +222,7 @@ fn what_is_shown_of_a_rough_mesh_is_scored() {
 fn too_many_facets_are_counted() {
     // points of a sphere, evenly spread, each with its tangent plane's facet: an icosahedron cut in four five times
     let mesh =
-        stone::open("octahedron").expect("a library cut").design.solid().expect("closed").triangulate();
+        stone_spec::open("octahedron").expect("a library cut").design.solid().expect("closed").triangulate();
     let ball: Vec<_> = scan(&mesh, 6, || 0.0).iter().map(|t| t.map(|p| p.normalize() * 3.0)).collect();
     assert_eq!(ball.len(), 32_768);
     let error = formats::read_bytes("ball.stl", &stl(&ball), None).map(|i| i.format).expect_err("too many");

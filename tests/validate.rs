@@ -1,15 +1,15 @@
 //! `cutlab validate`: every figure comes out, or says what it lacks.
 
-use cutlab::study::validate::{Lab, Outcome, Report, Verdict, catalogue, csv, only};
+use cutlab::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict, catalogue, csv, only};
 
-fn run(part: Option<&str>, seed: u64) -> Vec<Outcome> {
-    let lab = Lab { seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(Into::into) };
+fn run(part: Option<&str>, seed: u64) -> Vec<FigureOutcome> {
+    let lab = CheckContext { seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(Into::into) };
     let trials = part.map_or_else(catalogue, |part| only(catalogue(), part));
-    let reports: Vec<Report> = trials.into_iter().map(|t| t.run(&lab)).collect();
+    let reports: Vec<CheckReport> = trials.into_iter().map(|t| t.run(&lab)).collect();
     reports.into_iter().flat_map(|r| r.outcomes).collect()
 }
 
-fn check(outcomes: &[Outcome]) {
+fn check(outcomes: &[FigureOutcome]) {
     for o in outcomes {
         assert!(
             o.verdict != Verdict::Failed,
@@ -41,9 +41,9 @@ fn every_figure_comes_out() {
 
 #[test]
 fn figures_that_need_a_corpus_are_skipped_without_one() {
-    let lab = Lab { seed: 1, corpus: None };
-    let reports: Vec<Report> = only(catalogue(), "SRB").into_iter().map(|t| t.run(&lab)).collect();
-    let outcomes: Vec<&Outcome> = reports.iter().flat_map(|r| &r.outcomes).collect();
+    let lab = CheckContext { seed: 1, corpus: None };
+    let reports: Vec<CheckReport> = only(catalogue(), "SRB").into_iter().map(|t| t.run(&lab)).collect();
+    let outcomes: Vec<&FigureOutcome> = reports.iter().flat_map(|r| &r.outcomes).collect();
     assert!(
         outcomes.len() >= 12 && outcomes.iter().all(|o| o.verdict == Verdict::Skipped && o.ours.is_none())
     );

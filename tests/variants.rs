@@ -1,9 +1,10 @@
 //! The ways in which people and programs write the formats: each odd file reads as the plain one.
 
-use cutlab::formats::{self, Imported, stone};
+use cutlab::formats::{self, Loaded};
+use cutlab::stone_spec;
 use std::fmt::Write;
 
-fn read(name: &str, bytes: &[u8]) -> Imported {
+fn read(name: &str, bytes: &[u8]) -> Loaded {
     formats::read_bytes(name, bytes, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -11,7 +12,7 @@ fn refused(name: &str, bytes: &[u8]) -> String {
     formats::read_bytes(name, bytes, None).map(|i| i.format).expect_err("is refused").to_string()
 }
 
-fn volume(stone: &Imported) -> f64 {
+fn volume(stone: &Loaded) -> f64 {
     stone.design.solid().expect("closed").volume()
 }
 
@@ -64,7 +65,7 @@ fn gemcad_text_of_every_hand_is_one_stone() {
     ] {
         let other = read("x.asc", &bytes);
         assert_eq!(other.format, "gemcad", "{what}");
-        let off = |(p, q): (cutlab::solid::Plane, cutlab::solid::Plane)| {
+        let off = |(p, q): (cutlab::geometry::Plane, cutlab::geometry::Plane)| {
             p.normal.distance(q.normal).max((p.distance - q.distance).abs())
         };
         let (mine, its) = (plain.design.planes(), other.design.planes());
@@ -87,7 +88,7 @@ const CUBE: [[i32; 3]; 8] =
 const SIDES: [[usize; 4]; 6] =
     [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [2, 3, 7, 6], [1, 2, 6, 5], [3, 0, 4, 7]];
 
-fn is_the_cube(what: &str, stone: &Imported) {
+fn is_the_cube(what: &str, stone: &Loaded) {
     assert!((volume(stone) - 8.0).abs() < 1e-6, "{what}: {}", volume(stone));
     assert_eq!(stone.design.facets().count(), 6, "{what}");
 }
@@ -340,7 +341,7 @@ fn gltf_files_of_every_hand_are_one_stone() {
 #[test]
 fn a_gltf_finds_a_buffer_whose_name_is_escaped() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let design = stone::open("octahedron").expect("a library cut").design;
+    let design = stone_spec::open("octahedron").expect("a library cut").design;
     let text = String::from_utf8(formats::encode(&design, "gltf").expect("is written")).expect("JSON");
     let (before, rest) = text.split_once("data:application/octet-stream;base64,").expect("a buffer inside");
     let (data, after) = rest.split_once('"').expect("its end");

@@ -100,7 +100,7 @@ fn numbers_with_units_are_understood_and_others_explained() {
         (&["render", "--width", "640x480"], "one number is needed, '640x480' is two"),
         (&["render", "--width", "0"], "a whole number of pixels from 1 to 16384"),
         (&["score", "--seed", "abc"], "a seed is a whole number"),
-        (&["render", "--progressive", "--time", "60"], "as 60s, 5min or 1h30m"),
+        (&["render", "--progressive", "--time", "60"], "e.g. 60s, 5min or 1h30m"),
         (&["score", "--tilt", "1,5:3:1"], "as 1.5"),
         (&["show", "round-brilliant:crown-angle=34,5"], "a point, as crown-angle=34.5"),
         (&["show", "round-brilliant:crown-angle=34,crown-angle=35"], "given twice"),

@@ -3,13 +3,13 @@
 //! and a C++ compiler are installed (Debian: `libembree-dev g++`). Run by `cargo test` it only shows
 //! that it runs.
 
-#[path = "shower.rs"]
+#[path = "bench_rays.rs"]
 mod shower;
 #[path = "timing.rs"]
 mod timing;
 
-use cutlab::cut::families;
-use cutlab::walk::{Isa, LANES, Packet, Stone, feed, scalar};
+use cutlab::design::families;
+use cutlab::trace::{ConvexStone, Isa, LANES, Packet, lane_scheduler, reference};
 use shower::{STOP_POWER, Shower};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -33,10 +33,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             packets * LANES
         );
         let mut rates = Vec::new();
-        let stone = Stone::new(solid.clone());
+        let stone = ConvexStone::new(solid.clone());
         let rays = rays_inside(&stone, packets);
         for isa in Isa::all() {
-            let stone = Stone::with_isa(solid.clone(), isa);
+            let stone = ConvexStone::with_isa(solid.clone(), isa);
             let (seconds, ()) = timing::best_of(runs, || {
                 for packet in &rays {
                     black_box(stone.next_facets(black_box(packet)));
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 for lane in 0..LANES {
                     let (point, direction) =
                         (packet.point(lane).as_dvec3(), packet.direction(lane).as_dvec3());
-                    black_box(scalar::next_facet(&stone.planes, point, direction));
+                    black_box(reference::next_facet(&stone.planes, point, direction));
                 }
             }
         });
@@ -64,17 +64,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Packets of a walk, every lane of them alive, as they leave the facets they met.
-fn rays_inside(stone: &Stone, packets: usize) -> Vec<Packet> {
+/// Packets of a trace, every lane of them alive, as they leave the facets they met.
+fn rays_inside(stone: &ConvexStone, packets: usize) -> Vec<Packet> {
     let mut shower = Shower::new(stone, 100 * packets as u64, false);
     shower.kept.reserve_exact(packets);
-    feed::walk_all(stone, STOP_POWER, &mut shower);
+    lane_scheduler::trace_all(stone, STOP_POWER, &mut shower);
     shower.kept
 }
 
 /// Embree's rate in millions a second on the stone's triangles and the same rays; none if it cannot
 /// be built here.
-fn beside_embree(stone: &Stone, rays: &[Packet]) -> Result<Option<f64>, Box<dyn Error>> {
+fn beside_embree(stone: &ConvexStone, rays: &[Packet]) -> Result<Option<f64>, Box<dyn Error>> {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
     let (program, scene) = (folder.join("embree_query"), folder.join("embree_query.bin"));
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tools/embree_query.cpp");
@@ -97,12 +97,12 @@ fn beside_embree(stone: &Stone, rays: &[Packet]) -> Result<Option<f64>, Box<dyn 
 }
 
 /// Counts, then corners, triangles, their facets, rays (point, direction) and the facets we find.
-fn scene_bytes(stone: &Stone, rays: &[Packet]) -> Vec<u8> {
+fn scene_bytes(stone: &ConvexStone, rays: &[Packet]) -> Vec<u8> {
     let mesh = stone.solid.triangulate();
     let mut numbers: Vec<u32> =
         [mesh.vertices.len(), mesh.triangles.len(), rays.len() * LANES].map(|n| n as u32).into();
     let bits = |v: glam::Vec3| v.to_array().map(f32::to_bits);
-    numbers.extend(mesh.vertices.iter().flat_map(|v| bits(stone.from_design(*v).as_vec3())));
+    numbers.extend(mesh.vertices.iter().flat_map(|v| bits(stone.point_from_design(*v).as_vec3())));
     numbers.extend(mesh.triangles.iter().flatten().map(|c| *c as u32));
     numbers.extend(mesh.faces.iter().map(|f| *f as u32));
     let lanes = || rays.iter().flat_map(|packet| (0..LANES).map(move |lane| (packet, lane)));

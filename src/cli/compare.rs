@@ -1,25 +1,26 @@
 //! `cutlab compare`: stones beside each other, with differences and what they are worth.
 
-mod written;
+mod text;
 
+use super::args::scoring::ScoringArgs;
+use super::args::{inputs, orientation, stone, tables};
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
-use super::scoring::Scoring;
-use super::{folders, standing, stones, tables, words};
-use crate::cut::Unit;
-use crate::math::stats::Estimate;
-use crate::report::{Request, versus};
-use crate::store::replace;
-use crate::study::compare::{Comparison, RUNS, compare};
-use crate::study::identity::Identity;
-use crate::study::meta::Meta;
-use crate::study::score::{Plan, Subject};
-use crate::study::table::Form;
+use super::shell_quote;
+use crate::batch::fingerprint::Fingerprint;
+use crate::batch::sidecar::TableMeta;
+use crate::batch::table::TableFormat;
+use crate::design::LengthUnit;
+use crate::report::{ReportRequest, comparison_page};
+use crate::sampling::stats::Estimate;
+use crate::scoring::comparison::{Comparison, RUNS, compare};
+use crate::scoring::score::{ScoreInput, ScoreSettings};
+use crate::storage::atomic_write;
 use serde::Serialize;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use written::Compared;
+use text::Compared;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -34,7 +35,7 @@ Every stone is scored with the same random numbers in 32 runs, and the error of 
 spread of the runs' differences. A difference is called significant if it is beyond three of its
 errors and not negligible: more than 1e-6 of the metric's scale (1, or 100 for percentages), or 1e-4
 where photons are traced, because they are followed until 1e-4 of their light is left.")]
-pub struct Args {
+pub struct CompareArgs {
     /// The stones, files, folders of files and patterns; differences are from the first
     #[arg(required = true, value_name = "STONE")]
     stones: Vec<OsString>,
@@ -43,12 +44,12 @@ pub struct Args {
     #[arg(long, short, value_name = "DIR|FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    scoring: Scoring,
+    scoring: ScoringArgs,
 }
 
 /// One metric of all stones, for `--json`.
 #[derive(Serialize)]
-struct Entry<'a> {
+struct MetricEntry<'a> {
     metric: &'static str,
     unit: &'static str,
     /// `more` or `less`, if either is better by itself.
@@ -80,27 +81,31 @@ struct Differs<'a> {
 }
 
 /// Compares the stones.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let plan = args.scoring.plan();
-    let specs = folders::expanded(&args.stones)?;
+    let specs = inputs::expanded(&args.stones)?;
     if specs.len() < 2 {
-        return Err(Failure::input("a comparison needs two stones or more"));
+        return Err(CliError::input("a comparison needs two stones or more"));
     }
-    let output = args.output.as_deref().map(|path| Output::of(path, console)).transpose()?;
-    let mut outputs = Outputs::beside(&specs, console);
+    let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
+    let mut outputs = Outputs::reading_stones(&specs, console);
     let command = record::own_command();
     match &output {
-        Some(Output::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
-        Some(Output::Markdown(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
-        Some(Output::Table(path, _)) => tables::claim_table(path, &command, None, false, &mut outputs)?,
+        Some(ComparisonFormat::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
+        Some(ComparisonFormat::Markdown(path)) => {
+            outputs.claim(path, |there| record::is_of(there, &command))?
+        }
+        Some(ComparisonFormat::Table(path, _)) => {
+            tables::claim_table(path, &command, None, false, &mut outputs)?
+        }
         None => (),
     }
-    let requests: Vec<Request> = specs.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
-    let subject = |r: &Request| {
+    let requests: Vec<ReportRequest> = specs.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
+    let subject = |r: &ReportRequest| {
         let shape = Ok(r.design.solid()?.into());
-        Ok(Subject { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
+        Ok(ScoreInput { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
-    let subjects: Vec<Subject> = requests.iter().map(subject).collect::<Result<_, Failure>>()?;
+    let subjects: Vec<ScoreInput> = requests.iter().map(subject).collect::<Result<_, CliError>>()?;
     args.scoring.notes(false).iter().for_each(|note| console.note(note));
     let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");
     let comparison = compare(&subjects, &plan, &|| bar.inc(1));
@@ -111,12 +116,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             console.complain(&format!("{}: {error}", row.stone));
             short = true;
             if row.scores.iter().all(Option::is_none) {
-                return Ok(Code::NoGoodInput);
+                return Ok(ExitStatus::NoGoodInput);
             }
         }
     }
     let compared = Compared { requests: &requests, comparison: &comparison, plan: &plan };
-    let table_is_printed = output.as_ref().is_some_and(|o| replace::is_stdout(o.path()));
+    let table_is_printed = output.as_ref().is_some_and(|o| atomic_write::is_stdout(o.path()));
     if !table_is_printed && console.json {
         console.print_json(&entries(&comparison, &plan))?;
     } else if !table_is_printed {
@@ -125,101 +130,104 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     if let Some(output) = &output {
         let path = output.path();
         match output {
-            Output::Page(_) => {
-                let bar = console.steps(versus::STEPS * requests.len());
-                let page = versus::html(&requests, &comparison, &plan, &|what| {
+            ComparisonFormat::Page(_) => {
+                let bar = console.steps(comparison_page::STEPS * requests.len());
+                let page = comparison_page::html(&requests, &comparison, &plan, &|what| {
                     bar.set_message(what);
                     bar.inc(1);
                 });
                 bar.finish_and_clear();
-                replace::write(path, record::recorded(page?, &command).as_bytes())?;
+                atomic_write::write(path, record::recorded(page?, &command).as_bytes())?;
             }
-            Output::Markdown(_) => {
-                replace::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
+            ComparisonFormat::Markdown(_) => {
+                atomic_write::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
             }
-            Output::Table(_, form) => {
+            ComparisonFormat::Table(_, form) => {
                 compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
                 write_table(&compared, path, *form, command)?;
             }
         }
-        if !replace::is_stdout(path) {
-            console.note(&format!("wrote {}", stones::shown(&path)));
+        if !atomic_write::is_stdout(path) {
+            console.note(&format!("wrote {}", stone::display_name(&path)));
         }
     }
-    Ok(if short { Code::SomeFailed } else { Code::Done })
+    Ok(if short { ExitStatus::SomeFailed } else { ExitStatus::Done })
 }
 
-/// What `-o` asks for, by its ending.
-enum Output {
+/// What `-o` asks for, by its extension.
+enum ComparisonFormat {
     /// A page in a folder.
     Page(PathBuf),
     /// The table for people.
     Markdown(PathBuf),
     /// The table with a row for each metric and stone.
-    Table(PathBuf, Form),
+    Table(PathBuf, TableFormat),
 }
 
-impl Output {
-    fn of(path: &Path, console: &Console) -> Result<Output, Failure> {
+impl ComparisonFormat {
+    fn from_path(path: &Path, console: &Console) -> Result<ComparisonFormat, CliError> {
         let path = path.to_owned();
         let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
-        if replace::is_stream(&path) && !is_markdown {
-            let form = tables::form_of(&path, console)?;
-            return Ok(Output::Table(path, form));
+        if atomic_write::is_stream(&path) && !is_markdown {
+            let form = tables::format_of(&path, console)?;
+            return Ok(ComparisonFormat::Table(path, form));
         }
-        let ending = path.extension().filter(|_| !path.is_dir());
-        Ok(match ending {
-            Some(_) if is_markdown => Output::Markdown(path),
+        let extension = path.extension().filter(|_| !path.is_dir());
+        Ok(match extension {
+            Some(_) if is_markdown => ComparisonFormat::Markdown(path),
             Some(_) => {
-                let form = Form::of(&path).map_err(|_| {
-                    let path = stones::shown(&path);
-                    Failure::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
+                let form = TableFormat::from_path(&path).map_err(|_| {
+                    let path = stone::display_name(&path);
+                    CliError::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
                 })?;
-                Output::Table(path, form)
+                ComparisonFormat::Table(path, form)
             }
-            None => Output::Page(path.join("index.html")),
+            None => ComparisonFormat::Page(path.join("index.html")),
         })
     }
 
     fn path(&self) -> &Path {
         match self {
-            Output::Page(path) | Output::Markdown(path) | Output::Table(path, _) => path,
+            ComparisonFormat::Page(path)
+            | ComparisonFormat::Markdown(path)
+            | ComparisonFormat::Table(path, _) => path,
         }
     }
 }
 
 /// Writes the table, after its companion.
-fn write_table(compared: &Compared, path: &Path, form: Form, command: String) -> Result<(), Failure> {
+fn write_table(compared: &Compared, path: &Path, form: TableFormat, command: String) -> Result<(), CliError> {
     let bytes = compared.table(form)?;
-    if !replace::is_stream(path) {
-        let (study, columns) = (Identity::of(&command).hex(), written::COLUMNS.map(String::from).into());
+    if !atomic_write::is_stream(path) {
+        let (study, columns) =
+            (Fingerprint::of_command(&command).hex(), text::COLUMNS.map(String::from).into());
         let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
-        let meta = Meta { crc32, ..Meta::new(compared.plan, command, study, columns) };
-        let meta = meta.bytes().map_err(|e| Failure::input(e.to_string()))?;
-        replace::write(&Meta::beside(path), &meta)?;
+        let meta = TableMeta { crc32, ..TableMeta::new(compared.plan, command, study, columns) };
+        let meta = meta.bytes().map_err(|e| CliError::input(e.to_string()))?;
+        atomic_write::write(&TableMeta::path_for(path), &meta)?;
     }
-    Ok(replace::write(path, &bytes)?)
+    Ok(atomic_write::write(path, &bytes)?)
 }
 
-fn request(stone: &OsStr, args: &Args) -> Result<Request, Failure> {
-    let imported = stones::open(stone)?;
-    standing::note(&stones::shown(stone), &imported);
+fn request(stone: &OsStr, args: &CompareArgs) -> Result<ReportRequest, CliError> {
+    let imported = stone::open(stone)?;
+    orientation::note(&stone::display_name(stone), &imported);
     let design = imported.design;
-    let material = args.scoring.substance.within(stone)?.of(&design);
-    let size = args.scoring.size.or((design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
-    let design = stones::sized(design, size)?;
-    Ok(Request {
-        stone: stones::shown(stone),
+    let material = args.scoring.substance.within(stone)?.material_of(&design);
+    let size = args.scoring.size.or((design.unit == LengthUnit::Free).then_some(stone::USUAL_SIZE));
+    let design = stone::sized(design, size)?;
+    Ok(ReportRequest {
+        stone: stone::display_name(stone),
         design,
         material,
         seed: args.scoring.seed,
-        command: words::typed(),
+        command: shell_quote::command_line(),
     })
 }
 
-fn entries<'a>(comparison: &'a Comparison, plan: &Plan) -> Vec<Entry<'a>> {
+fn entries<'a>(comparison: &'a Comparison, plan: &ScoreSettings) -> Vec<MetricEntry<'a>> {
     let rows = &comparison.rows;
-    let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| Entry {
+    let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| MetricEntry {
         metric: metric.name,
         unit: metric.unit,
         better: Some(metric.better.word()).filter(|word| !word.is_empty()),

@@ -1,9 +1,10 @@
 //! What a command says and where: results on standard output, notes and progress on standard
 //! error.
 
-use super::outcome::{Failure, complain};
-use super::{heartbeat, values};
-use crate::store::terminal::{in_line, printable, printable_json};
+use super::args::values;
+use super::exit_code::{CliError, complain};
+use super::heartbeat;
+use crate::storage::terminal::{in_line, printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 
@@ -21,7 +22,7 @@ pub struct Console {
     pub json: bool,
     /// Work on this many threads [RAYON_NUM_THREADS, or one for each processor]; the results are the
     /// same on any number
-    #[arg(long, short = 'j', global = true, display_order = 1000, value_name = "N", value_parser = values::whole(1..=MOST_THREADS, "threads are a whole number"))]
+    #[arg(long, short = 'j', global = true, display_order = 1000, value_name = "N", value_parser = values::whole_number(1..=MOST_THREADS, "threads are a whole number"))]
     threads: Option<u32>,
 }
 
@@ -46,25 +47,25 @@ impl Console {
     }
 
     /// A result: standard output, without what a terminal would obey.
-    pub fn print(&self, text: &str) -> Result<(), Failure> {
-        self.put(&printable(text))
+    pub fn print(&self, text: &str) -> Result<(), CliError> {
+        self.write(&printable(text))
     }
 
-    fn put(&self, text: &str) -> Result<(), Failure> {
+    fn write(&self, text: &str) -> Result<(), CliError> {
         let mut out = std::io::stdout().lock();
         let newline = if text.ends_with('\n') { "" } else { "\n" };
-        write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| Failure::output(&e))
+        write!(out, "{text}{newline}").and_then(|()| out.flush()).map_err(|e| CliError::output(&e))
     }
 
     /// What was made, where files are the result: standard output, unless quiet.
-    pub fn tell(&self, text: &str) -> Result<(), Failure> {
+    pub fn tell(&self, text: &str) -> Result<(), CliError> {
         if self.quiet { Ok(()) } else { self.print(text) }
     }
 
     /// A result as JSON: standard output.
-    pub fn print_json(&self, value: &impl serde::Serialize) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(value).map_err(|e| Failure::input(e.to_string()))?;
-        self.put(&printable_json(&text))
+    pub fn print_json(&self, value: &impl serde::Serialize) -> Result<(), CliError> {
+        let text = serde_json::to_string_pretty(value).map_err(|e| CliError::input(e.to_string()))?;
+        self.write(&printable_json(&text))
     }
 
     /// A remark: one line on standard error, unless quiet.

@@ -1,45 +1,45 @@
 //! What a stone is written as: a format, or the cutting diagram.
 
-use super::drawing::{self, Drawing};
-use super::outcome::Failure;
-use super::stones;
-use crate::cut::Design;
+use super::args::stone;
+use super::diagram_output::{self, DiagramFormat};
+use super::exit_code::CliError;
+use crate::design::Design;
 use crate::formats::{self, Encoded, Format, FormatError};
-use crate::optics::Material;
+use crate::materials::Material;
 use crate::report::diagram::Paper;
 use std::path::Path;
 
 /// A format or a drawing.
 #[derive(Clone, Copy)]
-pub enum Form {
+pub enum TargetFormat {
     /// Of a design or a mesh.
     Format(&'static Format),
     /// The cutting diagram.
-    Drawing(Drawing),
+    Drawing(DiagramFormat),
 }
 
-impl Form {
-    /// The one that is called so, by a name or an ending.
-    pub fn named(name: &str) -> Result<Form, Failure> {
-        match Drawing::named(name) {
-            Some(drawing) => Ok(Form::Drawing(drawing)),
-            None => Ok(Form::Format(formats::written_as(name).map_err(with_drawings)?)),
+impl TargetFormat {
+    /// The one that is called so, by a name or an extension.
+    pub fn by_name(name: &str) -> Result<TargetFormat, CliError> {
+        match DiagramFormat::by_name(name) {
+            Some(drawing) => Ok(TargetFormat::Drawing(drawing)),
+            None => Ok(TargetFormat::Format(formats::writer_named(name).map_err(with_drawings)?)),
         }
     }
 
-    /// The one of a file by its ending, or by `--to` where that goes with the ending or the ending says
+    /// The one of a file by its extension, or by `--to` where that goes with the extension or the extension says
     /// nothing.
-    pub fn of(path: &Path, to: Option<&str>) -> Result<Form, Failure> {
-        let by_ending = match Drawing::of(path) {
-            Some(drawing) => Ok(Form::Drawing(drawing)),
-            None => formats::written_to(path).map(Form::Format),
+    pub fn from_path(path: &Path, to: Option<&str>) -> Result<TargetFormat, CliError> {
+        let by_ending = match DiagramFormat::from_path(path) {
+            Some(drawing) => Ok(TargetFormat::Drawing(drawing)),
+            None => formats::writer_for_path(path).map(TargetFormat::Format),
         };
         let Some(to) = to else { return by_ending.map_err(|e| with_drawings(e).into()) };
-        let asked = Form::named(to)?;
+        let asked = TargetFormat::by_name(to)?;
         match by_ending {
-            Ok(own) if !asked.has_ending(path) => Err(Failure::input(format!(
+            Ok(own) if !asked.has_extension(path) => Err(CliError::input(format!(
                 "{} is {} by its ending, not {}: leave out --to {to}, or name another file",
-                stones::shown(path),
+                stone::display_name(path),
                 own.name(),
                 asked.name()
             ))),
@@ -47,38 +47,38 @@ impl Form {
         }
     }
 
-    /// The one of a stream: by `--to`; without that by its name's ending, which a pipe may have; else the
+    /// The one of a stream: by `--to`; without that by its name's extension, which a pipe may have; else the
     /// usual one.
-    pub fn for_stream(path: &Path, to: Option<&str>, usual: &str) -> Result<Form, Failure> {
+    pub fn for_stream(path: &Path, to: Option<&str>, usual: &str) -> Result<TargetFormat, CliError> {
         match to {
-            Some(to) => Form::named(to),
-            None => Form::of(path, None).or_else(|_| Form::named(usual)),
+            Some(to) => TargetFormat::by_name(to),
+            None => TargetFormat::from_path(path, None).or_else(|_| TargetFormat::by_name(usual)),
         }
     }
 
     /// Its name in a sentence.
     fn name(self) -> String {
         match self {
-            Form::Format(format) => format.name.into(),
-            Form::Drawing(_) => format!("a diagram in {}", self.ending()),
+            TargetFormat::Format(format) => format.name.into(),
+            TargetFormat::Drawing(_) => format!("a diagram in {}", self.extension()),
         }
     }
 
-    fn has_ending(self, path: &Path) -> bool {
-        let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+    fn has_extension(self, path: &Path) -> bool {
+        let extension = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         match self {
-            Form::Format(format) => format.extensions.contains(&&*ending),
-            Form::Drawing(_) => self.ending() == ending,
+            TargetFormat::Format(format) => format.extensions.contains(&&*extension),
+            TargetFormat::Drawing(_) => self.extension() == extension,
         }
     }
 
-    /// The usual ending of its files.
-    pub fn ending(self) -> &'static str {
+    /// The usual extension of its files.
+    pub fn extension(self) -> &'static str {
         match self {
-            Form::Format(format) => format.extensions.first().copied().unwrap_or(format.name),
-            Form::Drawing(Drawing::Svg) => "svg",
-            Form::Drawing(Drawing::Pdf) => "pdf",
-            Form::Drawing(Drawing::Png) => "png",
+            TargetFormat::Format(format) => format.extensions.first().copied().unwrap_or(format.name),
+            TargetFormat::Drawing(DiagramFormat::Svg) => "svg",
+            TargetFormat::Drawing(DiagramFormat::Pdf) => "pdf",
+            TargetFormat::Drawing(DiagramFormat::Png) => "png",
         }
     }
 
@@ -90,10 +90,10 @@ impl Form {
         design: &Design,
         material: Option<&Material>,
         paper: Paper,
-    ) -> Result<Encoded, Failure> {
+    ) -> Result<Encoded, CliError> {
         match self {
-            Form::Format(format) => Ok(formats::encode_as(design, material, format.name)?),
-            Form::Drawing(drawing) => {
+            TargetFormat::Format(format) => Ok(formats::encode_as(design, material, format.name)?),
+            TargetFormat::Drawing(drawing) => {
                 let index = material.map(Material::index_d).or(design.refractive_index);
                 Ok(Encoded { bytes: drawing.bytes(design, index, paper)?, remarks: Vec::new() })
             }
@@ -101,11 +101,11 @@ impl Form {
     }
 }
 
-/// The same error with the endings of diagrams among those that are written.
+/// The same error with the extensions of diagrams among those that are written.
 fn with_drawings(error: FormatError) -> FormatError {
     match error {
         FormatError::NoWriter { asked, mut known } => {
-            known.extend(drawing::ENDINGS);
+            known.extend(diagram_output::EXTENSIONS);
             FormatError::NoWriter { asked, known }
         }
         error => error,

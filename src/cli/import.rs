@@ -2,18 +2,19 @@
 
 pub mod plan;
 
+use super::args::stone;
+use super::args::stone::MaterialArgs;
 use super::console::Console;
-use super::form::Form;
-use super::outcome::{self, Code, Failure};
+use super::exit_code::{self, CliError, ExitStatus};
+use super::form::TargetFormat;
 use super::outputs::{self, Outputs};
-use super::stones::{self, Substance};
 use super::weight;
-use crate::cut::Unit;
+use crate::design::LengthUnit;
 use crate::formats::{self, Encoded};
-use crate::optics::weight::Weight;
+use crate::materials::weight::Weight;
 use crate::report::diagram::Paper;
-use crate::store::terminal::in_line;
-use crate::store::{place, replace};
+use crate::storage::terminal::in_line;
+use crate::storage::{atomic_write, output_path};
 use plan::Job;
 use serde::Serialize;
 use std::ffi::OsString;
@@ -27,39 +28,39 @@ Examples:
 
 Files of a folder that are of no known format are passed over. Nothing is overwritten without
 --force; what an interrupted import has written is left as it is. A closed mesh with dents or in several parts is written as a mesh, and said to be one.")]
-pub struct Args {
+pub struct ImportArgs {
     /// Designs, meshes, and folders of them; the content decides the format of each
     #[arg(required = true, value_name = "FILE|DIR")]
     files: Vec<OsString>,
-    /// Where to write: a file whose ending chooses the format, or a folder
+    /// Where to write: a file whose extension chooses the format, or a folder
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
-    /// Format to write, a name or ending from `cutlab list formats`, or svg or png for the cutting
+    /// Format to write, a name or extension from `cutlab list formats`, or svg or png for the cutting
     /// diagram [for a folder: toml]
     #[arg(long, value_name = "FORMAT")]
     to: Option<String>,
     /// Scale to this girdle width in millimetres
-    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     size: Option<f64>,
     /// What `generate` sets beside, for the stones of a folder.
     #[arg(skip)]
-    made: Made,
+    made: GenerateSettings,
 }
 
 /// What `generate` sets, of which `import` has no options.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Made {
+pub struct GenerateSettings {
     /// Weight in carats, in place of a size.
     pub carat: Option<f64>,
     /// Paper of cutting diagrams.
     pub paper: Option<Paper>,
     /// What the stones are made of.
-    pub substance: Substance,
+    pub substance: MaterialArgs,
 }
 
 /// What happened to one file.
 #[derive(Debug, Clone, Default, Serialize)]
-struct Row {
+struct ImportRow {
     file: String,
     outcome: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,10 +75,16 @@ struct Row {
     error: Option<String>,
 }
 
-impl Args {
+impl ImportArgs {
     /// Of everything in one folder into another.
-    pub fn of_folder(folder: OsString, output: PathBuf, to: &str, size: Option<f64>, made: Made) -> Args {
-        Args { files: vec![folder], output, to: Some(to.to_owned()), size, made }
+    pub fn for_folder(
+        folder: OsString,
+        output: PathBuf,
+        to: &str,
+        size: Option<f64>,
+        made: GenerateSettings,
+    ) -> ImportArgs {
+        ImportArgs { files: vec![folder], output, to: Some(to.to_owned()), size, made }
     }
 }
 
@@ -86,27 +93,32 @@ const THERE: &str = "there already";
 const PASSED_OVER: &str = "passed over";
 
 /// Reads every file and writes it again.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let to_output = replace::is_stdout(&args.output);
+pub fn run(args: &ImportArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let to_output = atomic_write::is_stdout(&args.output);
     let (jobs, form) = plan(args)?;
-    let outputs = Outputs::beside(jobs.iter().map(|job| &job.stone), console);
+    let outputs = Outputs::reading_stones(jobs.iter().map(|job| &job.stone), console);
     if !to_output {
         if let Some(job) = jobs.first() {
             // nothing is read for a place where nothing can be written
-            place::tried(&job.target.with_file_name(".cutlab-import"))?;
+            output_path::check_writable(&job.target.with_file_name(".cutlab-import"))?;
         }
-        outcome::goes_on();
+        exit_code::mark_resumable();
     }
     let work = |job: &Job| import(job, args, form, &outputs, console);
-    let mut results = stones::each(&jobs, console, "importing", work);
-    let row = |(job, result): (&Job, &Result<Row, Failure>)| match result {
+    let mut results = stone::open_each(&jobs, console, "importing", work);
+    let row = |(job, result): (&Job, &Result<ImportRow, CliError>)| match result {
         Ok(row) => row.clone(),
         Err(failure) => {
             let error = Some(failure.message());
-            Row { file: stones::shown(&job.stone), outcome: "failed", error, ..Row::default() }
+            ImportRow {
+                file: stone::display_name(&job.stone),
+                outcome: "failed",
+                error,
+                ..ImportRow::default()
+            }
         }
     };
-    let rows: Vec<Row> = jobs.iter().zip(&results).map(row).collect();
+    let rows: Vec<ImportRow> = jobs.iter().zip(&results).map(row).collect();
     rows.iter().for_each(|r| r.warnings.iter().for_each(|w| console.note(&format!("{}: note: {w}", r.file))));
     results.retain(|r| r.as_ref().map_or(true, |row| row.outcome != PASSED_OVER));
     if console.json && !to_output {
@@ -120,69 +132,77 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
     }
     if results.is_empty() {
-        return Err(Failure::input(format!(
+        return Err(CliError::input(format!(
             "no designs and no meshes in {}",
-            args.files.iter().map(stones::shown).collect::<Vec<_>>().join(", ")
+            args.files.iter().map(stone::display_name).collect::<Vec<_>>().join(", ")
         )));
     }
-    Ok(stones::code(&results))
+    Ok(stone::code(&results))
 }
 
 /// What is to be imported, and the format to write it in.
-fn plan(args: &Args) -> Result<(Vec<Job>, Form), Failure> {
+fn plan(args: &ImportArgs) -> Result<(Vec<Job>, TargetFormat), CliError> {
     let alone = args.files.len() == 1 && !Path::new(&args.files[0]).is_dir();
     let is_folder =
-        args.output.is_dir() || (args.output.extension().is_none() && !replace::is_stream(&args.output));
+        args.output.is_dir() || (args.output.extension().is_none() && !atomic_write::is_stream(&args.output));
     let to_file = !is_folder;
     if to_file && !alone {
-        return Err(Failure::input(format!(
+        return Err(CliError::input(format!(
             "several stones do not fit into the one file {}: give a folder and --to FORMAT",
-            stones::shown(&args.output)
+            stone::display_name(&args.output)
         )));
     }
     let to = args.to.as_deref();
-    let form = match to_file && !replace::is_stream(&args.output) {
-        true => Form::of(&args.output, to)?,
-        false => Form::for_stream(&args.output, to, "toml")?,
+    let form = match to_file && !atomic_write::is_stream(&args.output) {
+        true => TargetFormat::from_path(&args.output, to)?,
+        false => TargetFormat::for_stream(&args.output, to, "toml")?,
     };
     if to_file {
         let job =
             |stone: &OsString| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
         return Ok((args.files.iter().map(job).collect(), form));
     }
-    Ok((plan::into_folder(&args.files, &args.output, form.ending())?, form))
+    Ok((plan::into_folder(&args.files, &args.output, form.extension())?, form))
 }
 
-fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Console) -> Result<Row, Failure> {
-    let file = stones::shown(&job.stone);
+fn import(
+    job: &Job,
+    args: &ImportArgs,
+    form: TargetFormat,
+    outputs: &Outputs,
+    console: &Console,
+) -> Result<ImportRow, CliError> {
+    let file = stone::display_name(&job.stone);
     if job.by_chance {
-        return Ok(Row { file, outcome: PASSED_OVER, ..Row::default() });
+        return Ok(ImportRow { file, outcome: PASSED_OVER, ..ImportRow::default() });
     }
-    let to_stream = replace::is_stream(&job.target);
+    let to_stream = atomic_write::is_stream(&job.target);
     if !to_stream {
         outputs.check_inputs(&job.target)?;
         if console.force {
-            place::tried(&job.target)?;
+            output_path::check_writable(&job.target)?;
         }
     }
-    let (bytes, read) = match stones::open(&job.stone) {
+    let (bytes, read) = match stone::open(&job.stone) {
         Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.body.as_ref()?))) {
             Some((of, body)) => {
                 let scale = args.size.map(|mm| mm / body.width()).or(formats::unit_mm(of));
-                let unit = if scale.is_some() { Unit::Millimetre } else { Unit::Free };
+                let unit = if scale.is_some() { LengthUnit::Millimetre } else { LengthUnit::Free };
                 let scale = scale.unwrap_or(1.0);
-                let name = stones::shown(stones::file_stem(&job.stone));
-                let (Form::Format(format), None) = (form, args.made.carat) else { return Err(failure) };
+                let name = stone::display_name(stone::file_stem(&job.stone));
+                let (TargetFormat::Format(format), None) = (form, args.made.carat) else {
+                    return Err(failure);
+                };
                 let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
                 let said = failure.message();
                 let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
                 (
                     bytes,
-                    Row {
+                    ImportRow {
                         format: Some(of),
                         facets: Some(body.facets.len()),
                         warnings: vec![said],
-                        ..Row::default()
+                        ..ImportRow::default()
                     },
                 )
             }
@@ -190,37 +210,45 @@ fn import(job: &Job, args: &Args, form: Form, outputs: &Outputs, console: &Conso
         },
         Ok(imported) => {
             let facets = imported.design.solid()?.faces.len();
-            let Made { carat, paper, substance } = args.made;
+            let GenerateSettings { carat, paper, substance } = args.made;
             let substance = substance.within(&job.stone)?;
             let size = match carat {
                 Some(carats) => {
-                    let weight = Weight::of(&substance.of(&imported.design));
+                    let weight = Weight::new(&substance.material_of(&imported.design));
                     Some(weight::width_mm(&weight, &imported.design, carats)?)
                 }
                 None => args.size,
             };
-            let design = stones::sized(imported.design, size)?;
+            let design = stone::sized(imported.design, size)?;
             let paper = paper.unwrap_or(Paper::A4);
             let mut warnings = imported.warnings;
             let Encoded { bytes, remarks } = form.encoded(&design, substance.asked().as_ref(), paper)?;
             warnings.extend(remarks);
-            (bytes, Row { format: Some(imported.format), facets: Some(facets), warnings, ..Row::default() })
+            (
+                bytes,
+                ImportRow {
+                    format: Some(imported.format),
+                    facets: Some(facets),
+                    warnings,
+                    ..ImportRow::default()
+                },
+            )
         }
     };
     if to_stream || console.force {
-        replace::write(&job.target, &bytes)?;
-    } else if job.target.symlink_metadata().is_ok() || !replace::create(&job.target, &bytes)? {
+        atomic_write::write(&job.target, &bytes)?;
+    } else if job.target.symlink_metadata().is_ok() || !atomic_write::create(&job.target, &bytes)? {
         // an import that was interrupted, started again
-        if !outputs::holds(&job.target, &bytes) {
-            return Err(Failure::exists(&file, &job.target));
+        if !outputs::has_bytes(&job.target, &bytes) {
+            return Err(CliError::exists(&file, &job.target));
         }
-        return Ok(Row { file, outcome: THERE, ..read });
+        return Ok(ImportRow { file, outcome: THERE, ..read });
     }
-    Ok(Row { file, outcome: WRITTEN, wrote: Some(stones::shown(&job.target)), ..read })
+    Ok(ImportRow { file, outcome: WRITTEN, wrote: Some(stone::display_name(&job.target)), ..read })
 }
 
 /// The rows in columns, then how many had which outcome.
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[ImportRow]) -> String {
     let listed: Vec<[String; 4]> = rows
         .iter()
         .filter(|r| r.outcome != PASSED_OVER)

@@ -1,12 +1,13 @@
 //! `cutlab list`: what there is to choose from, straight from the catalogues.
 
+mod catalogue_entry;
 mod entries;
 
 use super::console::Console;
-use super::outcome::{Code, Failure};
-use crate::math::typed;
-use crate::scene::file::GRAMMAR;
-use serde_json::Value;
+use super::exit_code::{CliError, ExitStatus};
+use crate::parse;
+use crate::scene::scene_file::GRAMMAR;
+use catalogue_entry::CatalogueEntry;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -15,17 +16,17 @@ Examples:
   cutlab list metrics wlr iso        all that is known of two of them
   cutlab list materials --json       with index, dispersion, density and colour as numbers
   cutlab list cuts classic           the design itself, as a file of one's own may have it")]
-pub struct Args {
+pub struct ListArgs {
     /// Which catalogue
     #[arg(ignore_case = true)]
-    kind: Kind,
+    kind: Catalogue,
     /// Entries to tell everything about
     #[arg(value_name = "NAME")]
     names: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Kind {
+enum Catalogue {
     /// Cuts of the library
     Cuts,
     /// Materials
@@ -46,48 +47,24 @@ enum Kind {
     Limits,
 }
 
-/// Something to choose.
-struct Entry {
-    /// What it is called on the command line.
-    name: String,
-    /// One line about it.
-    about: String,
-    /// Everything about it, for people.
-    text: String,
-    /// Everything about it but its name and the line, as a JSON object.
-    facts: Value,
-}
-
-impl Entry {
-    /// The entry as a JSON object.
-    fn json(&self) -> Value {
-        let mut all = serde_json::Map::new();
-        all.insert("name".into(), self.name.clone().into());
-        all.insert("about".into(), self.about.clone().into());
-        if let Value::Object(facts) = &self.facts {
-            all.extend(facts.clone());
-        }
-        all.into()
-    }
-}
-
 /// Lists a catalogue, or entries of it.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let all = match args.kind {
-        Kind::SceneGrammar => {
+        Catalogue::SceneGrammar => {
             return if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) }
-                .map(|()| Code::Done);
+                .map(|()| ExitStatus::Done);
         }
-        Kind::Cuts => entries::cuts(),
-        Kind::Materials => entries::materials(),
-        Kind::Illuminants => entries::illuminants(),
-        Kind::Metrics => entries::metrics(),
-        Kind::Formats => entries::formats(),
-        Kind::Scenes => entries::scenes(),
-        Kind::Limits => entries::limits(),
-        Kind::Lights => entries::lights(),
+        Catalogue::Cuts => entries::cuts(),
+        Catalogue::Materials => entries::materials(),
+        Catalogue::Illuminants => entries::illuminants(),
+        Catalogue::Metrics => entries::metrics(),
+        Catalogue::Formats => entries::formats(),
+        Catalogue::Scenes => entries::scenes(),
+        Catalogue::Limits => entries::limits(),
+        Catalogue::Lights => entries::lights(),
     };
-    let asked = args.names.iter().map(|name| find(&all, name)).collect::<Result<Vec<&Entry>, _>>()?;
+    let asked =
+        args.names.iter().map(|name| find(&all, name)).collect::<Result<Vec<&CatalogueEntry>, _>>()?;
     if console.json {
         let chosen = if asked.is_empty() { all.iter().collect() } else { asked };
         console.print_json(&chosen.iter().map(|e| e.json()).collect::<Vec<_>>())?;
@@ -99,12 +76,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         let texts: Vec<&str> = asked.iter().map(|e| e.text.trim_end()).collect();
         console.print(&texts.join("\n\n"))?;
     }
-    Ok(Code::Done)
+    Ok(ExitStatus::Done)
 }
 
-fn find<'a>(all: &'a [Entry], name: &str) -> Result<&'a Entry, Failure> {
-    all.iter().find(|e| typed::is_called(&e.name, name)).ok_or_else(|| {
-        let near = typed::suggestion(typed::nearest(name, all.iter().map(|e| e.name.as_str())));
-        Failure::input(format!("the list has no '{name}'{near}"))
+fn find<'a>(all: &'a [CatalogueEntry], name: &str) -> Result<&'a CatalogueEntry, CliError> {
+    all.iter().find(|e| parse::is_name(&e.name, name)).ok_or_else(|| {
+        let near = parse::did_you_mean(parse::nearest_name(name, all.iter().map(|e| e.name.as_str())));
+        CliError::input(format!("the list has no '{name}'{near}"))
     })
 }

@@ -1,15 +1,16 @@
 //! `cutlab merge`: the parts of a table, joined.
 
+use super::args::inputs;
+use super::args::stone;
+use super::args::tables;
 use super::console::Console;
-use super::folders;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
-use super::plots::{self, Look, Plots};
-use super::stones;
-use super::tables;
-use crate::store::progress::Progress;
-use crate::store::replace;
-use crate::study::merge::{MergeError, Part, Parts};
+use super::plot_output::{self, Look, Plots};
+use crate::batch::merge::{MergeError, TablePart, TableParts};
+use crate::batch::sidecar::TableMeta;
+use crate::storage::atomic_write;
+use crate::storage::journal::Journal;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +24,7 @@ Examples:
 
 Each part needs its companion beside it (one.csv.meta.json), which says which part it is. The whole is
 written as its own name says, whatever the parts are.")]
-pub struct Args {
+pub struct MergeArgs {
     /// The tables that --shard made, and patterns of their names
     #[arg(required = true, value_name = "PART")]
     parts: Vec<OsString>,
@@ -39,31 +40,34 @@ pub struct Args {
 }
 
 /// Joins the parts.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let form = tables::form_of(&args.output, console)?;
-    let tables = folders::parts(&args.parts)?;
-    let mut outputs = Outputs::of(console);
-    tables.iter().for_each(|table| outputs.reads(table));
-    let parts: Vec<Part> = tables.iter().map(|p| Part::open(p)).collect::<Result<_, _>>()?;
+pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let form = tables::format_of(&args.output, console)?;
+    let tables = inputs::parts(&args.parts)?;
+    let mut outputs = Outputs::new(console);
+    for table in &tables {
+        outputs.reads(table);
+        outputs.reads(&TableMeta::find_for(table));
+    }
+    let parts: Vec<TablePart> = tables.iter().map(|p| TablePart::open(p)).collect::<Result<_, _>>()?;
     let count = parts.len();
-    let mut parts = Parts::of(parts)?;
+    let mut parts = TableParts::new(parts)?;
     let command = parts.meta.command.clone();
     let layout = match args.plot.is_empty() {
         true => Default::default(),
-        false => plots::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
+        false => plot_output::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
     };
-    let plots = Plots::of(&args.plot, &plots::metrics_of(&parts.meta), &args.look, &layout.axes)?;
+    let plots = Plots::new(&args.plot, &plot_output::metrics_of(&parts.meta), &args.look, &layout.axes)?;
     plots.claim(&command, &mut outputs)?;
-    let drawn = |parts: &Parts| match plots.is_empty() {
+    let drawn = |parts: &TableParts| match plots.is_empty() {
         true => Ok(Vec::new()),
         false => plots.draw(&parts.bytes(form)?, form, &layout, &command),
     };
-    if replace::is_stream(&args.output) {
+    if atomic_write::is_stream(&args.output) {
         parts.write(form, &args.output)?;
-        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stones::shown(&file))));
+        drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(&file))));
         return Ok(tables::code(&parts.meta.summary));
     }
-    let begun = Progress::is_of(&Progress::beside(&args.output), &parts.identity());
+    let begun = Journal::belongs_to(&Journal::path_for(&args.output), &parts.identity());
     tables::claim_table(&args.output, &command, None, begun, &mut outputs)?;
     let mut files = drawn(&parts)?;
     parts.publish(form, &args.output)?;
@@ -72,12 +76,12 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     Ok(tables::code(&parts.meta.summary))
 }
 
-impl From<MergeError> for Failure {
-    fn from(error: MergeError) -> Failure {
+impl From<MergeError> for CliError {
+    fn from(error: MergeError) -> CliError {
         match error {
-            MergeError::Read { path, cause } => Failure::reading(&stones::shown(&path), &cause),
+            MergeError::Read { path, cause } => CliError::reading(&stone::display_name(&path), &cause),
             MergeError::Write(cause) => cause.into(),
-            other => Failure::input(other.to_string()),
+            other => CliError::input(other.to_string()),
         }
     }
 }

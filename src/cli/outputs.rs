@@ -4,16 +4,16 @@
 //! - A file that is there is replaced only if the same command made it, or if it holds just what is
 //!   to be written, or with `--force`. The same command is known by the record in the file
 //!   ([`record`]), or in a table's companion.
-//! - Every place is tried before anything is computed ([`place::tried`]).
+//! - Every place is tried before anything is computed ([`output_path::check_writable`]).
 
 pub mod record;
 
+use super::args::{inputs, stone};
 use super::console::Console;
-use super::outcome::Failure;
-use super::{folders, stones};
-use crate::store::limits;
-use crate::store::place::{self, FileId};
-use crate::store::replace;
+use super::exit_code::CliError;
+use crate::storage::atomic_write;
+use crate::storage::limits;
+use crate::storage::output_path::{self, FileId};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::io::Read;
@@ -29,15 +29,18 @@ pub struct Outputs {
 
 impl Outputs {
     /// Of a command that reads nothing yet.
-    pub fn of(console: &Console) -> Outputs {
+    pub fn new(console: &Console) -> Outputs {
         Outputs { force: console.force, ..Outputs::default() }
     }
 
     /// Of a command that reads these stones.
-    pub fn beside<S: AsRef<OsStr>>(stones: impl IntoIterator<Item = S>, console: &Console) -> Outputs {
-        let mut outputs = Outputs::of(console);
+    pub fn reading_stones<S: AsRef<OsStr>>(
+        stones: impl IntoIterator<Item = S>,
+        console: &Console,
+    ) -> Outputs {
+        let mut outputs = Outputs::new(console);
         for stone in stones {
-            if let Some(file) = folders::file_of(stone.as_ref()) {
+            if let Some(file) = inputs::file_of(stone.as_ref()) {
                 outputs.reads(&file);
             }
         }
@@ -46,45 +49,46 @@ impl Outputs {
 
     /// Adds a file that the command reads.
     pub fn reads(&mut self, file: &Path) {
-        self.inputs.extend(FileId::of(file).map(|id| (id, stones::shown(file))));
+        self.inputs.extend(FileId::from_path(file).map(|id| (id, stone::display_name(file))));
     }
 
     /// Takes a place for a file of the command's, or says why it cannot be written.
     ///
     /// - `is_own`: whether a file that is there was made by the same command
-    pub fn claim(&mut self, path: &Path, is_own: impl FnOnce(&Path) -> bool) -> Result<(), Failure> {
-        if replace::is_stream(path) {
+    pub fn claim(&mut self, path: &Path, is_own: impl FnOnce(&Path) -> bool) -> Result<(), CliError> {
+        if atomic_write::is_stream(path) {
             return Ok(());
         }
-        let is_there = place::tried(path)?;
+        let is_there = output_path::check_writable(path)?;
         self.check_inputs(path)?;
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let real = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        let place = real.join(path.file_name().unwrap_or_default());
+        // a link that is there leads to the place that is written to
+        let place = path.canonicalize().unwrap_or_else(|_| real.join(path.file_name().unwrap_or_default()));
         if let Some(other) = self.claimed.insert(place, path.to_owned()) {
-            let other = stones::shown(&other);
-            return Err(Failure::input(format!(
+            let other = stone::display_name(&other);
+            return Err(CliError::input(format!(
                 "{other} is given for two outputs: name another file for one"
             )));
         }
         if is_there && !self.force && !is_own(path) {
-            return Err(Failure::other_is_there(path));
+            return Err(CliError::other_is_there(path));
         }
         Ok(())
     }
 
     /// Refuses a file that is one of the inputs.
-    pub fn check_inputs(&self, path: &Path) -> Result<(), Failure> {
-        let id = FileId::of(path);
+    pub fn check_inputs(&self, path: &Path) -> Result<(), CliError> {
+        let id = FileId::from_path(path);
         match self.inputs.iter().find(|(input, _)| id.as_ref() == Some(input)) {
-            Some((_, input)) => Err(Failure::input(format!("{input} is an input: write to another file"))),
+            Some((_, input)) => Err(CliError::input(format!("{input} is an input: write to another file"))),
             None => Ok(()),
         }
     }
 }
 
 /// Whether there is a file at `path` of just these bytes.
-pub fn holds(path: &Path, bytes: &[u8]) -> bool {
+pub fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
     let mut there = Vec::new();
     let read = limits::regular(path).and_then(|f| f.take(bytes.len() as u64 + 1).read_to_end(&mut there));
     read.is_ok() && there == bytes

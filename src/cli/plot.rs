@@ -1,11 +1,12 @@
 //! `cutlab plot`: curves and maps of a table that is there, without computing anything.
 
+use super::args::stone;
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
-use super::plots::{self, Look, Plots};
-use super::stones;
-use crate::study::merge::Part;
+use super::plot_output::{self, Look, Plots};
+use crate::batch::merge::TablePart;
+use crate::batch::sidecar::TableMeta;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -16,7 +17,7 @@ Examples:
   cutlab plot all.csv -o map.svg                  map-METRIC.svg for every metric of the table
 
 The table needs its companion beside it (sweep.csv.meta.json), which says what its axes are.")]
-pub struct Args {
+pub struct PlotArgs {
     /// A whole table that sweep, merge or score --tilt wrote
     #[arg(value_name = "TABLE")]
     table: PathBuf,
@@ -29,20 +30,21 @@ pub struct Args {
 }
 
 /// Draws the plots.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let part = Part::open(&args.table)?;
+pub fn run(args: &PlotArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let part = TablePart::open(&args.table)?;
     if let Some(shard) = part.meta.shard {
-        let table = stones::shown(&args.table);
-        return Err(Failure::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));
+        let table = stone::display_name(&args.table);
+        return Err(CliError::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));
     }
-    let layout = plots::layout_of(&args.table, &part.meta)?;
-    let plots = Plots::of(&args.output, &plots::metrics_of(&part.meta), &args.look, &layout.axes)?;
-    let mut outputs = Outputs::of(console);
+    let layout = plot_output::layout_of(&args.table, &part.meta)?;
+    let plots = Plots::new(&args.output, &plot_output::metrics_of(&part.meta), &args.look, &layout.axes)?;
+    let mut outputs = Outputs::new(console);
     outputs.reads(&args.table);
+    outputs.reads(&TableMeta::find_for(&args.table));
     let command = record::own_command();
     plots.claim(&command, &mut outputs)?;
     let bytes = part.bytes()?;
     let files = plots.draw(&bytes, part.form, &layout, &command)?;
-    plots::tell(&files, console)?;
-    Ok(Code::Done)
+    plot_output::tell(&files, console)?;
+    Ok(ExitStatus::Done)
 }

@@ -1,20 +1,22 @@
 //! `cutlab report`: everything about one stone, on one page.
 
+use super::args::inputs;
+use super::args::stone;
+use super::args::stone::DEFAULT_STONE;
+use super::args::values;
 use super::console::Console;
-use super::folders;
+use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
-use super::outcome::{Code, Failure};
 use super::outputs::{Outputs, record};
-use super::stones::{self, DEFAULT_STONE};
-use super::{values, words};
-use crate::cut::Unit;
-use crate::math::stats::Estimate;
+use super::shell_quote;
+use crate::batch::fingerprint::BUILD;
+use crate::design::LengthUnit;
 use crate::optics::dispersion::VISIBLE_UM;
-use crate::report::bundle::{self, Bundle, STEPS};
-use crate::report::page::{Section, number};
-use crate::report::{self, ReportError, Request};
-use crate::store::progress::Progress;
-use crate::study::identity::BUILD;
+use crate::report::page::{Section, estimate_html};
+use crate::report::stone_report::{self, STEPS, StoneReport};
+use crate::report::{self, ReportError, ReportRequest};
+use crate::sampling::stats::Estimate;
+use crate::storage::journal::Journal;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
@@ -30,7 +32,7 @@ index.html shows it all and needs nothing beside it, on a screen, a phone or pap
 the cutting diagram, every score beside five reference stones of the same material, scores against the
 tilt, and for round brilliants their place on the map of light return. Beside it stand the pictures
 (table.png, aset.png, ideal-scope.png, windows.png), diagram.svg, scores.csv, stone.obj and stone.toml.")]
-pub struct Args {
+pub struct ReportArgs {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
     /// of several, each has a folder of its own in -o
     #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
@@ -39,10 +41,10 @@ pub struct Args {
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
     /// Girdle width in millimetres [the stone's own, or 6.5]
-    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     size: Option<f64>,
     #[command(flatten)]
-    substance: stones::Substance,
+    substance: stone::MaterialArgs,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
@@ -50,7 +52,7 @@ pub struct Args {
 
 /// The numbers that matter, for `--json`.
 #[derive(Serialize)]
-struct Summary {
+struct ReportSummary {
     folder: String,
     files: Vec<String>,
     scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
@@ -61,20 +63,20 @@ struct Summary {
 }
 
 /// Makes the reports and writes them.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let specs = folders::expanded(&args.stones)?;
+pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let specs = inputs::expanded(&args.stones)?;
     let folders: Vec<PathBuf> = match &args.stones[..] {
         [stone] if specs.len() == 1 && specs[0] == *stone => vec![args.output.clone()],
         _ => plan::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
     };
-    let mut outputs = Outputs::beside(&specs, console);
+    let mut outputs = Outputs::reading_stones(&specs, console);
     // every place is tried before the first report, which takes half a minute
     for folder in &folders {
         claim(folder, &mut outputs)?;
     }
     let range = args.substance.range_note(VISIBLE_UM.0, VISIBLE_UM.1);
     range.iter().for_each(|note| console.note(note));
-    let mut results: Vec<Result<Summary, Failure>> = Vec::new();
+    let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
         let result = one(stone, folder, args, console);
         if let (Err(failure), true) = (&result, specs.len() > 1) {
@@ -83,16 +85,16 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         results.push(result);
     }
     if results.len() == 1 {
-        let summary = results.pop().unwrap_or_else(|| Err(Failure::input("no stone")))?;
+        let summary = results.pop().unwrap_or_else(|| Err(CliError::input("no stone")))?;
         if console.json {
             console.print_json(&summary)?;
         }
-        return Ok(Code::Done);
+        return Ok(ExitStatus::Done);
     }
     if console.json {
         console.print_json(&results.iter().flatten().collect::<Vec<_>>())?;
     }
-    Ok(stones::code(&results))
+    Ok(stone::code(&results))
 }
 
 /// What is kept of a report while its files are written.
@@ -101,22 +103,32 @@ fn identity() -> String {
 }
 
 /// Takes the places of all files of the report in a folder.
-fn claim(folder: &Path, outputs: &mut Outputs) -> Result<(), Failure> {
+fn claim(folder: &Path, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
-    let begun = Progress::is_of(&Progress::beside(&page), &identity());
+    let begun = Journal::belongs_to(&Journal::path_for(&page), &identity());
     let is_own = begun || record::is_of(&page, &record::own_command());
-    bundle::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
+    stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
 
 /// Makes the report of one stone.
-fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<Summary, Failure> {
-    let imported = stones::open(stone)?;
+fn one(
+    stone: &OsStr,
+    folder: &Path,
+    args: &ReportArgs,
+    console: &Console,
+) -> Result<ReportSummary, CliError> {
+    let imported = stone::open(stone)?;
     imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = args.substance.within(stone)?.of(&imported.design);
-    let size = args.size.or((imported.design.unit == Unit::Free).then_some(stones::USUAL_SIZE));
-    let design = stones::sized(imported.design, size)?;
-    let request =
-        Request { stone: stones::shown(stone), design, material, seed: args.seed, command: words::typed() };
+    let material = args.substance.within(stone)?.material_of(&imported.design);
+    let size = args.size.or((imported.design.unit == LengthUnit::Free).then_some(stone::USUAL_SIZE));
+    let design = stone::sized(imported.design, size)?;
+    let request = ReportRequest {
+        stone: stone::display_name(stone),
+        design,
+        material,
+        seed: args.seed,
+        command: shell_quote::command_line(),
+    };
     let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {
         bar.set_message(what);
@@ -130,8 +142,8 @@ fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<S
         }
     }
     // what a kill leaves of the files is known as this command's
-    let progress = Progress::beside(&folder.join("index.html"));
-    let progress = Progress::open(&progress, &identity(), &|_| ())?;
+    let progress = Journal::path_for(&folder.join("index.html"));
+    let progress = Journal::open(&progress, &identity(), &|_| ())?;
     bundle.write(folder)?;
     progress.finish()?;
     if !console.json {
@@ -144,23 +156,23 @@ fn one(stone: &OsStr, folder: &Path, args: &Args, console: &Console) -> Result<S
     let every = bundle.sections.iter().flat_map(|s| &s.scores);
     let better = every.clone().map(|score| (score.name.clone(), score.better.word()));
     let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out.clone()?)));
-    Ok(Summary {
+    Ok(ReportSummary {
         better: better.filter(|(_, word)| !word.is_empty()).collect(),
         left_out: left_out.collect(),
-        folder: stones::shown(folder),
-        files: bundle.files.iter().map(|(name, _)| stones::shown(folder.join(name))).collect(),
+        folder: stone::display_name(folder),
+        files: bundle.files.iter().map(|(name, _)| stone::display_name(folder.join(name))).collect(),
         scores: scores.collect(),
     })
 }
 
 /// The numbers that matter, and the files.
-fn text(bundle: &Bundle, folder: &Path) -> String {
+fn text(bundle: &StoneReport, folder: &Path) -> String {
     let mut text = String::new();
     for section in bundle.sections.iter().filter(|s| s.large > 0) {
         text += &format!("{}\n", section.head);
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(number) {
+            let value = match score.value.map(estimate_html) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
                 None => "–".into(),
@@ -176,14 +188,14 @@ fn text(bundle: &Bundle, folder: &Path) -> String {
         text += &format!("{said}\n");
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", stones::shown(&folder), names.join(", "))
+    text + &format!("{}: {}", stone::display_name(&folder), names.join(", "))
 }
 
-impl From<ReportError> for Failure {
-    fn from(error: ReportError) -> Failure {
+impl From<ReportError> for CliError {
+    fn from(error: ReportError) -> CliError {
         match error {
             ReportError::Format(error) => error.into(),
-            _ => Failure::input(error.to_string()),
+            _ => CliError::input(error.to_string()),
         }
     }
 }

@@ -1,23 +1,28 @@
 //! `cutlab score`: a table of scores, one row a stone, or one a stone and tilt.
 
+use super::args::inputs;
+use super::args::scoring;
+use super::args::scoring::{InputFiles, ScoringArgs};
+use super::args::stone;
+use super::args::stone::DEFAULT_STONE;
+use super::args::tables;
+use super::args::tables::{TableArgs, TableCommand};
 use super::console::Console;
-use super::folders;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
-use super::plots::{Look, Plots};
+use super::plot_output::{Look, Plots};
 use super::proportion_columns as proportions;
-use super::scoring::{self, Inputs, Scoring};
-use super::stones::{self, DEFAULT_STONE};
-use super::tables::{self, Study, Table};
-use super::words::quoted;
-use crate::math::typed::{self, Unit};
+use super::shell_quote::quoted;
+use crate::batch::sidecar::TableLayout;
+use crate::batch::sweep::Steps;
+use crate::batch::table;
+use crate::batch::table::TableCell;
+use crate::batch::table_job::{FinishedRow, Order};
 use crate::metrics::Metric;
+use crate::parse;
+use crate::parse::NumberUnit;
 use crate::report::plot::{TILT, TILT_AXIS};
-use crate::study::batch::{Line, Order};
-use crate::study::meta::Layout;
-use crate::study::score::Tilt;
-use crate::study::sweep::Steps;
-use crate::study::table::{self, Cell};
+use crate::scoring::score::Tilt;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -31,23 +36,23 @@ Examples:
   cutlab score D.asc:material=quartz D.asc:material=topaz
   cutlab score tolkowsky --metrics wlr --tilt -30:30:5 --plot tilt.svg    curves about both axes
   cutlab score designs/ --shard 2/8 -o part2.csv     the second of eight machines; cutlab merge")]
-pub struct Args {
+pub struct ScoreArgs {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files,
     /// patterns as 'designs/*.asc'; each may say its material, as designs/:material=topaz
     #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
     stones: Vec<OsString>,
     #[command(flatten)]
-    table: Table,
+    table: TableArgs,
     #[command(flatten)]
-    scoring: Scoring,
+    scoring: ScoringArgs,
     /// Add columns of each stone's name, proportions and weight
     #[arg(long)]
     proportions: bool,
     /// Sort the rows by a metric, the greatest first; -METRIC the least first
-    #[arg(long, value_name = "METRIC", value_parser = sorted, allow_hyphen_values = true)]
-    sort: Option<Sort>,
+    #[arg(long, value_name = "METRIC", value_parser = parse_sort, allow_hyphen_values = true)]
+    sort: Option<SortOrder>,
     /// Keep the first N rows of the sorted table
-    #[arg(long, value_name = "N", requires = "sort", value_parser = kept)]
+    #[arg(long, value_name = "N", requires = "sort", value_parser = parse_top)]
     top: Option<u64>,
     /// Turn the stone before viewer and light, one row a tilt, in degrees
     #[arg(long, value_name = "FROM:TO:STEP", value_parser = tilt, allow_hyphen_values = true)]
@@ -73,19 +78,19 @@ pub struct Args {
 
 /// What `--sort` asks for.
 #[derive(Debug, Clone, Copy)]
-struct Sort {
+struct SortOrder {
     metric: &'static Metric,
     ascending: bool,
 }
 
 /// Scores every stone and writes the table.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let plan = args.scoring.plan();
     let order = order(args, &plan.metrics)?;
-    let specs = folders::expanded(&args.stones)?;
-    let mut outputs = Outputs::beside(&specs, console);
+    let specs = inputs::expanded(&args.stones)?;
+    let mut outputs = Outputs::reading_stones(&specs, console);
     let mut command = "cutlab score".to_string();
-    args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(&stones::shown(stone))));
+    args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(&stone::display_name(stone))));
     command += &args.scoring.words();
     let mut leading = table::STONE_COLUMNS.to_vec();
     if args.proportions {
@@ -114,9 +119,9 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     }
     let columns = table::columns(&leading, &plan.metrics);
     let each = tilts.len().max(1) as u64;
-    let inputs = Inputs::of(&command, specs.iter().map(OsString::as_os_str));
-    let plots = Plots::of(&args.plot, &plan.metrics, &args.look, &[TILT.into()])?;
-    let study = Study {
+    let inputs = InputFiles::new(&command, specs.iter().map(OsString::as_os_str));
+    let plots = Plots::new(&args.plot, &plan.metrics, &args.look, &[TILT.into()])?;
+    let study = TableCommand {
         identity: inputs.identity.clone(),
         command,
         plan: &plan,
@@ -129,21 +134,21 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
             let spec = &specs[(i / each) as usize];
             let tilt = tilts.get((i % each) as usize).copied();
             let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan));
-            scoring::tell(&stones::shown(spec), &row, console);
+            scoring::tell(&stone::display_name(spec), &row, console);
             let mut leading = table::stone_cells(&row);
             if args.proportions {
                 leading.extend(proportions::cells(spec, &args.scoring, console));
             }
-            leading.extend(tilt.map(|t| Cell::number(t.degrees)));
-            leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| Cell::number(t.azimuth)));
+            leading.extend(tilt.map(|t| TableCell::number(t.degrees)));
+            leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| TableCell::number(t.azimuth)));
             let sorts = |m: &&'static Metric| args.sort.is_some_and(|s| s.metric.name == m.name);
             let key = plan.metrics.iter().position(sorts).and_then(|m| row.scores[m]);
-            Ok(Line {
+            Ok(FinishedRow {
                 outcome,
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
                 key: key.map(|e| e.value),
                 text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: tables::complaint(&stones::shown(spec), &row),
+                complaint: tables::complaint(&stone::display_name(spec), &row),
                 note: row.omissions(),
             })
         },
@@ -153,48 +158,48 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
 }
 
 /// The order of the rows, if they are to be sorted.
-fn order(args: &Args, metrics: &[&'static Metric]) -> Result<Option<Order>, Failure> {
+fn order(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<Order>, CliError> {
     let Some(sort) = args.sort else { return Ok(None) };
     let name = sort.metric.name;
     if !metrics.iter().any(|m| m.name == name) {
-        return Err(Failure::input(format!("--sort {name}: it is not among the --metrics")));
+        return Err(CliError::input(format!("--sort {name}: it is not among the --metrics")));
     }
     if args.table.shard.of > 1 {
-        return Err(Failure::input("--sort needs the whole table: leave out --shard"));
+        return Err(CliError::input("--sort needs the whole table: leave out --shard"));
     }
     Ok(Some(Order { ascending: sort.ascending, top: args.top }))
 }
 
 /// What a plot of the tilted stones shows: a curve for each stone and axis.
-fn layout(specs: &[OsString], axes: &[f64]) -> Layout {
+fn layout(specs: &[OsString], axes: &[f64]) -> TableLayout {
     let alone = match specs {
-        [spec] => stones::shown(spec),
+        [spec] => stone::display_name(spec),
         _ => String::new(),
     };
     let several = [(specs.len() > 1, table::STONE_COLUMNS[0]), (axes.len() > 1, TILT_AXIS)];
     let curves = several.iter().filter(|(is, _)| *is).map(|(_, column)| column.to_string()).collect();
-    Layout { stone: alone, axes: vec![TILT.into()], curves, scattered: false, is_diamond: false }
+    TableLayout { stone: alone, axes: vec![TILT.into()], curves, scattered: false, is_diamond: false }
 }
 
 /// Value parser of `--sort`.
-fn sorted(text: &str) -> Result<Sort, String> {
+fn parse_sort(text: &str) -> Result<SortOrder, String> {
     let name = text.strip_prefix('-').unwrap_or(text);
-    Ok(Sort { metric: super::scoring::metric(name)?, ascending: text.starts_with('-') })
+    Ok(SortOrder { metric: super::args::scoring::metric(name)?, ascending: text.starts_with('-') })
 }
 
 /// Value parser of `--top`.
-fn kept(text: &str) -> Result<u64, String> {
-    typed::whole(text, 1..=u64::MAX, "--top takes a whole number of rows")
+fn parse_top(text: &str) -> Result<u64, String> {
+    parse::parse_whole_number(text, 1..=u64::MAX, "--top takes a whole number of rows")
 }
 
 /// Value parser of `--tilt-axis`.
 fn azimuth(text: &str) -> Result<f64, String> {
-    typed::within(text, Unit::Degrees, -360.0..=360.0, "an azimuth is a number of degrees")
+    parse::parse_number_within(text, NumberUnit::Degrees, -360.0..=360.0, "an azimuth is a number of degrees")
 }
 
 /// Value parser of `--tilt`.
 fn tilt(text: &str) -> Result<Steps, String> {
-    let steps = Steps::read(text, Unit::Degrees)?;
+    let steps = Steps::parse(text, NumberUnit::Degrees)?;
     match steps.from.abs().max(steps.to.abs()) <= MOST_TILT {
         true => Ok(steps),
         false => Err(format!("a stone can be tilted by up to {MOST_TILT}°")),

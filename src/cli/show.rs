@@ -4,26 +4,27 @@ mod measured;
 mod mesh;
 mod tiers;
 
+use super::args::inputs;
+use super::args::stone;
 use super::console::Console;
-use super::drawing::{self, Drawing};
-use super::folders;
-use super::outcome::{Code, Failure, Shape};
+use super::diagram_output::{self, DiagramFormat};
+use super::exit_code::{CliError, ExitStatus, MeshFacts};
 use super::outputs::{self, Outputs};
-use super::stones;
 use super::weight;
-use crate::cut::Unit;
-use crate::cut::brilliant::{self, Lengths};
-use crate::cut::proportions::{self, Ratios};
-use crate::cut::symmetry::Symmetry;
+use crate::design::LengthUnit;
+use crate::design::gia_envelopes;
+use crate::design::proportions::{self, Ratios};
+use crate::design::round_brilliant_measures::FacetLengths;
+use crate::design::symmetry::Symmetry;
 use crate::formats;
+use crate::materials::weight::Weight;
 use crate::optics::fresnel::critical_angle_deg;
-use crate::optics::weight::Weight;
 use crate::report::diagram::Paper;
-use crate::report::pattern;
-use crate::store::replace;
-use crate::store::terminal::in_line;
-use crate::walk::Stone;
-use measured::Measured;
+use crate::report::virtual_facets;
+use crate::storage::atomic_write;
+use crate::storage::terminal::in_line;
+use crate::trace::ConvexStone;
+use measured::{MeasuredProportions, figure};
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -41,27 +42,27 @@ greatest height of their side: the mains of a brilliant, the first step of a ste
 counts that faces along the width most nearly, and of several that do so alike the steepest.
 The weight is that of --material. A design drawn for an index is weighed as the known material nearest to
 it, if one lies within 0.01; a stone without either is weighed as diamond.")]
-pub struct Args {
+pub struct ShowArgs {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns
     #[arg(required = true, value_name = "STONE")]
     stones: Vec<OsString>,
     /// Girdle width in millimetres, for volume in mm³ and weight
-    #[arg(long, value_name = "MM", value_parser = stones::millimetres)]
+    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     size: Option<f64>,
     /// Weight in carats, in place of --size: the width follows from the material's density
     #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
     carat: Option<f64>,
     #[command(flatten)]
-    substance: stones::Substance,
+    substance: stone::MaterialArgs,
     /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
     beams: Option<PathBuf>,
-    /// Also draw the cutting diagram, one page: SVG, PDF or PNG by its ending (one stone only)
+    /// Also draw the cutting diagram, one page: SVG, PDF or PNG by its extension (one stone only)
     #[arg(long, value_name = "DIAGRAM.svg")]
     diagram: Option<PathBuf>,
     /// Paper of the cutting diagram
-    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = drawing::paper)]
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = diagram_output::paper)]
     paper: Paper,
 }
 
@@ -71,7 +72,7 @@ const LEAST_POWER: f64 = 1e-6;
 
 /// One stone as JSON. Lengths are in `unit`, percentages of the girdle width.
 #[derive(Debug, Serialize)]
-struct Sheet {
+struct StoneSheet {
     file: String,
     format: String,
     name: String,
@@ -86,12 +87,12 @@ struct Sheet {
     unit_mm: f64,
     facets_by_kind: BTreeMap<&'static str, usize>,
     #[serde(flatten)]
-    measured: Measured,
+    measured: MeasuredProportions,
     /// The faceter's ratios, W as GemCad takes it: corner to corner in a round stone.
     ratios: Ratios,
     symmetry: Symmetry,
     #[serde(skip_serializing_if = "Option::is_none")]
-    brilliant: Option<Lengths>,
+    brilliant: Option<FacetLengths>,
     /// Whether the envelopes apply: they are for diamonds.
     #[serde(skip)]
     graded: bool,
@@ -110,14 +111,14 @@ struct Sheet {
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Shown {
-    Stone(Box<Sheet>),
+    Stone(Box<StoneSheet>),
     Mesh(MeshSheet),
 }
 
 /// A file that holds no stone, as JSON.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-enum Bad {
+enum BadStone {
     /// Understood, but open.
     NoStone {
         file: String,
@@ -134,59 +135,59 @@ enum Bad {
     },
 }
 
-impl Bad {
-    fn of(file: &str, failure: &Failure) -> Bad {
+impl BadStone {
+    fn new(file: &str, failure: &CliError) -> BadStone {
         let (file, why) = (file.to_string(), failure.message());
         match failure.shape() {
-            Some(&Shape { format, facets, closed, convex, .. }) => {
-                Bad::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
+            Some(&MeshFacts { format, facets, closed, convex, .. }) => {
+                BadStone::NoStone { file, format, facets, closed, convex, volume: None, reason: why }
             }
-            None => Bad::Error { file, error: why },
+            None => BadStone::Error { file, error: why },
         }
     }
 }
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Entry<'a> {
+enum ShownEntry<'a> {
     Good(&'a Shown),
-    Bad(Bad),
+    Bad(BadStone),
 }
 
 /// Shows every stone.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    if [&args.beams, &args.diagram].into_iter().flatten().filter(|p| replace::is_stdout(p)).count() > 1 {
-        return Err(Failure::input(
+pub fn run(args: &ShowArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    if [&args.beams, &args.diagram].into_iter().flatten().filter(|p| atomic_write::is_stdout(p)).count() > 1 {
+        return Err(CliError::input(
             "one drawing at a time goes to standard output: name a file for the other",
         ));
     }
-    let stones = folders::expanded(&args.stones)?;
-    let mut outputs = Outputs::beside(&stones, console);
-    let drawings = [(&args.diagram, draw_diagram as Draw), (&args.beams, draw_beams)];
+    let stones = inputs::expanded(&args.stones)?;
+    let mut outputs = Outputs::reading_stones(&stones, console);
+    let drawings = [(&args.diagram, draw_diagram as DrawFn), (&args.beams, draw_beams)];
     let given = drawings.into_iter().filter_map(|(path, draw)| Some((path.as_ref()?, draw)));
     // every drawing is made and every place taken before the first is written
     let drawn: Vec<Drawn> = given.map(|(path, draw)| draw(args, path)).collect::<Result<_, _>>()?;
     for Drawn { path, bytes, .. } in &drawn {
-        outputs.claim(path, |there| outputs::holds(there, bytes))?;
+        outputs.claim(path, |there| outputs::has_bytes(there, bytes))?;
     }
     for Drawn { path, bytes, said } in &drawn {
-        replace::write(path, bytes)?;
+        atomic_write::write(path, bytes)?;
         console.note(said);
     }
-    if drawn.iter().any(|d| replace::is_stdout(&d.path)) {
-        return Ok(Code::Done); // standard output is the drawing
+    if drawn.iter().any(|d| atomic_write::is_stdout(&d.path)) {
+        return Ok(ExitStatus::Done); // standard output is the drawing
     }
-    let results = stones::each(&stones, console, "reading", |spec| match sheet(spec, args) {
+    let results = stone::open_each(&stones, console, "reading", |spec| match sheet(spec, args) {
         Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
-        Err(failure) => MeshSheet::of(&stones::shown(spec), &failure).map(Shown::Mesh).ok_or(failure),
+        Err(failure) => MeshSheet::new(&stone::display_name(spec), &failure).map(Shown::Mesh).ok_or(failure),
     });
-    let names = stones.iter().map(stones::shown);
+    let names = stones.iter().map(stone::display_name);
     let pairs = names.zip(&results);
     if console.json {
-        let entries: Vec<Entry> = pairs
+        let entries: Vec<ShownEntry> = pairs
             .map(|(file, result)| match result {
-                Ok(sheet) => Entry::Good(sheet),
-                Err(failure) => Entry::Bad(Bad::of(&file, failure)),
+                Ok(sheet) => ShownEntry::Good(sheet),
+                Err(failure) => ShownEntry::Bad(BadStone::new(&file, failure)),
             })
             .collect();
         console.print_json(&entries)?;
@@ -206,11 +207,11 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         }
         results.iter().filter_map(|r| r.as_ref().err()).for_each(|f| console.complain(&f.message()));
     }
-    Ok(stones::code(&results))
+    Ok(stone::code(&results))
 }
 
 /// Draws something of the only stone for a file.
-type Draw = fn(&Args, &Path) -> Result<Drawn, Failure>;
+type DrawFn = fn(&ShowArgs, &Path) -> Result<Drawn, CliError>;
 
 /// A drawing, where it goes, and what is said of it.
 struct Drawn {
@@ -220,61 +221,61 @@ struct Drawn {
 }
 
 /// The only stone, for what draws one.
-fn only<'a>(args: &'a Args, option: &str) -> Result<&'a OsStr, Failure> {
+fn only<'a>(args: &'a ShowArgs, option: &str) -> Result<&'a OsStr, CliError> {
     match &args.stones[..] {
         [spec] => Ok(spec),
-        _ => Err(Failure::input(format!("{option} draws one stone: name one"))),
+        _ => Err(CliError::input(format!("{option} draws one stone: name one"))),
     }
 }
 
 /// Draws the cutting diagram of the only stone.
-fn draw_diagram(args: &Args, path: &Path) -> Result<Drawn, Failure> {
+fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     let spec = only(args, "--diagram")?;
-    let drawing = match Drawing::of(path) {
+    let drawing = match DiagramFormat::from_path(path) {
         Some(drawing) => drawing,
-        None if replace::is_stream(path) => Drawing::Svg,
+        None if atomic_write::is_stream(path) => DiagramFormat::Svg,
         None => {
-            let path = stones::shown(&path);
-            return Err(Failure::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
+            let path = stone::display_name(&path);
+            return Err(CliError::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
         }
     };
-    let design = stones::open(spec)?.design;
+    let design = stone::open(spec)?.design;
     let substance = args.substance.within(spec)?;
     let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
     let bytes = drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?;
-    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stones::shown(&path)) })
+    Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stone::display_name(&path)) })
 }
 
 /// Draws the virtual facets of the only stone.
-fn draw_beams(args: &Args, path: &Path) -> Result<Drawn, Failure> {
+fn draw_beams(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     let spec = only(args, "--beams")?;
-    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !replace::is_stream(path) {
-        return Err(Failure::input(format!("{}: --beams draws SVG alone", stones::shown(&path))));
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !atomic_write::is_stream(path) {
+        return Err(CliError::input(format!("{}: --beams draws SVG alone", stone::display_name(&path))));
     }
-    let design = stones::open(spec)?.design;
-    let index = args.substance.within(spec)?.of(&design).index_d();
-    let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
-    let pattern = pattern::draw(&Stone::new(solid), index, LEAST_POWER);
-    let said = format!("{}: {} virtual facets", stones::shown(&path), pattern.polygons);
+    let design = stone::open(spec)?.design;
+    let index = args.substance.within(spec)?.material_of(&design).index_d();
+    let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
+    let pattern = virtual_facets::draw(&ConvexStone::new(solid), index, LEAST_POWER);
+    let said = format!("{}: {} virtual facets", stone::display_name(&path), pattern.polygons);
     Ok(Drawn { path: path.into(), bytes: pattern.svg.into_bytes(), said })
 }
 
-fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
-    let imported = stones::open(spec)?;
+fn sheet(spec: &OsStr, args: &ShowArgs) -> Result<StoneSheet, CliError> {
+    let imported = stone::open(spec)?;
     let design = imported.design;
     let substance = args.substance.within(spec)?;
-    let material = substance.of(&design);
+    let material = substance.material_of(&design);
     let index = material.index_d();
-    let solid = design.solid().map_err(|e| Failure::input(format!("{}: {e}", stones::shown(spec))))?;
+    let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
     let p = proportions::measure(&solid);
     let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
-    let weight = Weight::of(&material);
+    let weight = Weight::new(&material);
     let size = match args.carat {
         Some(carats) => Some(weight::width_mm(&weight, &design, carats)?),
         None => args.size,
     };
-    Ok(Sheet {
-        file: stones::shown(spec),
+    Ok(StoneSheet {
+        file: stone::display_name(spec),
         format: imported.format.to_string(),
         name: design.name.clone(),
         facets: p.facets,
@@ -282,18 +283,18 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
         convex: true, // what the readers let through is the solid of its planes
         volume: p.volume / unit_mm.powi(3),
         unit: match (design.unit, imported.format) {
-            (Unit::Free, _) => "file",
-            (Unit::Millimetre, format) if formats::unit_mm(format).is_some() => "m",
-            (Unit::Millimetre, _) => "mm",
+            (LengthUnit::Free, _) => "file",
+            (LengthUnit::Millimetre, format) if formats::unit_mm(format).is_some() => "m",
+            (LengthUnit::Millimetre, _) => "mm",
         },
         unit_mm,
         facets_by_kind: p.by_zone.iter().copied().collect(),
-        measured: Measured::of(&p, &design, size, &weight).in_unit_of(unit_mm),
+        measured: MeasuredProportions::new(&p, &design, size, &weight).in_unit_of(unit_mm),
         tiers: TierRow::all(&design, &solid),
         brilliant: p.brilliant,
-        proportion_envelope: brilliant::envelope(&p).filter(|_| weight.is_diamond()),
+        proportion_envelope: gia_envelopes::envelope(&p).filter(|_| weight.is_diamond()),
         graded: weight.is_diamond(),
-        ratios: p.ratios,
+        ratios: Ratios { w: p.ratios.w / unit_mm, ..p.ratios },
         symmetry: p.symmetry,
         material: material.name.into_owned(),
         refractive_index: index,
@@ -302,7 +303,7 @@ fn sheet(spec: &OsStr, args: &Args) -> Result<Sheet, Failure> {
     })
 }
 
-impl Sheet {
+impl StoneSheet {
     fn text(&self) -> String {
         let mut out = format!("{} ({})\n", in_line(&self.file), self.format);
         let mut line = |label: &str, value: String| {
@@ -362,7 +363,12 @@ impl Sheet {
             "ratios",
             format!(
                 "{t_w}P/W {:.3}  C/W {:.3}  H/W {:.3}  L/W {:.3}  Vol/W³ {:.4}  (W {:.4}, measured as GemCad does)",
-                r.p_w, r.c_w, r.h_w, r.l_w, r.vol_w3, r.w
+                r.p_w,
+                r.c_w,
+                r.h_w,
+                r.l_w,
+                r.vol_w3,
+                k * r.w
             ),
         );
         line("symmetry", symmetry(&self.symmetry));
@@ -376,16 +382,6 @@ impl Sheet {
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
-    }
-}
-
-/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
-/// file may be in metres.
-fn figure(value: f64, decimals: usize) -> String {
-    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
-        format!("{value:.decimals$e}")
-    } else {
-        format!("{value:.decimals$}")
     }
 }
 

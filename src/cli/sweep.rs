@@ -1,21 +1,24 @@
 //! `cutlab sweep`: scores over a grid of parameters, or over scattered points.
 
+use super::args::family::FamilyArgs;
+use super::args::scoring;
+use super::args::scoring::{InputFiles, ScoringArgs};
+use super::args::stone;
+use super::args::tables;
+use super::args::tables::{TableArgs, TableCommand};
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
-use super::parameters::Parameters;
-use super::plots::{Look, Plots};
-use super::scoring::{self, Inputs, Scoring};
-use super::stones;
-use super::tables::{self, Study, Table};
-use super::words::quoted;
-use crate::math::typed;
-use crate::optics::weight::Weight;
-use crate::store::replace;
-use crate::study::batch::Line;
-use crate::study::meta::Layout;
-use crate::study::sweep::{MOST_SCATTERED, Sweep, Varied};
-use crate::study::table::{self, Cell};
+use super::plot_output::{Look, Plots};
+use super::shell_quote::quoted;
+use crate::batch::sidecar::TableLayout;
+use crate::batch::sweep::{MOST_SCATTERED, Sweep, SweptParameter};
+use crate::batch::table;
+use crate::batch::table::TableCell;
+use crate::batch::table_job::FinishedRow;
+use crate::materials::weight::Weight;
+use crate::parse;
+use crate::storage::atomic_write;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
@@ -34,12 +37,12 @@ Examples:
 Every point is scored with the same random numbers: the error of a difference between two points
 is less than the errors of the two together. Common are seed, points of the outline or crown and
 directions as shares of what each stone has; paths differ as the stones do.")]
-pub struct Args {
+pub struct SweepArgs {
     /// The stone: a name from `cutlab list cuts`, with parameters or not
     stone: OsString,
     /// A parameter of the stone, or size or ri, and what it runs through; may be given several times
     #[arg(long, value_name = "KEY=FROM:TO:STEP", required = true)]
-    vary: Vec<Varied>,
+    vary: Vec<SweptParameter>,
     /// So many points spread evenly between the ends of the ranges, in place of the grid
     #[arg(long, value_name = "N", value_parser = scattered)]
     scatter: Option<u64>,
@@ -50,22 +53,22 @@ pub struct Args {
     #[command(flatten)]
     look: Look,
     #[command(flatten)]
-    table: Table,
+    table: TableArgs,
     #[command(flatten)]
-    scoring: Scoring,
+    scoring: ScoringArgs,
 }
 
 /// Value parser of `--scatter`.
 fn scattered(text: &str) -> Result<u64, String> {
-    typed::whole(text, 1..=1_000_000_000, "--scatter takes a whole number of points")
+    parse::parse_whole_number(text, 1..=1_000_000_000, "--scatter takes a whole number of points")
 }
 
 /// Scores every point and writes the table.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
+pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let plan = args.scoring.plan();
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
-    let mut command = format!("cutlab sweep {}", quoted(&stones::shown(&args.stone)));
+    let mut command = format!("cutlab sweep {}", quoted(&stone::display_name(&args.stone)));
     for varied in &sweep.varied {
         command += &format!(" --vary {}={}", varied.key, varied.steps);
     }
@@ -76,18 +79,18 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let mut leading: Vec<&str> = sweep.varied.iter().map(|v| v.key.as_str()).collect();
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
-    let total = sweep.count().ok_or_else(|| Failure::input("the grid has too many points to count"))?;
+    let total = sweep.count().ok_or_else(|| CliError::input("the grid has too many points to count"))?;
     let axes: Vec<String> = sweep.varied.iter().map(|v| v.key.clone()).collect();
-    let plots = Plots::of(&args.plot, &plan.metrics, &args.look, &axes)?;
-    let layout = Layout {
-        stone: stones::shown(&args.stone),
+    let plots = Plots::new(&args.plot, &plan.metrics, &args.look, &axes)?;
+    let layout = TableLayout {
+        stone: stone::display_name(&args.stone),
         is_diamond: is_diamond(args)?,
         axes,
         curves: Vec::new(),
         scattered: sweep.scatter.is_some(),
     };
-    let inputs = Inputs::of(&command, [args.stone.as_os_str()].into_iter());
-    let study = Study {
+    let inputs = InputFiles::new(&command, [args.stone.as_os_str()].into_iter());
+    let study = TableCommand {
         identity: inputs.identity.clone(),
         command,
         plan: &plan,
@@ -98,13 +101,13 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         what: "sweeping",
         line: &|i, form| {
             let point = sweep.point(i);
-            let (spec, scoring) = at(args, &point);
+            let (spec, scoring) = at_point(args, &point);
             let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
-            let shown = stones::shown(&spec);
+            let shown = stone::display_name(&spec);
             scoring::tell(&shown, &row, console);
-            let mut leading: Vec<Cell> = point.iter().map(|x| Cell::number(*x)).collect();
+            let mut leading: Vec<TableCell> = point.iter().map(|x| TableCell::number(*x)).collect();
             leading.push(row.facets.into());
-            Ok(Line {
+            Ok(FinishedRow {
                 outcome,
                 samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
                 key: None,
@@ -115,15 +118,15 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         },
         columns: columns.clone(),
     };
-    study.run(&args.table, &plots, &mut Outputs::beside([&args.stone], console), console)
+    study.run(&args.table, &plots, &mut Outputs::reading_stones([&args.stone], console), console)
 }
 
 /// The stone at a point, and how to score it.
-fn at(args: &Args, point: &[f64]) -> (OsString, Scoring) {
+fn at_point(args: &SweepArgs, point: &[f64]) -> (OsString, ScoringArgs) {
     let is_varied = |key: &str| args.vary.iter().any(|v| v.key == key);
-    let has_size = args.stone.to_str().is_some_and(|stone| stones::size_is_parameter(stone, is_varied));
+    let has_size = args.stone.to_str().is_some_and(|stone| stone::size_is_parameter(stone, is_varied));
     let mut scoring = args.scoring.clone();
-    let mut given = Parameters::default();
+    let mut given = FamilyArgs::default();
     for (varied, &value) in args.vary.iter().zip(point) {
         match varied.key.as_str() {
             INDEX => scoring = scoring.with_index(value),
@@ -141,39 +144,39 @@ fn at(args: &Args, point: &[f64]) -> (OsString, Scoring) {
 }
 
 /// Whether the stone is of diamond at every point.
-fn is_diamond(args: &Args) -> Result<bool, Failure> {
-    let design = stones::open(&args.stone)?.design;
-    let material = args.scoring.substance.within(&args.stone)?.of(&design);
-    Ok(Weight::of(&material).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
+fn is_diamond(args: &SweepArgs) -> Result<bool, CliError> {
+    let design = stone::open(&args.stone)?.design;
+    let material = args.scoring.substance.within(&args.stone)?.material_of(&design);
+    Ok(Weight::new(&material).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
 }
 
 /// Whether the stone's family has the parameter `key`.
 fn has(stone: &OsStr, key: &str) -> bool {
-    stone.to_str().and_then(stones::family).is_some_and(|f| f.keys().any(|p| p.key == key))
+    stone.to_str().and_then(stone::family).is_some_and(|f| f.keys().any(|p| p.key == key))
 }
 
 /// Refuses what cannot be swept or drawn, before anything is scored.
-fn check(args: &Args) -> Result<(), Failure> {
-    stones::open(&args.stone)?;
+fn check(args: &SweepArgs) -> Result<(), CliError> {
+    stone::open(&args.stone)?;
     for (i, varied) in args.vary.iter().enumerate() {
         let key = varied.key.as_str();
         if args.vary[..i].iter().any(|v| v.key == key) {
-            return Err(Failure::input(format!("--vary {key} is given twice")));
+            return Err(CliError::input(format!("--vary {key} is given twice")));
         }
         if ![SIZE, INDEX].contains(&key) && !has(&args.stone, key) {
-            let own = args.stone.to_str().and_then(stones::family).map_or(&[][..], |f| f.parameters);
+            let own = args.stone.to_str().and_then(stone::family).map_or(&[][..], |f| f.parameters);
             let mut known: Vec<&str> = own.iter().map(|p| p.key).filter(|k| *k != SIZE).collect();
             known.extend([SIZE, INDEX]);
-            return Err(Failure::input(format!(
+            return Err(CliError::input(format!(
                 "{} has no parameter '{key}': --vary takes {}",
-                stones::shown(&args.stone),
+                stone::display_name(&args.stone),
                 known.join(", ")
             )));
         }
         let (from, to) = (varied.steps.from, varied.steps.to);
         if key == INDEX && (args.scoring.substance.material.is_some() || args.scoring.substance.ri.is_some())
         {
-            return Err(Failure::input("--vary ri does not go with --material and --ri"));
+            return Err(CliError::input("--vary ri does not go with --material and --ri"));
         }
         let (low, high, what) = match key {
             INDEX => (1.0, 10.0, "a refractive index is a number from 1 to 10"),
@@ -181,21 +184,21 @@ fn check(args: &Args) -> Result<(), Failure> {
             _ => continue,
         };
         if !(low..=high).contains(&from.min(to)) || from.max(to) > high {
-            return Err(Failure::input(format!("--vary {key}={}: {what}", varied.steps)));
+            return Err(CliError::input(format!("--vary {key}={}: {what}", varied.steps)));
         }
     }
     if args.scatter.is_some() && args.vary.len() > MOST_SCATTERED {
-        return Err(Failure::input(format!("--scatter takes up to {MOST_SCATTERED} varied parameters")));
+        return Err(CliError::input(format!("--scatter takes up to {MOST_SCATTERED} varied parameters")));
     }
     let Some(first) = args.plot.first() else { return Ok(()) };
     if args.vary.len() > 2 {
-        return Err(Failure::input(format!(
+        return Err(CliError::input(format!(
             "{}: a plot has one or two varied parameters; of more the table alone is written",
-            stones::shown(&first)
+            stone::display_name(&first)
         )));
     }
-    if args.table.shard.of > 1 || replace::is_stream(&args.table.output) {
-        return Err(Failure::input("--plot needs the whole table in a file: give -o FILE, without --shard"));
+    if args.table.shard.of > 1 || atomic_write::is_stream(&args.table.output) {
+        return Err(CliError::input("--plot needs the whole table in a file: give -o FILE, without --shard"));
     }
     Ok(())
 }

@@ -1,13 +1,15 @@
 //! `cutlab validate`: published and derivable figures against what this program computes.
 
+use super::args::stone;
+use super::args::values;
 use super::console::Console;
-use super::outcome::{Code, Failure};
+use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
-use super::stones;
-use super::{values, words};
+use super::shell_quote;
+use crate::batch::validate;
+use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
 use crate::report::validation::{self, count, expectation, written};
-use crate::store::replace;
-use crate::study::validate::{self, Lab, Outcome, Report, Verdict};
+use crate::storage::atomic_write;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -24,7 +26,7 @@ Examples:
 A figure passes if ours lies within its tolerance and 3 standard errors of ours. All are expected to:
 exit code 0 if they do, 1 if some failed, which stay in the table with what may explain them. Figures
 that need files which are not there are skipped, and count as neither.")]
-pub struct Args {
+pub struct ValidateArgs {
     /// A folder for validation.csv and validation.html; it is made [reports; none with --only]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -38,7 +40,7 @@ pub struct Args {
 
 /// A figure, for `--json`.
 #[derive(Serialize)]
-struct Entry<'a> {
+struct FigureEntry<'a> {
     subject: &'a str,
     figure: &'a str,
     source: &'a str,
@@ -53,13 +55,13 @@ struct Entry<'a> {
     why: &'a str,
 }
 
-/// Runs the trials and writes what they give.
-pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
-    let mut trials = validate::catalogue();
+/// Runs the checks and writes what they give.
+pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let mut checks = validate::catalogue();
     if let Some(part) = &args.only {
-        trials = validate::only(trials, part);
-        if trials.is_empty() {
-            return Err(Failure::input(format!(
+        checks = validate::only(checks, part);
+        if checks.is_empty() {
+            return Err(CliError::input(format!(
                 "no figure has '{part}' in its name; cutlab validate lists them all"
             )));
         }
@@ -68,19 +70,19 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
     let command = record::own_command();
     if let Some(folder) = &folder {
         let is_own = record::is_of(&folder.join("validation.html"), &command);
-        let mut outputs = Outputs::of(console);
+        let mut outputs = Outputs::new(console);
         ["validation.csv", "validation.html"]
             .iter()
             .try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))?;
     }
-    let lab = Lab { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
-    let bar = console.progress(trials.len(), "validating");
-    let run = |trial: validate::Trial| {
-        let report = trial.run(&lab);
+    let lab = CheckContext { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
+    let bar = console.progress(checks.len(), "validating");
+    let run = |check: validate::Check| {
+        let report = check.run(&lab);
         bar.inc(1);
         report
     };
-    let reports: Vec<Report> = trials.into_iter().map(run).collect();
+    let reports: Vec<CheckReport> = checks.into_iter().map(run).collect();
     bar.finish_and_clear();
     let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
     if console.json {
@@ -89,19 +91,20 @@ pub fn run(args: &Args, console: &Console) -> Result<Code, Failure> {
         console.print(&text(&reports))?;
     }
     if let Some(folder) = folder {
-        let page = record::recorded(validation::html(&reports, args.seed, &words::typed()), &command);
-        let table = validate::csv(outcomes()).map_err(|e| Failure::input(e.to_string()))?;
+        let page =
+            record::recorded(validation::html(&reports, args.seed, &shell_quote::command_line()), &command);
+        let table = validate::csv(outcomes()).map_err(|e| CliError::input(e.to_string()))?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);
-            replace::write(&path, bytes)?;
-            console.note(&format!("wrote {}", stones::shown(&path)));
+            atomic_write::write(&path, bytes)?;
+            console.note(&format!("wrote {}", stone::display_name(&path)));
         }
     }
-    Ok(if count(&reports, Verdict::Failed) == 0 { Code::Done } else { Code::SomeFailed })
+    Ok(if count(&reports, Verdict::Failed) == 0 { ExitStatus::Done } else { ExitStatus::SomeFailed })
 }
 
-fn entry(o: &Outcome) -> Entry<'_> {
-    Entry {
+fn entry(o: &FigureOutcome) -> FigureEntry<'_> {
+    FigureEntry {
         subject: o.subject,
         figure: &o.figure.name,
         source: o.figure.source.name,
@@ -118,7 +121,7 @@ fn entry(o: &Outcome) -> Entry<'_> {
 }
 
 /// The table for people; under it what explains the figures that did not come out.
-fn text(reports: &[Report]) -> String {
+fn text(reports: &[CheckReport]) -> String {
     let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
     let mut lines = vec![["figure", "kind", "expected", "ours", "", "verdict", "source"].map(String::from)];
     lines.extend(outcomes().map(|o| {

@@ -3,12 +3,12 @@
 //! A word `triangle…`, then three times `x y z nx ny nz u v`; line ends are often lone CR, and some
 //! files hold a line `object`. The normals are for shading and not used.
 
+use super::asc_triangles::{first_count, records};
 use super::error::FormatError;
-use super::shell::{Mesh, design_of_mesh};
-use super::source::Source;
-use super::triangle_words::{first_count, records};
-use super::{Format, Reading, Surface, Writer};
-use crate::solid::recover::Polygon;
+use super::input::Input;
+use super::mesh_import::{PolygonMesh, design_from_mesh};
+use super::{Format, MeshExport, Parsed, Writer};
+use crate::geometry::facet_recovery::Polygon;
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Mesh(write)),
 };
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
+fn read(source: &Input) -> Result<Parsed, FormatError> {
     let text = source.text();
     let mut vertices = Vec::new();
     let mut polygons = Vec::new();
@@ -36,11 +36,11 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         vertices.extend(record.numbers.chunks_exact(8).map(|c| DVec3::new(c[0], c[1], c[2])));
         polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
     }
-    design_of_mesh(source, &Mesh::of_text(vertices, polygons, records.digits))
+    design_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, records.digits))
 }
 
 /// Every triangle with its facet's normal at all three corners, without texture.
-fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let mut text = String::new();
     for (facet, triangle) in &surface.triangles {
         let n = surface.facets[*facet].1;

@@ -1,9 +1,9 @@
 //! Facets as a cutter reads them, by angle, distance and index: for the formats that store planes,
 //! and for writing designs whose facets were never cut by index.
 
-use crate::cut::design::facet_normal;
-use crate::cut::{Design, Facet, Gear, Tier};
-use crate::solid::Plane;
+use crate::design::tiers::facet_normal;
+use crate::design::{Design, Facet, Gear, Tier};
+use crate::geometry::Plane;
 use glam::DVec3;
 
 /// Angles in degrees and indices in teeth nearer than this to six decimals are meant so: above the
@@ -15,7 +15,7 @@ const SAME: f64 = 1e-13;
 
 /// Facets of one tier at one angle and distance.
 #[derive(Debug)]
-pub struct Row<'d> {
+pub struct CuttingRow<'d> {
     /// The tier they are part of.
     pub tier: &'d Tier,
     /// Angle from the girdle plane in degrees; its sign (also of 0) tells crown from pavilion.
@@ -23,12 +23,12 @@ pub struct Row<'d> {
     /// Distance from the origin.
     pub distance: f64,
     /// The facets, in cutting order.
-    pub cuts: Vec<Cut<'d>>,
+    pub facets: Vec<CutFacet<'d>>,
 }
 
-/// One facet of a [`Row`].
+/// One facet of a [`CuttingRow`].
 #[derive(Debug)]
-pub struct Cut<'d> {
+pub struct CutFacet<'d> {
     /// Its number in [`Design::facets`].
     pub number: usize,
     /// Its index, whole or not, from above 0 to the number of teeth: no faceting file has a tooth 0.
@@ -43,8 +43,8 @@ pub struct Cut<'d> {
 ///
 /// A facet keeps the angle and index it is stated with if they give its very plane (1e-13);
 /// otherwise both are computed from its normal. Checked in `tests/formats.rs`.
-pub fn rows(design: &Design) -> Vec<Row<'_>> {
-    let mut rows: Vec<Row> = Vec::new();
+pub fn rows(design: &Design) -> Vec<CuttingRow<'_>> {
+    let mut rows: Vec<CuttingRow> = Vec::new();
     let mut number = 0;
     for tier in &design.tiers {
         let first = rows.len();
@@ -54,21 +54,26 @@ pub fn rows(design: &Design) -> Vec<Row<'_>> {
         };
         let has_own_name = tier.facets.iter().any(|f| f.name == tier.name);
         for facet in &tier.facets {
-            let (angle_deg, index) = cut_of(design.gear, tier, facet);
+            let (angle_deg, index) = cut_facet(design.gear, tier, facet);
             let name = if numbered(&facet.name) { "" } else { &*facet.name };
             let index = on_wheel(design.gear, index);
-            let cut = Cut { number, index, name, plane: facet.plane };
+            let cut = CutFacet { number, index, name, plane: facet.plane };
             number += 1;
             let distance = facet.plane.distance;
-            let same = |r: &&mut Row| {
+            let same = |r: &&mut CuttingRow| {
                 (r.angle_deg == angle_deg && r.angle_deg.is_sign_negative() == angle_deg.is_sign_negative())
                     && (r.distance - distance).abs() <= SAME * distance.abs()
             };
             match rows[first..].last_mut().filter(same) {
-                Some(row) => row.cuts.push(cut),
+                Some(row) => row.facets.push(cut),
                 None => {
                     let name = if cut.name.is_empty() && !has_own_name { &*tier.name } else { cut.name };
-                    rows.push(Row { tier, angle_deg, distance, cuts: vec![Cut { name, ..cut }] });
+                    rows.push(CuttingRow {
+                        tier,
+                        angle_deg,
+                        distance,
+                        facets: vec![CutFacet { name, ..cut }],
+                    });
                 }
             }
         }
@@ -77,7 +82,7 @@ pub fn rows(design: &Design) -> Vec<Row<'_>> {
 }
 
 /// Angle and index that give the facet's plane: as stated, to six decimals, or as computed.
-fn cut_of(gear: Gear, tier: &Tier, facet: &Facet) -> (f64, f64) {
+fn cut_facet(gear: Gear, tier: &Tier, facet: &Facet) -> (f64, f64) {
     let normal = facet.plane.normal;
     let (angle, index) = (exact_angle(normal), exact_index(gear, normal));
     let stated = (tier.angle_deg.unwrap_or_else(|| angle_of_mesh(normal)), facet.index.unwrap_or(index));
@@ -94,7 +99,7 @@ fn cut_of(gear: Gear, tier: &Tier, facet: &Facet) -> (f64, f64) {
 /// The angle of a facet from the girdle plane in degrees, with the sign (also of 0) of the normal's
 /// z, to six decimals if that is meant.
 pub fn angle_deg(normal: DVec3) -> f64 {
-    meant(exact_angle(normal))
+    round_to_meant(exact_angle(normal))
 }
 
 /// As [`angle_deg`], but always -90 for the girdle, as most faceters have it.
@@ -108,7 +113,7 @@ pub fn angle_of_mesh(normal: DVec3) -> f64 {
 /// The index of a facet on the wheel, above 0 and up to the number of teeth, to six decimals if
 /// that is meant.
 pub fn index_of(gear: Gear, normal: DVec3) -> f64 {
-    on_wheel(gear, meant(exact_index(gear, normal)))
+    on_wheel(gear, round_to_meant(exact_index(gear, normal)))
 }
 
 /// The index as faceting files have it: above 0 and up to the number of teeth.
@@ -136,7 +141,7 @@ fn exact_index(gear: Gear, normal: DVec3) -> f64 {
     if index == 0.0 { gear.teeth.abs() } else { index }
 }
 
-fn meant(x: f64) -> f64 {
+fn round_to_meant(x: f64) -> f64 {
     let rounded = (x * 1e6).round() / 1e6;
     if (x - rounded).abs() < MEANT { rounded } else { x }
 }

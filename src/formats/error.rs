@@ -1,11 +1,11 @@
 //! The one error of every reader and writer. Each is one line.
 
-use crate::cut::document::DocumentError;
-use crate::math::typed::suggestion;
-use crate::solid::recover::RecoverError;
-use crate::solid::{Body, SolidError};
-use crate::store::limits::Exceeded;
-use crate::store::replace::WriteError;
+use crate::design::design_file::DocumentError;
+use crate::geometry::facet_recovery::RecoverError;
+use crate::geometry::{ClosedMesh, SolidError};
+use crate::parse::did_you_mean;
+use crate::storage::atomic_write::WriteError;
+use crate::storage::limits::Exceeded;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
 /// was found.
@@ -66,7 +66,7 @@ pub enum FormatError {
         file: String,
     },
     /// Content of no format that is read. It is a stranger's, and not shown.
-    #[error("{file}: {found}, no design or mesh{hint}")]
+    #[error("{file}: {found}, not a design or mesh{hint}")]
     Unrecognised {
         /// The file.
         file: String,
@@ -77,7 +77,7 @@ pub enum FormatError {
     },
     /// A format known by name that cutlab does not read.
     #[error("{file}: {format} files are not read: {instead}")]
-    Refused {
+    Unsupported {
         /// The file.
         file: String,
         /// The format's name.
@@ -130,7 +130,7 @@ pub enum FormatError {
         why: String,
     },
     /// Neither a cut nor a file.
-    #[error("no cut and no file is called '{spec}'{} (all cuts: cutlab list cuts)", suggestion(*.nearest))]
+    #[error("no cut and no file is called '{spec}'{} (all cuts: cutlab list cuts)", did_you_mean(*.nearest))]
     NoSuchStone {
         /// The stone as asked for.
         spec: String,
@@ -155,14 +155,14 @@ pub enum FormatError {
     },
     /// A format or extension that is not written.
     #[error(
-        "cannot write '{asked}': its ending must be one of {}{}",
+        "cannot write '{asked}': its extension must be one of {}{}",
         .known.join(", "),
         also_drawn(.known)
     )]
     NoWriter {
         /// The file or format asked for.
         asked: String,
-        /// The endings that are written.
+        /// The extensions that are written.
         known: Vec<&'static str>,
     },
     /// A design that does not fit into the format.
@@ -184,20 +184,20 @@ pub enum FormatError {
 const SHOWN: usize = 40;
 
 /// The start of `text` in quotes, control characters escaped, for an error's single line.
-pub(super) fn shown(text: &str) -> String {
+pub(super) fn quoted_excerpt(text: &str) -> String {
     if text.is_empty() {
         return "the end".into();
     }
     format!("'{}'", cut(text, SHOWN))
 }
 
-/// As [`shown`], without quotes and of up to three times as many characters: for what is said in part in our
+/// As [`quoted_excerpt`], without quotes and of up to three times as many characters: for what is said in part in our
 /// own words.
 pub(super) fn shortened(text: &str) -> String {
     cut(text, 3 * SHOWN)
 }
 
-/// Who draws diagrams, after a semicolon; nothing where the endings of diagrams are listed.
+/// Who draws diagrams, after a semicolon; nothing where the extensions of diagrams are listed.
 fn also_drawn(known: &[&str]) -> &'static str {
     if known.contains(&"svg") { "" } else { "; cutlab generate also draws diagrams (.svg, .pdf, .png)" }
 }
@@ -220,10 +220,10 @@ fn cut(text: &str, most: usize) -> String {
 
 impl FormatError {
     /// The mesh that the file holds, if that is closed but no convex stone, and the file's format.
-    pub fn body(&self) -> Option<(&'static str, &Body)> {
+    pub fn closed_mesh(&self) -> Option<(&'static str, &ClosedMesh)> {
         match self {
             FormatError::NoStone { format, cause, .. } => match &**cause {
-                FormatError::Mesh { cause, .. } => Some((format, cause.body()?)),
+                FormatError::Mesh { cause, .. } => Some((format, cause.closed_mesh()?)),
                 _ => None,
             },
             _ => None,

@@ -2,9 +2,9 @@
 //! design is. Shapes are kept; sizes are not, because no such format has a unit.
 
 use super::error::FormatError;
-use crate::cut::{Design, Unit};
-use crate::optics::Material;
-use crate::optics::materials::MATERIALS;
+use crate::design::{Design, LengthUnit};
+use crate::materials::MATERIALS;
+use crate::materials::Material;
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -30,7 +30,7 @@ pub fn for_gemcad(design: &Design) -> Result<Cow<'_, Design>, FormatError> {
     let (_, centre) = before.volume_and_centre();
     let shift = if inside(DVec3::ZERO) { DVec3::ZERO } else { -centre };
     let largest = (low + shift).abs().max((high + shift).abs()).max_element();
-    let keeps_size = design.unit == Unit::Free && GEMCAD_USUAL.contains(&largest);
+    let keeps_size = design.unit == LengthUnit::Free && GEMCAD_USUAL.contains(&largest);
     let scale = if keeps_size { 1.0 } else { GEMCAD_LARGEST / largest };
     if shift == DVec3::ZERO && scale == 1.0 {
         return Ok(Cow::Borrowed(design));

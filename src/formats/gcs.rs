@@ -6,14 +6,14 @@
 //! in the program itself; `tests/dialects/designs.rs` keeps one). No document type is accepted, so no entity can expand.
 
 use super::cutting_table::{angle_of_mesh, index_of, one_line};
-use super::error::{FormatError, counted, shown};
-use super::gcs_write::write;
-use super::source::{Source, is_no_value, number};
-use super::{Format, Reading, Writer};
-use crate::cut::design::facet_normal;
-use crate::cut::{Design, Facet, Gear, Tier};
-use crate::solid::Plane;
-use crate::store::limits;
+use super::error::{FormatError, counted, quoted_excerpt};
+use super::gcs_write::{FOOTERS, HEADERS, write};
+use super::input::{Input, is_no_value, number};
+use super::{Format, Parsed, Writer};
+use crate::design::tiers::facet_normal;
+use crate::design::{Design, Facet, Gear, Tier};
+use crate::geometry::Plane;
+use crate::storage::limits;
 use glam::DVec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -31,19 +31,14 @@ pub static FORMAT: Format = Format {
 /// origin, from the corners' own is worth a remark.
 const DEPTH_OFF: f64 = 1e-3;
 
-/// Attributes of `info` that are headers and footers, in their order.
-pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"];
-/// As [`HEADERS`].
-pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];
-
-fn read(source: &Source) -> Result<Reading, FormatError> {
-    source.of_at_most(&limits::XML)?;
+fn read(source: &Input) -> Result<Parsed, FormatError> {
+    source.is_within(&limits::XML)?;
     let text = source.text();
     let text = text.trim_start();
     let end = text.rfind("</GemCutStudio").and_then(|at| Some(at + text[at..].find('>')? + 1));
     let (text, after) = text.split_at(end.unwrap_or(text.len()));
     few_attributes(source, text)?;
-    let nodes_limit = u32::try_from(limits::XML_NODES.most()).unwrap_or(u32::MAX);
+    let nodes_limit = u32::try_from(limits::XML_NODES.max()).unwrap_or(u32::MAX);
     let options = ParsingOptions { nodes_limit, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|cause| match cause {
         roxmltree::Error::NodesLimitReached => {
@@ -56,7 +51,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
             found: one_line(&cause.to_string()),
         },
     })?;
-    let file = File { source, document: &document };
+    let file = GcsFile { source, document: &document };
     let root = document.root_element();
     if root.tag_name().name() != "GemCutStudio" {
         return Err(file.wrong(root, "an element GemCutStudio", root.tag_name().name()));
@@ -69,7 +64,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
 }
 
 /// Refuses elements with attributes, or namespaces, without end.
-fn few_attributes(source: &Source, text: &str) -> Result<(), FormatError> {
+fn few_attributes(source: &Input, text: &str) -> Result<(), FormatError> {
     let mut line = 1;
     let mut namespaces = 0;
     for tag in text.split('<') {
@@ -82,8 +77,8 @@ fn few_attributes(source: &Source, text: &str) -> Result<(), FormatError> {
 }
 
 /// The file that is read, for errors that name its lines.
-struct File<'a> {
-    source: &'a Source<'a>,
+struct GcsFile<'a> {
+    source: &'a Input<'a>,
     document: &'a Document<'a>,
 }
 
@@ -94,7 +89,7 @@ struct Entries {
     corners: Vec<DVec3>,
 }
 
-impl File<'_> {
+impl GcsFile<'_> {
     fn wrong(&self, node: Node, expected: &str, found: &str) -> FormatError {
         self.source.at_line(self.document.text_pos_at(node.range().start).row as usize, expected, found)
     }
@@ -125,9 +120,9 @@ impl File<'_> {
         Ok(Some(DVec3::from_array(p)))
     }
 
-    fn design(&self, root: Node) -> Result<Reading, FormatError> {
+    fn design(&self, root: Node) -> Result<Parsed, FormatError> {
         let child = |name: &str| root.children().find(|n| n.has_tag_name(name));
-        let mut design = Design::named(self.source.stem());
+        let mut design = Design::new(self.source.stem());
         let mut warnings = Vec::new();
         match child("index").and_then(|index| self.hint(index, "gear")).filter(|teeth| *teeth != 0.0) {
             Some(teeth) => design.gear.teeth = teeth,
@@ -159,7 +154,7 @@ impl File<'_> {
         if design.tiers.is_empty() {
             return Err(self.wrong(root, "tiers with facets", "none"));
         }
-        Ok(Reading { design, warnings })
+        Ok(Parsed { design, warnings })
     }
 
     fn tier(&self, node: Node, gear: Gear, warnings: &mut Vec<String>) -> Result<Tier, FormatError> {
@@ -198,14 +193,17 @@ impl File<'_> {
         }
         tier.angle_deg = tier.facets.first().map(|f| angle_of_mesh(f.plane.normal));
         if off > DEPTH_OFF {
-            warnings.push(format!("tier {}: its depth is not that of its corners; kept", shown(&tier.name)));
+            warnings.push(format!(
+                "tier {}: its depth is not that of its corners; kept",
+                quoted_excerpt(&tier.name)
+            ));
         }
         let frosted = |node: &Node| self.hint(*node, "frosting").is_some_and(|f| f > 0.0);
         if frosted(&node) || facets.iter().any(frosted) {
-            warnings.push(format!("tier {}: frosted; taken as polished", shown(&tier.name)));
+            warnings.push(format!("tier {}: frosted; taken as polished", quoted_excerpt(&tier.name)));
         }
         if tier.facets.len() < facets.len() {
-            warnings.push(format!("tier {}: a guide or hidden, left out", shown(&tier.name)));
+            warnings.push(format!("tier {}: a guide or hidden, left out", quoted_excerpt(&tier.name)));
         }
         Ok(tier)
     }

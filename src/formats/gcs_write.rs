@@ -4,9 +4,8 @@
 use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
 use super::frames::{for_gem_cut_studio, index_drawn_for};
-use super::gcs::{FOOTERS, HEADERS};
-use crate::cut::Design;
-use crate::solid::polyhedron::Fate;
+use crate::design::Design;
+use crate::geometry::polyhedron::PlaneStatus;
 use std::fmt::Write;
 
 /// The design as Gem Cut Studio holds it, with max(|x|, |y|) = 1 and z from −h to h: normals, depths and
@@ -24,7 +23,7 @@ pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatErro
     );
     for row in rows(design) {
         let polar = if row.angle_deg.is_sign_negative() { 180.0 + row.angle_deg } else { row.angle_deg };
-        let name = row.cuts.iter().map(|c| c.name).find(|n| !n.is_empty()).unwrap_or(&row.tier.name);
+        let name = row.facets.iter().map(|c| c.name).find(|n| !n.is_empty()).unwrap_or(&row.tier.name);
         // a String takes every write, here and below
         let _ = writeln!(
             text,
@@ -33,7 +32,7 @@ pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatErro
             quoted(name),
             quoted(&row.tier.instructions),
         );
-        for cut in &row.cuts {
+        for cut in &row.facets {
             let n = cut.plane.normal;
             let around = n.y.atan2(n.x).to_degrees();
             let index_angle = if polar < 90.0 { 90.0 + around } else { 270.0 - around }.rem_euclid(360.0);
@@ -42,7 +41,7 @@ pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatErro
                 "    <facet nx=\"{}\" ny=\"{}\" nz=\"{}\" index_angle=\"{index_angle}\">",
                 n.x, n.y, n.z
             );
-            if let Fate::Facet(face) = solid.fates[cut.number] {
+            if let PlaneStatus::Facet(face) = solid.plane_status[cut.number] {
                 for &corner in solid.faces[face].corners.iter().rev() {
                     let v = solid.vertices[corner];
                     let _ = writeln!(text, "      <vertex x=\"{}\" y=\"{}\" z=\"{}\" />", v.x, v.y, v.z);
@@ -82,3 +81,9 @@ fn quoted(text: &str) -> String {
     }
     out
 }
+
+/// Attributes of `info` that are headers and footers, in their order.
+pub const HEADERS: [&str; 5] = ["title", "header2", "header3", "author", "date"];
+
+/// As [`HEADERS`].
+pub const FOOTERS: [&str; 4] = ["footer1", "footer2", "footer3", "footer4"];

@@ -7,19 +7,19 @@
 
 use super::cutting_table::{angle_deg, index_of};
 use super::error::{FormatError, counted};
-use super::gem_write::write;
-use super::source::Source;
+use super::gem_write::{END_OF_FACETS, LINES, NAME, OFFSET_FOLLOWS, write};
+use super::input::Input;
 use super::windows_1252::decoded;
-use super::{Format, Reading, Writer};
-use crate::cut::{Design, Facet, Gear, Tier};
-use crate::solid::Plane;
-use crate::store::limits;
+use super::{Format, Parsed, Writer};
+use crate::design::{Design, Facet, Gear, Tier};
+use crate::geometry::Plane;
+use crate::storage::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
 /// GemCad binary designs.
 pub static FORMAT: Format = Format {
-    name: "gemcad-binary",
+    name: NAME,
     extensions: &["gem"],
     about: "GemCad binary design: tiers by angle, distance and index",
     sniff,
@@ -27,24 +27,18 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Design(write)),
 };
 
-/// Stands where the next facet's plane would.
-pub const END_OF_FACETS: f64 = -99999.0;
-/// Says that the gear's offset follows the refractive index.
-pub const OFFSET_FOLLOWS: u32 = 0x7FFF;
-/// Header lines, and as many footers.
-pub const LINES: usize = 4;
 /// What a nested design of the rough's shape begins with.
 const PREFORM: &[u8] = b"\x07preform";
 
 /// Facets whose angle (degrees) and distance (in parts of it) differ by less were cut as one tier.
 const ONE_TIER: f64 = 1e-6;
 
-fn sniff(source: &Source) -> u8 {
-    match (Bytes { source, at: 0 }).design() {
+fn sniff(source: &Input) -> u8 {
+    match (ByteReader { source, at: 0 }).design() {
         Ok(raw) if !raw.facets.is_empty() => 96,
         // breaks off after good facets
-        Err(_) if matches!((Bytes { source, at: 0 }).facet(), Ok(Some(_))) => 40,
-        // the ending is all there is to go by: worth a complaint that says where it breaks off
+        Err(_) if matches!((ByteReader { source, at: 0 }).facet(), Ok(Some(_))) => 40,
+        // the extension is all there is to go by: worth a complaint that says where it breaks off
         _ => u8::from(source.extension() == "gem" && source.is_binary()),
     }
 }
@@ -59,7 +53,7 @@ struct RawFacet {
 
 /// A whole file as it is stored; what its tail does not say is not there.
 #[derive(Default)]
-struct Raw {
+struct RawDesign {
     facets: Vec<RawFacet>,
     symmetry: Option<(i32, i32)>,
     teeth: Option<f64>,
@@ -70,17 +64,17 @@ struct Raw {
 }
 
 /// The file and the place that is read next.
-struct Bytes<'s> {
-    source: &'s Source<'s>,
+struct ByteReader<'s> {
+    source: &'s Input<'s>,
     at: usize,
 }
 
-impl<'s> Bytes<'s> {
+impl<'s> ByteReader<'s> {
     fn rest(&self) -> &'s [u8] {
         self.source.bytes.get(self.at..).unwrap_or_default()
     }
 
-    fn take<const N: usize>(&mut self, expected: &str) -> Result<[u8; N], FormatError> {
+    fn read_array<const N: usize>(&mut self, expected: &str) -> Result<[u8; N], FormatError> {
         let Some(bytes) = self.rest().first_chunk::<N>() else {
             return Err(self.source.at_byte(self.at, expected, "the end"));
         };
@@ -90,17 +84,17 @@ impl<'s> Bytes<'s> {
 
     fn float(&mut self, expected: &str) -> Result<f64, FormatError> {
         let at = self.at;
-        let value = f64::from_le_bytes(self.take(expected)?);
+        let value = f64::from_le_bytes(self.read_array(expected)?);
         if value.is_finite() { Ok(value) } else { Err(self.source.at_byte(at, expected, "no number")) }
     }
 
     fn int(&mut self, expected: &str) -> Result<i32, FormatError> {
-        Ok(i32::from_le_bytes(self.take(expected)?))
+        Ok(i32::from_le_bytes(self.read_array(expected)?))
     }
 
     fn text(&mut self, expected: &str) -> Result<String, FormatError> {
         let at = self.at;
-        let [len] = self.take(expected)?;
+        let [len] = self.read_array(expected)?;
         let Some(bytes) = self.rest().get(..len as usize) else {
             return Err(self.source.at_byte(self.at, format!("{len} bytes of {expected}"), "the end"));
         };
@@ -134,7 +128,7 @@ impl<'s> Bytes<'s> {
             match self.int("a polygon's corner, or its end")? {
                 0 => return Ok(Some(RawFacet { point, tier, name, instructions })),
                 1 => {
-                    self.take::<24>("a polygon's corner")?;
+                    self.read_array::<24>("a polygon's corner")?;
                 }
                 other => return Err(self.source.at_byte(at, "0 or 1 in a polygon", other.to_string())),
             }
@@ -147,8 +141,8 @@ impl<'s> Bytes<'s> {
         END_OF_FACETS.to_le_bytes()[..7].starts_with(rest) || rest.iter().all(|b| matches!(b, 0 | 0x1A))
     }
 
-    fn design(&mut self) -> Result<Raw, FormatError> {
-        let (mut raw, mut count) = (Raw::default(), 0);
+    fn design(&mut self) -> Result<RawDesign, FormatError> {
+        let (mut raw, mut count) = (RawDesign::default(), 0);
         while !self.is_at_end() {
             let Some(facet) = self.facet()? else { break };
             count += 1;
@@ -163,7 +157,7 @@ impl<'s> Bytes<'s> {
         }
         if self.rest().starts_with(PREFORM) {
             self.at += PREFORM.len();
-            let preform = Bytes { source: self.source, at: self.at }.design();
+            let preform = ByteReader { source: self.source, at: self.at }.design();
             let said = if preform.is_ok() { "a preform" } else { "what follows, maybe a preform," };
             raw.remarks.push(format!("{said} is left out"));
         } else if !self.rest().is_empty() {
@@ -173,11 +167,11 @@ impl<'s> Bytes<'s> {
     }
 
     /// What follows the facets, as far as it goes.
-    fn tail(&mut self, raw: &mut Raw) -> Result<(), FormatError> {
+    fn tail(&mut self, raw: &mut RawDesign) -> Result<(), FormatError> {
         raw.symmetry = Some((self.int("the symmetry's order")?, self.int("whether it is mirrored")?));
         raw.teeth = Some(self.int("the number of gear teeth")?.into());
-        raw.refractive_index = Some(f64::from_le_bytes(self.take("an index of refraction")?));
-        let mark = u32::from_le_bytes(self.take("the mark of the gear's offset")?);
+        raw.refractive_index = Some(f64::from_le_bytes(self.read_array("an index of refraction")?));
+        let mark = u32::from_le_bytes(self.read_array("the mark of the gear's offset")?);
         // one writer leaves the offset out
         if mark == OFFSET_FOLLOWS {
             raw.offset = self.float("the gear's offset")?;
@@ -189,13 +183,13 @@ impl<'s> Bytes<'s> {
     }
 }
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
-    let mut raw = Bytes { source, at: 0 }.design()?;
+fn read(source: &Input) -> Result<Parsed, FormatError> {
+    let mut raw = ByteReader { source, at: 0 }.design()?;
     if raw.facets.is_empty() {
         return Err(source.at_byte(0, "at least one facet", "the end of facets"));
     }
     let mut warnings = std::mem::take(&mut raw.remarks);
-    let mut design = Design::named(source.stem());
+    let mut design = Design::new(source.stem());
     let lines = |range: std::ops::Range<usize>| {
         let lines = raw.lines.get(range.start.min(raw.lines.len())..range.end.min(raw.lines.len()));
         let lines = lines.unwrap_or_default();
@@ -215,11 +209,11 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     design.symmetry = symmetry;
     if let Some(index) = raw.refractive_index.filter(|n| !(*n > 1.0 && *n <= 3.5)) {
         let done = if index >= 1.0 && index.is_finite() { "kept" } else { "left out" };
-        warnings.push(format!("index of refraction {index:.4e} is that of no gem; {done}"));
+        warnings.push(format!("index of refraction {index:.4e} is not that of any gem; {done}"));
     }
     design.refractive_index = raw.refractive_index.filter(|n| *n >= 1.0 && n.is_finite());
     design.tiers = tiers(raw.facets, design.gear);
-    Ok(Reading { design, warnings })
+    Ok(Parsed { design, warnings })
 }
 
 /// Facets grouped by the file's key, and by angle and distance where one key is used for all.

@@ -3,10 +3,9 @@
 use super::cutting_table::{at_most, footers, headers, one_line, rows};
 use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
-use super::gem::{END_OF_FACETS, LINES, OFFSET_FOLLOWS};
 use super::windows_1252::{byte_of, encoded};
-use crate::cut::Design;
-use crate::solid::polyhedron::Fate;
+use crate::design::Design;
+use crate::geometry::polyhedron::PlaneStatus;
 use glam::DVec3;
 
 /// Most bytes of a facet's name, a tab and its instructions together that GemCad's author's reader takes.
@@ -23,11 +22,7 @@ const TEXT: usize = u8::MAX as usize;
 /// Checked in `tests/receivers.rs`.
 pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     let design = &*for_gemcad(design)?;
-    let unfit = |problem: String| FormatError::Encode {
-        name: design.name.clone(),
-        format: super::gem::FORMAT.name,
-        problem,
-    };
+    let unfit = |problem: String| FormatError::Encode { name: design.name.clone(), format: NAME, problem };
     let teeth = design.gear.teeth;
     if teeth.fract() != 0.0 || teeth.abs() > f64::from(i32::MAX) {
         return Err(unfit(format!("its gear has {teeth} teeth, and the format has room for whole ones")));
@@ -36,7 +31,7 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
     let mut bytes = Vec::new();
     let mut shortened: Vec<String> = Vec::new();
     for (tier, row) in rows(design).iter().enumerate() {
-        for cut in &row.cuts {
+        for cut in &row.facets {
             bytes.extend(point(cut.plane.normal / cut.plane.distance));
             bytes.extend((tier as i32 + 1).to_le_bytes());
             let said = format!("{}\t{}", one_line(cut.name), one_line(&row.tier.instructions));
@@ -45,7 +40,7 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
                     if row.tier.name.is_empty() { (tier + 1).to_string() } else { one_line(&row.tier.name) };
                 shortened.push(format!("'{name}'"));
             }
-            if let Fate::Facet(face) = solid.fates[cut.number] {
+            if let PlaneStatus::Facet(face) = solid.plane_status[cut.number] {
                 for corner in solid.polygon(face) {
                     bytes.extend(1i32.to_le_bytes());
                     bytes.extend(point(corner));
@@ -108,3 +103,15 @@ fn text(bytes: &mut Vec<u8>, text: &str, most: usize) -> bool {
     bytes.extend(said);
     fits
 }
+
+/// Stands where the next facet's plane would.
+pub const END_OF_FACETS: f64 = -99999.0;
+
+/// Says that the gear's offset follows the refractive index.
+pub const OFFSET_FOLLOWS: u32 = 0x7FFF;
+
+/// Header lines, and as many footers.
+pub const LINES: usize = 4;
+
+/// The format's name.
+pub const NAME: &str = "gemcad-binary";

@@ -3,20 +3,19 @@
 //! The grammar is that of the reader which GemCad's author publishes: words, not lines. Only `H`, `F` and `G`
 //! run to the end of their line; all else may share a line with others, go on in the next, and stand
 //! without a blank between keyword and number. The program's own frame is the y-mirror of ours; with the
-//! formula of [`crate::cut::design::facet_normal`] the stone comes out the right way round. Distances have no unit and the
+//! formula of [`crate::design::tiers::facet_normal`] the stone comes out the right way round. Distances have no unit and the
 //! origin is free.
 
 mod tiers;
 mod words;
 
-use super::error::{FormatError, shown};
+use super::error::{FormatError, quoted_excerpt};
 use super::gemcad_text_write::write;
-use super::source::{Source, lines, number};
-use super::{Format, Reading, Writer};
-use crate::cut::Gear;
-use crate::store::limits;
-use tiers::Entry;
-use words::{Word, Words, append, is_keyword_line, keyword, order};
+use super::input::{Input, lines, number};
+use super::{Format, Parsed, Writer};
+use crate::design::Gear;
+use crate::storage::limits;
+use words::{AscWord, AscWords, append, is_keyword_line, keyword, order};
 
 /// GemCad text designs, of every version in circulation.
 pub static FORMAT: Format = Format {
@@ -28,7 +27,7 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Design(write)),
 };
 
-fn sniff(source: &Source) -> u8 {
+fn sniff(source: &Input) -> u8 {
     let start = source.beginning();
     let start = start.trim_start();
     if start.get(..6).is_some_and(|s| s.eq_ignore_ascii_case("gemcad")) {
@@ -43,7 +42,7 @@ const MOST_REMARKS: usize = 50;
 
 /// What the words that come next belong to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Open {
+enum OpenItem {
     Nothing,
     /// Indices of the last tier.
     Tier,
@@ -53,24 +52,24 @@ enum Open {
     Footer,
 }
 
-struct File<'s> {
-    source: &'s Source<'s>,
+struct AscFile<'s> {
+    source: &'s Input<'s>,
     gear: Option<Gear>,
     symmetry: Option<(u32, bool)>,
     refractive_index: Option<f64>,
     headers: Vec<String>,
     footers: Vec<String>,
-    tiers: Vec<Entry>,
+    tiers: Vec<TierLine>,
     facet_count: usize,
     /// The line of the first facet over the limit.
     too_many_at: Option<usize>,
-    open: Open,
+    open: OpenItem,
     warnings: Vec<String>,
 }
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
+fn read(source: &Input) -> Result<Parsed, FormatError> {
     let text = source.text();
-    let mut file = File {
+    let mut file = AscFile {
         source,
         gear: None,
         symmetry: None,
@@ -80,10 +79,10 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         tiers: Vec::new(),
         facet_count: 0,
         too_many_at: None,
-        open: Open::Nothing,
+        open: OpenItem::Nothing,
         warnings: Vec::new(),
     };
-    let mut words = Words::of(&text);
+    let mut words = AscWords::new(&text);
     while let Some(word) = words.next() {
         file.word(word, &mut words)?;
     }
@@ -97,20 +96,22 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     file.design()
 }
 
-impl File<'_> {
-    fn word(&mut self, word: Word, words: &mut Words) -> Result<(), FormatError> {
-        if word.first && self.goes_on(&word) {
+impl AscFile<'_> {
+    fn word(&mut self, word: AscWord, words: &mut AscWords) -> Result<(), FormatError> {
+        if word.first && self.continues_text(&word) {
             words.end_line(word.line);
             return Ok(());
         }
         if word.is_comment() || self.is_title(&word) {
             if !word.first {
-                self.remark(|| format!("line {}: taken as a comment: {}", word.line, shown(&word.onward())));
+                self.remark(|| {
+                    format!("line {}: taken as a comment: {}", word.line, quoted_excerpt(&word.onward()))
+                });
             }
             words.end_line(word.line);
             return Ok(());
         }
-        let in_tier = matches!(self.open, Open::Tier | Open::Instructions);
+        let in_tier = matches!(self.open, OpenItem::Tier | OpenItem::Instructions);
         match (keyword(word.text), word.text) {
             (Some((letter, value)), _) => self.keyword(word, letter, value, words),
             (None, "n") if in_tier => self.name(word, words),
@@ -118,7 +119,7 @@ impl File<'_> {
                 if let Some(tier) = self.tiers.last_mut() {
                     append(&mut tier.instructions, word.rest);
                 }
-                self.open = Open::Instructions;
+                self.open = OpenItem::Instructions;
                 words.end_line(word.line);
                 Ok(())
             }
@@ -142,21 +143,21 @@ impl File<'_> {
 
     /// Takes the line as one more of the open text, if that is what it is: any indented text but a line of
     /// a keyword.
-    fn goes_on(&mut self, word: &Word) -> bool {
+    fn continues_text(&mut self, word: &AscWord) -> bool {
         let line = word.onward();
         let is_of_the_tier = number(word.text).is_some() || matches!(word.text, "n" | "G");
         let text = match self.open {
             _ if !word.indented || is_keyword_line(&line) => None,
-            Open::Header => self.headers.last_mut(),
-            Open::Footer => self.footers.last_mut(),
-            Open::Instructions if !is_of_the_tier => self.tiers.last_mut().map(|t| &mut t.instructions),
+            OpenItem::Header => self.headers.last_mut(),
+            OpenItem::Footer => self.footers.last_mut(),
+            OpenItem::Instructions if !is_of_the_tier => self.tiers.last_mut().map(|t| &mut t.instructions),
             _ => None,
         };
         text.map(|text| append(text, &line)).is_some()
     }
 
     /// `GemCad 5.0` on the first line.
-    fn is_title(&self, word: &Word) -> bool {
+    fn is_title(&self, word: &AscWord) -> bool {
         let is_start = word.first && self.gear.is_none() && self.tiers.is_empty();
         is_start && word.text.get(..6).is_some_and(|k| k.eq_ignore_ascii_case("gemcad"))
     }
@@ -170,22 +171,24 @@ impl File<'_> {
         }
     }
 
-    fn leave_out(&mut self, word: &Word, words: &mut Words) {
-        self.remark(|| format!("line {}: not understood and left out: {}", word.line, shown(&word.onward())));
+    fn leave_out(&mut self, word: &AscWord, words: &mut AscWords) {
+        self.remark(|| {
+            format!("line {}: not understood and left out: {}", word.line, quoted_excerpt(&word.onward()))
+        });
         words.end_line(word.line);
     }
 
     fn keyword(
         &mut self,
-        word: Word,
+        word: AscWord,
         letter: char,
         glued: &str,
-        words: &mut Words,
+        words: &mut AscWords,
     ) -> Result<(), FormatError> {
         let text = |open| (open, word.rest.to_owned());
         let (open, said) = match letter {
-            'H' => text(Open::Header),
-            'F' => text(Open::Footer),
+            'H' => text(OpenItem::Header),
+            'F' => text(OpenItem::Footer),
             _ => {
                 let value = match glued {
                     "" => words.peek(0).map_or("", |w| w.text).to_owned(),
@@ -204,12 +207,12 @@ impl File<'_> {
                     'y' => self.symmetry(word, &value, words),
                     _ => self.index(word, &value),
                 }
-                self.open = Open::Nothing;
+                self.open = OpenItem::Nothing;
                 return Ok(());
             }
         };
         self.open = open;
-        if open == Open::Header {
+        if open == OpenItem::Header {
             self.headers.push(said)
         } else {
             self.footers.push(said)
@@ -219,7 +222,7 @@ impl File<'_> {
     }
 
     /// A keyword without its number: a tier or a gear that would be lost, or a word like others.
-    fn no_value(&mut self, word: Word, letter: char, words: &mut Words) -> Result<(), FormatError> {
+    fn no_value(&mut self, word: AscWord, letter: char, words: &mut AscWords) -> Result<(), FormatError> {
         let found = words.peek(0).filter(|w| w.line == word.line).map_or("", |w| w.text);
         let meant = word.rest.split_whitespace().nth(1).is_some_and(|w| number(w).is_some());
         match letter {
@@ -229,7 +232,7 @@ impl File<'_> {
             'g' if word.first && self.gear.is_none() => {
                 Err(self.source.at_line(word.line, "the number of gear teeth, not 0", found))
             }
-            _ if matches!(self.open, Open::Tier | Open::Instructions) && !word.first => {
+            _ if matches!(self.open, OpenItem::Tier | OpenItem::Instructions) && !word.first => {
                 Err(self.source.at_line(word.line, "an index, 'n NAME' or 'G'", word.text))
             }
             _ => {
@@ -239,7 +242,7 @@ impl File<'_> {
         }
     }
 
-    fn gear(&mut self, word: Word, teeth: &str, words: &mut Words) -> Result<(), FormatError> {
+    fn gear(&mut self, word: AscWord, teeth: &str, words: &mut AscWords) -> Result<(), FormatError> {
         let teeth = number(teeth)
             .filter(|t| *t != 0.0)
             .ok_or_else(|| self.source.at_line(word.line, "the number of gear teeth, not 0", teeth))?;
@@ -258,12 +261,12 @@ impl File<'_> {
             self.remark(|| format!("line {}: a second gear; it counts for the tiers after it", word.line));
         }
         self.gear = Some(Gear { teeth, offset });
-        self.open = Open::Nothing;
+        self.open = OpenItem::Nothing;
         Ok(())
     }
 
     /// For information: no facet depends on it.
-    fn symmetry(&mut self, word: Word, value: &str, words: &mut Words) {
+    fn symmetry(&mut self, word: AscWord, value: &str, words: &mut AscWords) {
         let Some((order, mirror)) = order(value) else { return };
         let next = words.peek(0).filter(|w| mirror.is_none() && w.line == word.line);
         let next = next.filter(|w| w.text.eq_ignore_ascii_case("y") || w.text.eq_ignore_ascii_case("n"));
@@ -275,18 +278,18 @@ impl File<'_> {
     }
 
     /// For information: no facet depends on it.
-    fn index(&mut self, word: Word, value: &str) {
+    fn index(&mut self, word: AscWord, value: &str) {
         let Some(index) = number(value) else { return };
         if !(index > 1.0 && index <= 3.5) {
             let done = if index < 1.0 { "left out" } else { "kept" };
             self.remark(|| {
-                format!("line {}: index of refraction {index} is that of no gem; {done}", word.line)
+                format!("line {}: index of refraction {index} is not that of any gem; {done}", word.line)
             });
         }
         self.refractive_index = Some(index).filter(|n| *n >= 1.0);
     }
 
-    fn tier(&mut self, word: Word, angle: &str, words: &mut Words) -> Result<(), FormatError> {
+    fn tier(&mut self, word: AscWord, angle: &str, words: &mut AscWords) -> Result<(), FormatError> {
         let angle_deg = number(angle)
             .filter(|a| a.abs() <= 90.0)
             .ok_or_else(|| self.source.at_line(word.line, "an angle from -90 to 90 degrees", angle))?;
@@ -302,12 +305,12 @@ impl File<'_> {
         }
         let (indices, name, instructions) = Default::default();
         let gear = self.gear;
-        self.tiers.push(Entry { line: word.line, gear, angle_deg, rho, indices, name, instructions });
-        self.open = Open::Tier;
+        self.tiers.push(TierLine { line: word.line, gear, angle_deg, rho, indices, name, instructions });
+        self.open = OpenItem::Tier;
         Ok(())
     }
 
-    fn facet(&mut self, word: Word, index: f64) {
+    fn facet(&mut self, word: AscWord, index: f64) {
         self.facet_count += 1;
         match limits::FACETS.check(self.facet_count) {
             Ok(()) => self.tiers.last_mut().map_or((), |t| t.indices.push((index, String::new()))),
@@ -318,7 +321,7 @@ impl File<'_> {
 
     /// The name after `n`, of the index before it: any word at all, as facets are called G, n, a or 12, and
     /// more words up to the next number or keyword.
-    fn name(&mut self, word: Word, words: &mut Words) -> Result<(), FormatError> {
+    fn name(&mut self, word: AscWord, words: &mut AscWords) -> Result<(), FormatError> {
         let expected = "a facet name after 'n'";
         let Some(first) = words.next() else {
             return Err(self.source.at_line(words.line(), expected, ""));
@@ -339,7 +342,7 @@ impl File<'_> {
             words.next();
         }
         if name.len() > first.text.len() {
-            self.remark(|| format!("line {}: a name of several words: {}", word.line, shown(&name)));
+            self.remark(|| format!("line {}: a name of several words: {}", word.line, quoted_excerpt(&name)));
         }
         if let Some(tier) = self.tiers.last_mut() {
             if tier.name.is_empty() {
@@ -366,6 +369,18 @@ impl File<'_> {
 
 /// Whether a line that does not begin as one of a tier would lose facets: it is indented as such lines are,
 /// and has numbers.
-fn loses_facets(word: &Word) -> bool {
+fn loses_facets(word: &AscWord) -> bool {
     word.indented && word.rest.split_whitespace().any(|w| number(w).is_some())
+}
+
+/// A tier as the file gives it, before it is known which way its flat facets look.
+pub(super) struct TierLine {
+    pub line: usize,
+    /// The wheel at that place of the file.
+    pub gear: Option<Gear>,
+    pub angle_deg: f64,
+    pub rho: f64,
+    pub indices: Vec<(f64, String)>,
+    pub name: String,
+    pub instructions: String,
 }

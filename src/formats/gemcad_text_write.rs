@@ -1,11 +1,11 @@
 //! Writing GemCad text as GemCad lays it out: CRLF, lines under 80 characters that go on indented, four
 //! headers and four footers, ten significant digits.
 
-use super::cutting_table::{Row, at_most, footers, headers, one_line, rows, unblank};
+use super::cutting_table::{CuttingRow, at_most, footers, headers, one_line, rows, unblank};
 use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
 use super::windows_1252::byte_of;
-use crate::cut::Design;
+use crate::design::Design;
 use std::fmt::Write;
 
 /// Most bytes of a line, as GemCad breaks its own.
@@ -62,12 +62,12 @@ fn text(letter: char, said: &str, remarks: &mut Vec<String>) -> String {
 }
 
 /// A tier's lines: its indices, then its instructions, on the last of these lines if there is room.
-fn tier(row: &Row, lines: &mut Vec<String>, cut_names: &mut Vec<String>) {
+fn tier(row: &CuttingRow, lines: &mut Vec<String>, cut_names: &mut Vec<String>) {
     // for flat facets the sign of the distance tells table from culet
     let culet = row.angle_deg == 0.0 && row.angle_deg.is_sign_negative();
     let distance = if culet { -row.distance } else { row.distance };
     let mut open = format!("a {} {}", decimals(row.angle_deg, 6), decimals(distance, 8));
-    for cut in &row.cuts {
+    for cut in &row.facets {
         let mut item = format!(" {}", decimals(cut.index, 0));
         let words: Vec<&str> = cut.name.split(|c: char| c.is_whitespace() || c.is_control()).collect();
         let name = words.join("-");

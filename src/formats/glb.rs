@@ -6,15 +6,15 @@
 mod buffers;
 mod document;
 
-use super::error::{FormatError, counted, shown};
-use super::shell::{Digits, Mesh, design_of_mesh};
-use super::source::Source;
-use super::{Format, Reading, Writer, glb_write};
-use crate::cut::Unit;
-use crate::solid::recover::Polygon;
-use crate::store::limits;
-use buffers::{PACKED, unsigned};
-use document::{Document, Node, Primitive, document};
+use super::error::{FormatError, counted, quoted_excerpt};
+pub use super::glb_write::{FacetExtras, UNIT_MM};
+use super::input::Input;
+use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::{Format, Parsed, Writer, glb_write};
+use crate::design::LengthUnit;
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
+use document::{GltfDocument, Node, Primitive, document};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
@@ -40,37 +40,23 @@ pub static GLTF: Format = Format {
     write: Some(Writer::Mesh(glb_write::write_text)),
 };
 
-/// Length of glTF's unit, the metre, in millimetres.
-pub const UNIT_MM: f64 = 1000.0;
-
-fn sniff(source: &Source) -> u8 {
+fn sniff(source: &Input) -> u8 {
     let is_json = source.beginning().trim_start().starts_with('{');
     if is_json && document::is_one(&source.text()) { 80 } else { 0 }
-}
-
-/// What a facet's primitive says about itself.
-#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
-pub struct FacetExtras {
-    /// The facet's name.
-    #[serde(default)]
-    pub facet: String,
-    /// Its outward normal in the mesh's own frame, in full `f64`.
-    #[serde(default)]
-    pub normal: Option<[f64; 3]>,
 }
 
 /// Wider than this, in metres, is no stone: the unit is another one, and unknown.
 const WIDEST: f64 = 0.5;
 
-struct Reader<'a> {
-    source: &'a Source<'a>,
-    document: &'a Document,
+struct GltfReader<'a> {
+    source: &'a Input<'a>,
+    document: &'a GltfDocument,
     /// The GLB's own buffer.
     inside: Option<&'a [u8]>,
     /// Buffers that were fetched, by number: only those that are needed.
     buffers: BTreeMap<usize, Cow<'a, [u8]>>,
     fetched: usize,
-    mesh: Mesh,
+    mesh: PolygonMesh,
     /// Points, lines and primitives without places.
     left_out: usize,
     /// Primitives that were met: many nodes may show one mesh.
@@ -79,7 +65,7 @@ struct Reader<'a> {
     seen: Vec<bool>,
 }
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
+fn read(source: &Input) -> Result<Parsed, FormatError> {
     let mut mesh = mesh(source)?;
     let used = || mesh.polygons.iter().flat_map(|p| &p.corners).map(|c| mesh.vertices[*c]);
     let (low, high) =
@@ -91,20 +77,29 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
     } else if widest.is_finite() {
         mesh.warnings.push(format!("{widest:.3} m wide, as no stone is: the unit is taken as unknown"));
     }
-    let mut reading = design_of_mesh(source, &mesh)?;
+    let mut reading = design_from_mesh(source, &mesh)?;
     if is_in_metres {
-        reading.design.unit = Unit::Millimetre;
+        reading.design.unit = LengthUnit::Millimetre;
     }
     Ok(reading)
 }
 
 /// The mesh as it stands in the file, +z up.
-pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
+pub(super) fn mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let (document, inside, warnings) = document(source)?;
     let (buffers, seen) = (BTreeMap::new(), vec![false; document.nodes.len()]);
-    let mesh = Mesh { corners: Digits::F32, normals: Digits::F64, warnings, ..Mesh::default() };
-    let mut reader =
-        Reader { source, document: &document, inside, buffers, fetched: 0, mesh, left_out: 0, met: 0, seen };
+    let mesh = PolygonMesh { corners: Digits::F32, normals: Digits::F64, warnings, ..PolygonMesh::default() };
+    let mut reader = GltfReader {
+        source,
+        document: &document,
+        inside,
+        buffers,
+        fetched: 0,
+        mesh,
+        left_out: 0,
+        met: 0,
+        seen,
+    };
     let upright = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
     let shown = document.scene.unwrap_or_default();
     let roots: Vec<usize> = match document.scenes.get(shown) {
@@ -137,7 +132,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
     Ok(reader.mesh)
 }
 
-impl<'a> Reader<'a> {
+impl<'a> GltfReader<'a> {
     fn bad(&self, expected: &str, found: impl Into<String>) -> FormatError {
         self.source.at_byte(0, expected, found)
     }
@@ -192,7 +187,7 @@ impl<'a> Reader<'a> {
         };
         let positions = self.accessor(*positions)?;
         if positions.shape != "VEC3" {
-            return Err(self.bad("positions of three numbers", shown(&positions.shape)));
+            return Err(self.bad("positions of three numbers", quoted_excerpt(&positions.shape)));
         }
         let packed = primitive.extensions.keys().find(|name| name.ends_with(PACKED));
         let first = self.mesh.vertices.len();
@@ -243,4 +238,12 @@ fn frame(node: &Node) -> DMat4 {
         },
         |matrix| DMat4::from_cols_array(&matrix),
     )
+}
+
+/// What the names of extensions end in that pack buffers: Draco's, meshopt's.
+const PACKED: &str = "_compression";
+
+/// An unsigned number of any length, least byte first.
+fn unsigned(bytes: &[u8]) -> usize {
+    bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize)
 }

@@ -5,9 +5,9 @@
 //! of refraction, full transmission, and a volume without which renderers take it for a thin sheet.
 
 use super::error::FormatError;
-use super::glb::{FacetExtras, UNIT_MM};
-use super::surface::Surface;
-use crate::optics::{Illuminant, Material};
+use super::mesh_export::MeshExport;
+use crate::color::Illuminant;
+use crate::materials::Material;
 use ::gltf::binary::{Glb, Header};
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use ::gltf::json::extensions::material as khr;
@@ -20,7 +20,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// The surface as a GLB file.
-pub fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+pub fn write_binary(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let (root, mut bin) = parts(surface)?;
     let fail = |problem: String| failed(surface, problem);
     let mut text = serialize::to_string(&root).map_err(|e| fail(e.to_string()))?.into_bytes();
@@ -34,19 +34,19 @@ pub fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
 }
 
 /// The surface as a glTF file that holds its buffer itself.
-pub fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+pub fn write_text(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let (mut root, bin) = parts(surface)?;
     let data = base64::engine::general_purpose::STANDARD.encode(bin);
     root.buffers[0].uri = Some(format!("data:application/octet-stream;base64,{data}"));
     Ok(serialize::to_string(&root).map_err(|e| failed(surface, e.to_string()))?.into_bytes())
 }
 
-fn failed(surface: &Surface, problem: String) -> FormatError {
+fn failed(surface: &MeshExport, problem: String) -> FormatError {
     FormatError::Encode { name: surface.name.clone(), format: "glTF", problem }
 }
 
 /// The document and its buffer.
-fn parts(surface: &Surface) -> Result<(Root, Vec<u8>), FormatError> {
+fn parts(surface: &MeshExport) -> Result<(Root, Vec<u8>), FormatError> {
     let metres = surface.unit_mm() / UNIT_MM;
     let metric = |v: &DVec3| (*v * metres).as_vec3().to_array();
     let positions: Vec<[f32; 3]> = surface.vertices.iter().map(metric).collect();
@@ -195,4 +195,18 @@ fn accessor(
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> [f32; 3] {
     let start = positions.first().copied().unwrap_or_default();
     positions.iter().fold(start, |m, p| [0, 1, 2].map(|k| pick(m[k], p[k])))
+}
+
+/// Length of glTF's unit, the metre, in millimetres.
+pub const UNIT_MM: f64 = 1000.0;
+
+/// What a facet's primitive says about itself.
+#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
+pub struct FacetExtras {
+    /// The facet's name.
+    #[serde(default)]
+    pub facet: String,
+    /// Its outward normal in the mesh's own frame, in full `f64`.
+    #[serde(default)]
+    pub normal: Option<[f64; 3]>,
 }

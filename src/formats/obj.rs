@@ -5,12 +5,12 @@
 //! `f` make a stone; `mtllib` is never followed.
 
 use super::error::FormatError;
-use super::shell::{Digits, Mesh, design_of_mesh};
-use super::source::{Source, lines, number, without_comment};
-use super::{Format, Reading, Surface, Writer};
-use crate::cut::Unit;
-use crate::solid::recover::Polygon;
-use crate::store::limits;
+use super::input::{Input, lines, number, without_comment};
+use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::{Format, MeshExport, Parsed, Writer};
+use crate::design::LengthUnit;
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Mesh(write)),
 };
 
-fn sniff(source: &Source) -> u8 {
+fn sniff(source: &Input) -> u8 {
     let vertex = |line: &str| {
         let mut words = line.split_whitespace();
         words.next() == Some("v") && words.next().and_then(number).is_some()
@@ -38,8 +38,8 @@ fn sniff(source: &Source) -> u8 {
     if source.extension() == "obj" { 10 } else { 0 }
 }
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
-    design_of_mesh(source, &mesh(source)?)
+fn read(source: &Input) -> Result<Parsed, FormatError> {
+    design_from_mesh(source, &mesh(source)?)
 }
 
 /// How many there are of what faces name: corners, texture, normals.
@@ -47,7 +47,7 @@ type Counts = [usize; 3];
 
 /// What of a file comes before its faces, which may name what stands behind them.
 #[derive(Default)]
-struct Points {
+struct ObjPoints {
     total: Counts,
     /// Normals; one that is none is of no use, and never needed.
     normals: Vec<Option<DVec3>>,
@@ -67,9 +67,9 @@ fn is_face(kind: &str) -> bool {
 }
 
 /// The mesh as it stands in the file.
-pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
+pub(super) fn mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let text = source.text();
-    let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
+    let mut mesh = PolygonMesh { corners: Digits::TEXT, normals: Digits::TEXT, ..PolygonMesh::default() };
     let points = points(source, &text, &mut mesh)?;
     source.has_at_most(&limits::POLYGONS, points.faces)?;
     let mut seen = Counts::default();
@@ -110,8 +110,8 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
 
 /// Reads corners and normals. Of `v` only the place is kept: a fourth number is a weight for curves, three
 /// more are a colour.
-fn points(source: &Source, text: &str, mesh: &mut Mesh) -> Result<Points, FormatError> {
-    let (mut points, mut free_form) = (Points::default(), None);
+fn points(source: &Input, text: &str, mesh: &mut PolygonMesh) -> Result<ObjPoints, FormatError> {
+    let (mut points, mut free_form) = (ObjPoints::default(), None);
     for (at, line) in joined(text) {
         let mut words = line.split_whitespace();
         let kind = words.next().unwrap_or_default();
@@ -182,10 +182,10 @@ fn reference(word: &str, seen: Counts, total: Counts) -> Option<(usize, Option<u
     Some((found[0]?, found[2]))
 }
 
-fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let unit = match surface.unit {
-        Unit::Millimetre => "mm",
-        Unit::Free => "none, only the shape is known",
+        LengthUnit::Millimetre => "mm",
+        LengthUnit::Free => "none, only the shape is known",
     };
     let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut text =

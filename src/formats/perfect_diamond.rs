@@ -9,16 +9,18 @@
 
 mod list;
 mod pbrt;
+mod shapes;
 mod words;
 
 use super::error::FormatError;
-use super::shell::{Digits, Mesh, recovered};
-use super::source::Source;
-use super::{Format, Reading};
-use crate::cut::Design;
-use crate::solid::SolidError;
-use crate::solid::recover::Polygon;
+use super::input::Input;
+use super::mesh_import::{PolygonMesh, recover};
+use super::{Format, Parsed};
+use crate::design::Design;
+use crate::geometry::SolidError;
+use crate::geometry::facet_recovery::Polygon;
 use glam::{DMat3, DQuat, DVec3};
+use shapes::{PolygonShape, PolygonShapes};
 
 /// A pbrt scene.
 pub static SCENE: Format = Format {
@@ -40,15 +42,9 @@ pub static LIST: Format = Format {
     write: None,
 };
 
-/// Corners and polygons of one shape.
-type Shape = (Vec<DVec3>, Vec<Polygon>);
-
-/// The shapes of a file, and the digits of their numbers.
-type Shapes = (Vec<Shape>, Digits);
-
 /// The stone among the shapes: all of them together, or the only one that is a stone by itself.
-fn stone(source: &Source, (shapes, digits): Shapes) -> Result<Reading, FormatError> {
-    let together = shapes.iter().fold(Shape::default(), |(mut vertices, mut polygons), (v, p)| {
+fn stone(source: &Input, (shapes, digits): PolygonShapes) -> Result<Parsed, FormatError> {
+    let together = shapes.iter().fold(PolygonShape::default(), |(mut vertices, mut polygons), (v, p)| {
         let first = vertices.len();
         vertices.extend(v);
         polygons.extend(p.iter().map(|p| Polygon {
@@ -57,7 +53,7 @@ fn stone(source: &Source, (shapes, digits): Shapes) -> Result<Reading, FormatErr
         }));
         (vertices, polygons)
     });
-    let as_stone = |(v, p): Shape| recovered(&source.stem(), &Mesh::of_text(v, p, digits));
+    let as_stone = |(v, p): PolygonShape| recover(&source.stem(), &PolygonMesh::from_text(v, p, digits));
     let (design, mut warnings) = match as_stone(together) {
         Ok(found) => found,
         Err(cause) => {
@@ -74,7 +70,7 @@ fn stone(source: &Source, (shapes, digits): Shapes) -> Result<Reading, FormatErr
     let upright = upright(&design)
         .map_err(|cause| FormatError::Mesh { file: source.name.into(), cause: cause.into() })?;
     warnings.push("Perfect Diamond data: the file's form is reconstructed and unverified".into());
-    Ok(Reading { design: upright, warnings })
+    Ok(Parsed { design: upright, warnings })
 }
 
 /// Shapes that are tried one by one when all together are no stone.
@@ -88,5 +84,5 @@ fn upright(design: &Design) -> Result<Design, SolidError> {
     let up = largest.map_or(DVec3::Z, |f| planes[solid.faces[f].plane].normal);
     let turn = DMat3::from_quat(DQuat::from_rotation_arc(up, DVec3::Z));
     let facets = design.facets().map(|f| (f.name.clone(), f.plane.turned(turn)));
-    Ok(Design::of_facets(design.name.clone(), facets.collect::<Vec<_>>()))
+    Ok(Design::from_facets(design.name.clone(), facets.collect::<Vec<_>>()))
 }

@@ -7,17 +7,17 @@ mod header;
 mod values;
 
 use super::error::FormatError;
-use super::shell::{Digits, Mesh, design_of_mesh};
-use super::source::Source;
-use super::{Format, Reading, Surface, Writer};
-use crate::solid::recover::Polygon;
-use crate::store::limits;
+use super::input::Input;
+use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::{Format, MeshExport, Parsed, Writer};
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
 use glam::DVec3;
-use header::{Element, Header, Kind, Property};
+use header::{Element, Header, PlyScalar, Property};
 use std::borrow::Cow;
 use std::fmt::Write;
 use std::sync::Arc;
-use values::Values;
+use values::PlyValues;
 
 /// Binary PLY.
 pub static BINARY: Format = Format {
@@ -39,36 +39,36 @@ pub static TEXT: Format = Format {
     write: Some(Writer::Mesh(write_text)),
 };
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
-    design_of_mesh(source, &mesh(source)?)
+fn read(source: &Input) -> Result<Parsed, FormatError> {
+    design_from_mesh(source, &mesh(source)?)
 }
 
 /// Whether the file begins as a PLY file does.
-pub(super) fn is_one(source: &Source) -> bool {
+pub(super) fn is_one(source: &Input) -> bool {
     header::begins(source)
 }
 
 /// The mesh as it stands in the file.
-pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
+pub(super) fn mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let text = if header::says_text(source) { source.text() } else { Cow::Borrowed("") };
     // text is decoded; of a binary file only a mark before it is no part of it
     let bytes = match &*text {
         "" => source.bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(source.bytes),
         text => text.as_bytes(),
     };
-    let header = Header::of(source, bytes)?;
-    let mut values = Values::new(source, &header, bytes);
-    let mut mesh = Mesh { corners: Digits::F64, normals: Digits::F64, ..Mesh::default() };
+    let header = Header::parse(source, bytes)?;
+    let mut values = PlyValues::new(source, &header, bytes);
+    let mut mesh = PolygonMesh { corners: Digits::F64, normals: Digits::F64, ..PolygonMesh::default() };
     let mut total = 0;
     let fits = |n: usize, element: &Element| source.within_at(element.line, &limits::CORNERS, n);
     for element in &header.elements {
         match &*element.name {
             "vertex" => {
                 let places = places(source, element, ["x", "y", "z"])?;
-                if places.iter().any(|p| element.properties[*p].kind == Kind::F32) {
+                if places.iter().any(|p| element.properties[*p].kind == PlyScalar::F32) {
                     mesh.corners = Digits::F32;
                 }
-                each(element, &mut values, |row, _| {
+                read_elements(element, &mut values, |row, _| {
                     mesh.vertices.push(DVec3::from_array(places.map(|p| row[p])));
                     fits(mesh.vertices.len(), element)
                 })?;
@@ -76,13 +76,13 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
             "face" => {
                 let list = list_of_corners(source, element)?;
                 let normal = places(source, element, ["nx", "ny", "nz"]).ok();
-                if normal.is_some_and(|at| at.iter().any(|p| element.properties[*p].kind == Kind::F32)) {
+                if normal.is_some_and(|at| at.iter().any(|p| element.properties[*p].kind == PlyScalar::F32)) {
                     mesh.normals = Digits::F32;
                 }
                 let named = header.facet_names.len() as u64 == element.count;
                 let already = mesh.polygons.len();
                 source.has_at_most(&limits::POLYGONS, already.saturating_add(element.count as usize))?;
-                each(element, &mut values, |row, corners| {
+                read_elements(element, &mut values, |row, corners| {
                     let normal = normal.map(|at| DVec3::from_array(at.map(|p| row[p])));
                     let normal = normal.filter(|n| n.is_finite());
                     let corners: Vec<_> = corners[list].iter().map(|&c| c as usize).collect();
@@ -95,7 +95,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
             }
             "tristrips" => {
                 let list = list_of_corners(source, element)?;
-                each(element, &mut values, |_, corners| {
+                read_elements(element, &mut values, |_, corners| {
                     // -1 begins another strip; winding alternates, and is made consistent later
                     let strips = corners[list].split(|&c| c < 0.0);
                     let triangles = strips.flat_map(|strip| strip.windows(3));
@@ -108,7 +108,7 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
                     fits(total, element)
                 })?;
             }
-            _ => each(element, &mut values, |_, _| Ok(()))?,
+            _ => read_elements(element, &mut values, |_, _| Ok(()))?,
         }
     }
     if header.is_text() {
@@ -119,9 +119,9 @@ pub(super) fn mesh(source: &Source) -> Result<Mesh, FormatError> {
 }
 
 /// Reads every row of an element: single values, and the values of lists, by property.
-fn each(
+fn read_elements(
     element: &Element,
-    values: &mut Values,
+    values: &mut PlyValues,
     mut row: impl FnMut(&[f64], &[Vec<f64>]) -> Result<(), FormatError>,
 ) -> Result<(), FormatError> {
     // an element without properties has rows without bytes
@@ -133,12 +133,12 @@ fn each(
     for _ in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {
             match property.length {
-                None => single[i] = values.next(property.kind, &property.name)?,
+                None => single[i] = values.next_value(property.kind, &property.name)?,
                 Some(length) => {
                     let count = values.count(length, &property.name)?;
                     lists[i].clear();
                     for _ in 0..count {
-                        lists[i].push(values.next(property.kind, &property.name)?);
+                        lists[i].push(values.next_value(property.kind, &property.name)?);
                     }
                     if is_corners(property) {
                         values.check_corners(&lists[i], element.name == "tristrips")?;
@@ -152,7 +152,7 @@ fn each(
 }
 
 /// Where three properties stand in their element.
-fn places(source: &Source, element: &Element, names: [&str; 3]) -> Result<[usize; 3], FormatError> {
+fn places(source: &Input, element: &Element, names: [&str; 3]) -> Result<[usize; 3], FormatError> {
     let at = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
     match names.map(at) {
         [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
@@ -168,14 +168,14 @@ fn is_corners(property: &Property) -> bool {
     property.length.is_some() && matches!(&*property.name, "vertex_indices" | "vertex_index")
 }
 
-fn list_of_corners(source: &Source, element: &Element) -> Result<usize, FormatError> {
+fn list_of_corners(source: &Input, element: &Element) -> Result<usize, FormatError> {
     let expected = format!("property list … vertex_indices of {}", element.name);
     let list = element.properties.iter().position(is_corners);
     list.ok_or_else(|| source.at_line(element.line, expected, "none"))
 }
 
 /// Triangles, as some readers know no polygons of several lengths in one file.
-fn header_of(surface: &Surface, storage: &str) -> String {
+fn header_of(surface: &MeshExport, storage: &str) -> String {
     let ascii = |text: &str| text.replace(|c| !(' '..='~').contains(&c), "?");
     let name = |(facet, _): &(usize, [usize; 3])| ascii(&surface.facets[*facet].0);
     let names: String = surface.triangles.iter().map(|t| format!("comment facet {}\n", name(t))).collect();
@@ -190,7 +190,7 @@ fn header_of(surface: &Surface, storage: &str) -> String {
     )
 }
 
-fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write_binary(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let mut bytes = header_of(surface, "binary_little_endian").into_bytes();
     let put = |p: DVec3| p.to_array().into_iter().flat_map(f64::to_le_bytes);
     surface.vertices.iter().for_each(|&v| bytes.extend(put(v)));
@@ -202,7 +202,7 @@ fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
     Ok(bytes)
 }
 
-fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write_text(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let mut text = header_of(surface, "ascii");
     // a String takes every write
     for v in &surface.vertices {

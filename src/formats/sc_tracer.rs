@@ -5,12 +5,12 @@
 //! whole scenes: the stone is what is transparent, or, where no triangle has a token, what does
 //! not shine.
 
+use super::asc_triangles::{TriangleRecords, first_count, records};
 use super::error::FormatError;
-use super::shell::{Mesh, design_of_mesh};
-use super::source::Source;
-use super::triangle_words::{Records, first_count, records};
-use super::{Format, Reading, Surface, Writer};
-use crate::solid::recover::Polygon;
+use super::input::Input;
+use super::mesh_import::{PolygonMesh, design_from_mesh};
+use super::{Format, MeshExport, Parsed, Writer};
+use crate::geometry::facet_recovery::Polygon;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -29,11 +29,11 @@ pub static FORMAT: Format = Format {
     write: Some(Writer::Mesh(write)),
 };
 
-fn read(source: &Source) -> Result<Reading, FormatError> {
+fn read(source: &Input) -> Result<Parsed, FormatError> {
     let text = source.text();
     let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
     let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
-    let Records { all, digits } = records(source, &text)?;
+    let TriangleRecords { all, digits } = records(source, &text)?;
     let with_kind = all.iter().any(|r| !r.after.is_empty());
     for record in &all {
         let n = &record.numbers;
@@ -61,7 +61,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
         return Err(source.at_line(1, "triangles of kind T, the stone", &found.join(", ")));
     }
     let others = all.len() - polygons.len();
-    let mut reading = design_of_mesh(source, &Mesh::of_text(vertices, polygons, digits))?;
+    let mut reading = design_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, digits))?;
     if others > 0 {
         reading.warnings.push(format!("{others} triangles of room and lights left out"));
     }
@@ -69,7 +69,7 @@ fn read(source: &Source) -> Result<Reading, FormatError> {
 }
 
 /// The stone as transparent triangles of the original renderer's colour, in the full form.
-fn write(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let mut text = String::new();
     for (_, triangle) in &surface.triangles {
         let mut start = "triangle ";

@@ -3,11 +3,11 @@
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::{FormatError, counted};
-use super::shell::{Digits, Mesh, design_of_mesh};
-use super::source::{Source, lines, number};
-use super::{Format, Surface, Writer};
-use crate::solid::recover::Polygon;
-use crate::store::limits;
+use super::input::{Input, lines, number};
+use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::{Format, MeshExport, Writer};
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ pub static BINARY: Format = Format {
     extensions: &["stl"],
     about: "STL mesh in binary: triangles in f32",
     sniff: sniff_binary,
-    read: |source| design_of_mesh(source, &binary_mesh(source)?),
+    read: |source| design_from_mesh(source, &binary_mesh(source)?),
     write: Some(Writer::Mesh(write_binary)),
 };
 
@@ -27,7 +27,7 @@ pub static TEXT: Format = Format {
     extensions: &["stl"],
     about: "STL mesh as text: triangles; written for `--to stl-text`",
     sniff: sniff_text,
-    read: |source| design_of_mesh(source, &text_mesh(source)?),
+    read: |source| design_from_mesh(source, &text_mesh(source)?),
     write: Some(Writer::Mesh(write_text)),
 };
 
@@ -41,7 +41,7 @@ fn stated(bytes: &[u8]) -> Option<(usize, usize)> {
     Some((count, count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)?))
 }
 
-fn sniff_binary(source: &Source) -> u8 {
+fn sniff_binary(source: &Input) -> u8 {
     match stated(source.bytes) {
         Some((1.., size)) if size == source.bytes.len() => 95,
         // what follows the triangles is of no use, if these are triangles at all
@@ -63,7 +63,7 @@ fn float(bytes: &[u8]) -> f64 {
     f32::from_le_bytes([0, 1, 2, 3].map(|k| bytes.get(k).copied().unwrap_or_default())).into()
 }
 
-fn sniff_text(source: &Source) -> u8 {
+fn sniff_text(source: &Input) -> u8 {
     let start = source.beginning().to_ascii_lowercase();
     let mut words = start.split_whitespace();
     match words.next() {
@@ -77,7 +77,7 @@ fn sniff_text(source: &Source) -> u8 {
 }
 
 /// The mesh of an STL file of either kind; none if it is none.
-pub(super) fn mesh(source: &Source) -> Option<Result<Mesh, FormatError>> {
+pub(super) fn mesh(source: &Input) -> Option<Result<PolygonMesh, FormatError>> {
     let (binary, text) = (sniff_binary(source), sniff_text(source));
     match binary.max(text) {
         0 => None,
@@ -86,14 +86,14 @@ pub(super) fn mesh(source: &Source) -> Option<Result<Mesh, FormatError>> {
     }
 }
 
-fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
+fn binary_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let (count, size) = stated(source.bytes).unwrap_or_default();
     let Some(extra) = source.bytes.len().checked_sub(size) else {
         let expected = format!("{size} bytes for {count} triangles");
         return Err(source.at_byte(HEADER, expected, format!("{} bytes", source.bytes.len())));
     };
     source.has_at_most(&limits::POLYGONS, count)?;
-    let mut mesh = Mesh { corners: Digits::F32, normals: Digits::F32, ..Mesh::default() };
+    let mut mesh = PolygonMesh { corners: Digits::F32, normals: Digits::F32, ..PolygonMesh::default() };
     for record in source.bytes.get(HEADER + 4..size).unwrap_or_default().chunks_exact(TRIANGLE) {
         let point = |i: usize| DVec3::from_array([0, 1, 2].map(|k| float(&record[4 * (3 * i + k)..])));
         let first = mesh.vertices.len();
@@ -110,11 +110,11 @@ fn binary_mesh(source: &Source) -> Result<Mesh, FormatError> {
 
 /// Reads `normal`, `loop` and `vertex`; the words between them say nothing more. White space of any kind
 /// parts words, so that a file may stand on one line.
-fn text_mesh(source: &Source) -> Result<Mesh, FormatError> {
+fn text_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let text = source.text();
     let facets = words_of(&text).filter(|(_, w)| w.eq_ignore_ascii_case("facet")).count();
     source.has_at_most(&limits::POLYGONS, facets)?;
-    let mut mesh = Mesh { corners: Digits::TEXT, normals: Digits::TEXT, ..Mesh::default() };
+    let mut mesh = PolygonMesh { corners: Digits::TEXT, normals: Digits::TEXT, ..PolygonMesh::default() };
     let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
     let mut words = words_of(&text).peekable();
     // the polygon that has no corner yet, or is being read
@@ -161,10 +161,10 @@ fn text_mesh(source: &Source) -> Result<Mesh, FormatError> {
 
 /// Adds the polygon that was read, if there is one.
 fn finish(
-    source: &Source,
+    source: &Input,
     at: usize,
     open: &mut Option<Polygon>,
-    mesh: &mut Mesh,
+    mesh: &mut PolygonMesh,
 ) -> Result<(), FormatError> {
     let Some(polygon) = open.take() else { return Ok(()) };
     if polygon.corners.len() < 3 {
@@ -186,7 +186,7 @@ fn words_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write_binary(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let mut bytes: Vec<u8> = format!("cutlab: {}", surface.name).into_bytes();
     bytes.resize(HEADER, b' ');
     bytes.extend((surface.triangles.len() as u32).to_le_bytes());
@@ -202,7 +202,7 @@ fn write_binary(surface: &Surface) -> Result<Vec<u8>, FormatError> {
 }
 
 /// Numbers with all their digits; the name in ASCII, as some readers know nothing else.
-fn write_text(surface: &Surface) -> Result<Vec<u8>, FormatError> {
+fn write_text(surface: &MeshExport) -> Result<Vec<u8>, FormatError> {
     let name = surface.name.replace(|c| !(' '..='~').contains(&c), "?");
     let mut text = format!("solid {name}\n");
     // a String takes every write

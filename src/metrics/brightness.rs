@@ -1,7 +1,7 @@
 //! Brightness.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::view::OBSERVER_DEG;
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::view::GIA_OBSERVER_DEG;
 
 /// Brightness.
 pub static BRIGHTNESS: Metric = Metric {
@@ -11,14 +11,14 @@ pub static BRIGHTNESS: Metric = Metric {
     range: (0.0, 1.0),
     scale: 1.0,
     better: Better::More,
-    observer: Some(OBSERVER_DEG),
+    observer: Some(GIA_OBSERVER_DEG),
     by_beams: true,
-    dented: true,
+    nonconvex: true,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). White dome above the horizon with a dark observer \
         cone of 23° half-angle, or --observer. Mean luminance over the outline per luminance of the \
         dome, by whatever facet, reflection at entry included.",
     source: "dome with a dark cone of 23°: T. Moses et al., Gems & Gemology 40 (2004) 202; the mean is cutlab's",
-    reading: Reading::View(Statistic::Mean(|t| [t.luminance, t.rays], 1.0)),
+    read_from: MetricSource::View(Statistic::Mean(|t| [t.luminance, t.rays], 1.0)),
 };

@@ -1,7 +1,7 @@
 //! Contrast.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::{cells::OBSERVER_DEG, contrast::Tally};
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::{contrast::ContrastTally, pixel_cells::AGS_OBSERVER_DEG};
 
 /// Contrast.
 pub static CONTRAST: Metric = Metric {
@@ -11,9 +11,9 @@ pub static CONTRAST: Metric = Metric {
     range: (0.0, 100.0),
     scale: 1.0,
     better: Better::Neither,
-    observer: Some(OBSERVER_DEG),
+    observer: Some(AGS_OBSERVER_DEG),
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). White dome above the horizon with a dark observer \
@@ -22,5 +22,5 @@ pub static CONTRAST: Metric = Metric {
         over all ways to lay the grid). Standard deviation per mean of the cells, by their area in \
         the outline.",
     source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem Society; the figure is cutlab's",
-    reading: Reading::Contrast(Statistic::Smooth(Tally::contrast)),
+    read_from: MetricSource::Contrast(Statistic::Smooth(ContrastTally::contrast)),
 };

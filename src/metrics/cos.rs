@@ -1,7 +1,7 @@
 //! COS of the whole stone.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::iso::{OBSERVER_DEG, Weight};
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::faceter_view::{FaceterWeight, GEMRAY_OBSERVER_DEG};
 
 /// COS of the whole stone.
 pub static COS: Metric = Metric {
@@ -11,9 +11,9 @@ pub static COS: Metric = Metric {
     range: (0.0, 100.0),
     scale: 100.0,
     better: Better::More,
-    observer: Some(OBSERVER_DEG),
+    observer: Some(GEMRAY_OBSERVER_DEG),
     by_beams: true,
-    dented: false,
+    nonconvex: false,
     definition: "Parallel view from the eye over the whole outline; light that is unpolarised at \
         every facet (scalar Fresnel, whatever --polarisation), D line (for a stone that absorbs, \
         luminance under D65). Rays of at most ten segments, the incoming one and nine inside. Power \
@@ -22,5 +22,8 @@ pub static COS: Metric = Metric {
         entry count at facets that face the viewer (cosine above 1e-4). Mean over the whole outline, \
         in percent. The light stays with the viewer when the stone is tilted.",
     source: "R. W. Strickland's GemRay, as the project's reference figures have it",
-    reading: Reading::Iso(Statistic::Mean(|t| [t.all[Weight::Cos as usize], t.rays], 100.0)),
+    read_from: MetricSource::FaceterView(Statistic::Mean(
+        |t| [t.all[FaceterWeight::Cos as usize], t.rays],
+        100.0,
+    )),
 };

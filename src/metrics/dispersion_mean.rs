@@ -1,6 +1,6 @@
 //! Mean separation of the colours.
 
-use super::{Better, Metric, Reading, Statistic};
+use super::{Better, Metric, MetricSource, Statistic};
 
 /// Mean separation of the colours.
 pub static DISPERSION_MEAN: Metric = Metric {
@@ -12,12 +12,12 @@ pub static DISPERSION_MEAN: Metric = Metric {
     better: Better::Neither,
     observer: None,
     by_beams: true,
-    dented: false,
+    nonconvex: false,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Angle between lines B and G where both leave by the same facets as D, mean weighted by \
         the power at D. High for stones that return little: read it beside light return. What a stone \
         absorbs counts at each line.",
     source: "defined by cutlab",
-    reading: Reading::Beam(Statistic::Smooth(|t| t.power_angle_deg / t.paired_power)),
+    read_from: MetricSource::PointLight(Statistic::Smooth(|t| t.power_angle_deg / t.paired_power)),
 };

@@ -1,7 +1,7 @@
 //! Median separation of the colours.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::beam::CLASS_DEG;
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::point_light::CLASS_DEG;
 
 /// Median separation of the colours.
 pub static DISPERSION_MEDIAN: Metric = Metric {
@@ -13,7 +13,7 @@ pub static DISPERSION_MEDIAN: Metric = Metric {
     better: Better::Neither,
     observer: None,
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Angle between lines B and G where both leave by the same facets as D: half the power \
@@ -23,5 +23,5 @@ pub static DISPERSION_MEDIAN: Metric = Metric {
         interval over 1.96: between two peaks it reaches from one to the other until the rays can tell \
         on which the half falls.",
     source: "defined by cutlab",
-    reading: Reading::Beam(Statistic::Median(|t| &t.power_by_angle, CLASS_DEG)),
+    read_from: MetricSource::PointLight(Statistic::Median(|t| &t.power_by_angle, CLASS_DEG)),
 };

@@ -1,7 +1,7 @@
 //! Extinction.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::view::OBSERVER_DEG;
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::view::GIA_OBSERVER_DEG;
 
 /// Extinction.
 pub static EXTINCTION: Metric = Metric {
@@ -11,14 +11,14 @@ pub static EXTINCTION: Metric = Metric {
     range: (0.0, 1.0),
     scale: 1.0,
     better: Better::Less,
-    observer: Some(OBSERVER_DEG),
+    observer: Some(GIA_OBSERVER_DEG),
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). White dome above the horizon with a dark observer \
         cone of 23° half-angle, or --observer. Share of the outline, windowing aside, whose luminance \
         is under a tenth of the dome's, by whatever facet, reflection at entry included.",
     source: "the faceters' extinction, as defined by cutlab",
-    reading: Reading::View(Statistic::Share(|t| [t.dark, t.rays])),
+    read_from: MetricSource::View(Statistic::Share(|t| [t.dark, t.rays])),
 };

@@ -1,6 +1,6 @@
 //! Fire: length of the streaks.
 
-use super::{Better, Metric, Reading, Statistic};
+use super::{Better, Metric, MetricSource, Statistic};
 
 /// Fire: length of the streaks.
 pub static FIRE_STREAK: Metric = Metric {
@@ -12,7 +12,7 @@ pub static FIRE_STREAK: Metric = Metric {
     better: Better::More,
     observer: None,
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its \
         polarisation followed inside (scalar with --polarisation off); exits upward through the \
         crown. Area of the exiting beams brighter than 1e-3 of the incident irradiance at D, weighted \
@@ -20,5 +20,5 @@ pub static FIRE_STREAK: Metric = Metric {
         the same facets, per outline area. A surrogate. Of clear stones by exact beams, those too small \
         to be followed by photons. What a stone absorbs counts at each line.",
     source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
-    reading: Reading::Beam(Statistic::Mean(|t| [t.streak_deg, t.points], 1.0)),
+    read_from: MetricSource::PointLight(Statistic::Mean(|t| [t.streak_deg, t.points], 1.0)),
 };

@@ -1,6 +1,6 @@
 //! Glare.
 
-use super::{Better, Metric, Reading, Statistic};
+use super::{Better, Metric, MetricSource, Statistic};
 
 /// Glare.
 pub static GLARE: Metric = Metric {
@@ -12,12 +12,12 @@ pub static GLARE: Metric = Metric {
     better: Better::Neither,
     observer: None,
     by_beams: true,
-    dented: true,
+    nonconvex: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). Power reflected at entry per power arriving. \
         Directions are cosine-distributed about the crown facets' normals, points uniform by crown \
         area; those from below the horizon are not counted.",
     source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
-    reading: Reading::Hemisphere(Statistic::Smooth(|t| t.glare / t.arrived)),
+    read_from: MetricSource::Hemisphere(Statistic::Smooth(|t| t.glare / t.arrived)),
 };

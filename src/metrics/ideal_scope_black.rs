@@ -1,7 +1,7 @@
 //! Ideal-Scope: light that comes from the viewer himself.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::view::SCOPE_DEG;
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::view::SCOPE_DEG;
 
 /// Ideal-Scope: light that comes from the viewer himself.
 pub static IDEAL_SCOPE_BLACK: Metric = Metric {
@@ -13,12 +13,12 @@ pub static IDEAL_SCOPE_BLACK: Metric = Metric {
     better: Better::Neither,
     observer: Some(SCOPE_DEG),
     by_beams: true,
-    dented: true,
+    nonconvex: true,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). Share of the sight lines' power that comes from \
         within the dark cone about the viewer, by whatever facet; reflection at entry not counted. \
         The cone's half-angle is 12° (about 24° are blocked in all), or --observer.",
     source: "colours of the Ideal-Scope (K. Okuda, 1984; G. Holloway): red return, white leakage, black viewer",
-    reading: Reading::View(Statistic::Mean(|t| [t.scope_dark, t.rays], 1.0)),
+    read_from: MetricSource::View(Statistic::Mean(|t| [t.scope_dark, t.rays], 1.0)),
 };

@@ -1,7 +1,7 @@
 //! Scintillation.
 
-use super::{Better, Metric, Reading, Statistic};
-use crate::experiments::cells::OBSERVER_DEG;
+use super::{Better, Metric, MetricSource, Statistic};
+use crate::estimators::pixel_cells::AGS_OBSERVER_DEG;
 
 /// Scintillation.
 pub static SCINTILLATION: Metric = Metric {
@@ -11,9 +11,9 @@ pub static SCINTILLATION: Metric = Metric {
     range: (0.0, 2.0),
     scale: 1.0,
     better: Better::Neither,
-    observer: Some(OBSERVER_DEG),
+    observer: Some(AGS_OBSERVER_DEG),
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Parallel view traced backward over the whole outline; unpolarised light, Fresnel \
         with its polarisation followed inside (scalar with --polarisation off), D line (for a stone \
         that absorbs, luminance under D65). White dome above the horizon with a dark observer cone of \
@@ -25,5 +25,5 @@ pub static SCINTILLATION: Metric = Metric {
         height. The dome stays with the viewer. Mean |change of a cell's luminance| in a step, per \
         mean luminance, by the cells' area in the outline.",
     source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem Society; the figure is cutlab's",
-    reading: Reading::Scintillation(Statistic::Smooth(|t| t.change / t.luminance)),
+    read_from: MetricSource::Scintillation(Statistic::Smooth(|t| t.change / t.luminance)),
 };

@@ -1,9 +1,9 @@
 //! Spread.
 
 use super::weight_ratio::tolkowsky;
-use super::{Better, Metric, Reading};
-use crate::solid::Polyhedron;
-use crate::solid::measure::polygon_area;
+use super::{Better, Metric, MetricSource};
+use crate::geometry::Polyhedron;
+use crate::geometry::measure::polygon_area;
 
 /// Spread.
 pub static SPREAD: Metric = Metric {
@@ -15,11 +15,11 @@ pub static SPREAD: Metric = Metric {
     better: Better::More,
     observer: None,
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Geometry of the solid, no light. Area of the outline seen face-up per that of the \
         library's Tolkowsky brilliant of equal mass, less 1, in percent.",
     source: "defined by cutlab; proportions of the other stone: M. Tolkowsky, Diamond Design (1919)",
-    reading: Reading::Solid(|solid| Some(100.0 * (spread(solid)? - 1.0))),
+    read_from: MetricSource::Solid(|solid| Some(100.0 * (spread(solid)? - 1.0))),
 };
 
 /// Outline area per that of the Tolkowsky stone of equal mass.

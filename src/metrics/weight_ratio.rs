@@ -1,8 +1,8 @@
 //! Weight ratio.
 
-use super::{Better, Metric, Reading};
-use crate::cut::library;
-use crate::solid::Polyhedron;
+use super::{Better, Metric, MetricSource};
+use crate::design::library;
+use crate::geometry::Polyhedron;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -16,12 +16,12 @@ pub static WEIGHT_RATIO: Metric = Metric {
     better: Better::Neither,
     observer: None,
     by_beams: false,
-    dented: false,
+    nonconvex: false,
     definition: "Geometry of the solid, no light. Mass per that of the library's Tolkowsky brilliant of \
         equal girdle width (the least distance of two parallels that hold the outline) and the same \
         material.",
     source: "defined by cutlab; proportions of the other stone: M. Tolkowsky, Diamond Design (1919)",
-    reading: Reading::Solid(weight_ratio),
+    read_from: MetricSource::Solid(weight_ratio),
 };
 
 /// Volume per that of the Tolkowsky stone as wide.

@@ -1,6 +1,6 @@
 //! Windowing.
 
-use super::{Better, Metric, Reading, Statistic};
+use super::{Better, Metric, MetricSource, Statistic};
 
 /// Windowing.
 pub static WINDOWING: Metric = Metric {
@@ -12,12 +12,12 @@ pub static WINDOWING: Metric = Metric {
     better: Better::Less,
     observer: None,
     by_beams: true,
-    dented: false,
+    nonconvex: false,
     definition: "Parallel face-up view traced backward over the whole outline; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). No observer's head. Share of the outline whose \
         strongest path leaves through the first pavilion facet (or culet) that it meets; reflection \
         at entry not counted.",
     source: "the faceters' window, as defined by cutlab",
-    reading: Reading::View(Statistic::Share(|t| [t.windowed, t.rays])),
+    read_from: MetricSource::View(Statistic::Share(|t| [t.windowed, t.rays])),
 };

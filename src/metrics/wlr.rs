@@ -1,6 +1,6 @@
 //! Weighted light return.
 
-use super::{Better, Metric, Reading, Statistic};
+use super::{Better, Metric, MetricSource, Statistic};
 
 /// Weighted light return.
 pub static WLR: Metric = Metric {
@@ -12,7 +12,7 @@ pub static WLR: Metric = Metric {
     better: Better::More,
     observer: None,
     by_beams: true,
-    dented: true,
+    nonconvex: true,
     definition: "Uniform dome of light above the girdle plane, no observer's head; unpolarised light, \
         Fresnel with its polarisation followed inside (scalar with --polarisation off), D line (for a \
         stone that absorbs, luminance under D65). Power that leaves upward through the crown, \
@@ -21,5 +21,5 @@ pub static WLR: Metric = Metric {
         area; those from below the horizon are not counted.",
     source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
         which tests/scores.rs holds",
-    reading: Reading::Hemisphere(Statistic::Mean(|t| [t.returned_cos2, t.arrived], 1.0)),
+    read_from: MetricSource::Hemisphere(Statistic::Mean(|t| [t.returned_cos2, t.arrived], 1.0)),
 };

@@ -22,7 +22,7 @@ pub mod lines {
     pub const SIX: [f64; 6] = [B, C, D, E, F, G];
 }
 
-/// The wavelengths of a picture, µm: those of [`super::colour::RANGE_NM`].
+/// The wavelengths of a picture, µm: those of [`crate::color::cie::RANGE_NM`].
 pub const VISIBLE_UM: (f64, f64) = (0.380, 0.730);
 
 /// A dispersion law; λ in µm, result dimensionless.

@@ -2,7 +2,7 @@
 
 /// What happens at a smooth facet to the components across (s) and in (p) the plane of incidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facing {
+pub struct FresnelCoefficients {
     /// Reflectance of the s component.
     pub r_s: f64,
     /// Reflectance of the p component.
@@ -15,30 +15,36 @@ pub struct Facing {
     pub cos_t: f64,
 }
 
-impl Facing {
+impl FresnelCoefficients {
     /// Fresnel's coefficients.
     ///
     /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
     #[inline]
-    pub fn new(cos_i: f64, eta: f64) -> Facing {
+    pub fn new(cos_i: f64, eta: f64) -> FresnelCoefficients {
         let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
         if sin2_t < 1.0 {
             let cos_t = (1.0 - sin2_t).sqrt();
             let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
             let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-            return Facing { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
+            return FresnelCoefficients { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
         }
         // cos t = iκ: r_s r_p* = A²/|A|² with A = (cos²i + κ²)/η + i κ cos i (1/η² − 1)
         let n = 1.0 / eta;
         let kappa = (sin2_t - 1.0).sqrt();
         let (x, y) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
         let size = x * x + y * y;
-        Facing { r_s: 1.0, r_p: 1.0, re: (x * x - y * y) / size, im: 2.0 * x * y / size, cos_t: 0.0 }
+        FresnelCoefficients {
+            r_s: 1.0,
+            r_p: 1.0,
+            re: (x * x - y * y) / size,
+            im: 2.0 * x * y / size,
+            cos_t: 0.0,
+        }
     }
 
     /// Reflectance of unpolarised light, (R_s + R_p)/2.
     #[inline]
-    pub fn mean(&self) -> f64 {
+    pub fn unpolarised_reflectance(&self) -> f64 {
         0.5 * (self.r_s + self.r_p)
     }
 }
@@ -50,10 +56,10 @@ impl Facing {
 ///
 /// Returns (reflectance in 0..=1, cosine of the refraction angle); the reflectance is exactly 1
 /// and the cosine 0 beyond the critical angle.
-/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked below and in `tests/optics.rs`.
+/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked in this file's tests and in `tests/optics.rs`.
 pub fn unpolarised(cos_i: f64, eta: f64) -> (f64, f64) {
-    let facing = Facing::new(cos_i, eta);
-    (facing.mean(), facing.cos_t)
+    let facing = FresnelCoefficients::new(cos_i, eta);
+    (facing.unpolarised_reflectance(), facing.cos_t)
 }
 
 /// The critical angle in degrees of a stone of index `n` in air: beyond it light is reflected

@@ -5,7 +5,7 @@
 //! Source: Born & Wolf, *Principles of Optics*, §1.4–1.5. Checked in `tests/polarisation.rs`
 //! against field components carried in complex numbers.
 
-use super::fresnel::Facing;
+use super::fresnel::FresnelCoefficients;
 use glam::DVec3;
 
 /// A Stokes vector and the axis it is given about.
@@ -49,7 +49,7 @@ impl Stokes {
 
     /// What passes a facet of light given about its plane of incidence: what is not reflected.
     #[inline]
-    pub fn transmitted(self, f: &Facing) -> Stokes {
+    pub fn transmitted(self, f: &FresnelCoefficients) -> Stokes {
         let (t_s, t_p) = (1.0 - f.r_s, 1.0 - f.r_p);
         let (mean, half, both) = (0.5 * (t_s + t_p), 0.5 * (t_s - t_p), (t_s * t_p).max(0.0).sqrt());
         Stokes {
@@ -62,8 +62,8 @@ impl Stokes {
     }
 
     /// What a facet reflects of light given about its plane of incidence.
-    pub fn reflected(self, f: &Facing) -> Stokes {
-        let (mean, half) = (f.mean(), 0.5 * (f.r_s - f.r_p));
+    pub fn reflected(self, f: &FresnelCoefficients) -> Stokes {
+        let (mean, half) = (f.unpolarised_reflectance(), 0.5 * (f.r_s - f.r_p));
         Stokes {
             i: mean * self.i + half * self.q,
             q: half * self.i + mean * self.q,

@@ -1,16 +1,18 @@
-//! Sending photons: from the lights, through the stone, between the surfaces.
+//! Emission of photons: from the lights, through the stone, between the surfaces.
 //!
 //! Photons go in batches that travel in step: all in the world until they reach the stone, then
 //! through it sixteen at a time, then on. Each has its own random stream, so a batch is the same on
 //! any thread.
 
-use super::light::Light;
-use super::{Class, Photon, Settings, Shot};
-use crate::math::points::Points;
-use crate::math::random::Stream;
-use crate::scene::{Aim, Finish, Scene};
-use crate::transport::crossing::{self, Entering};
-use crate::transport::{Event, Past};
+use super::PhotonSets;
+use super::photon_light::PhotonLight;
+use super::{Class, PhotonSet, PhotonSettings, StoredPhoton};
+use crate::photons::stone_scattering;
+use crate::photons::stone_scattering::IncidentPhoton;
+use crate::sampling::kronecker::KroneckerPoints;
+use crate::sampling::random::Stream;
+use crate::scene::intersection::{Intersection, Past};
+use crate::scene::{Bsdf, PhotonGuide, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -38,19 +40,19 @@ const MIRRORS: u32 = 1000;
 const OUTSIDE: u32 = 3;
 
 /// What every photon of a class needs to know.
-struct Room<'a> {
+struct EmissionContext<'a> {
     scene: &'a Scene,
     class: Class,
     seed: u64,
-    aim: Aim,
+    aim: PhotonGuide,
     /// For each light the probability that a photon starts there, summed up.
     cumulative: Vec<f32>,
 }
 
-impl Room<'_> {
-    fn new(scene: &Scene, class: Class, seed: u64) -> Room<'_> {
-        let aim = scene.aim(AIMED);
-        let reach = |l: &crate::scene::Light| l.emitter.reach(&aim) * (l.radiance.element_sum() / 3.0);
+impl EmissionContext<'_> {
+    fn new(scene: &Scene, class: Class, seed: u64) -> EmissionContext<'_> {
+        let aim = scene.photon_guide(AIMED);
+        let reach = |l: &crate::scene::Light| l.emitter.importance(&aim) * (l.radiance.element_sum() / 3.0);
         let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
         let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
         let total: f32 = reaches.iter().map(|r| r + floor).sum();
@@ -62,7 +64,7 @@ impl Room<'_> {
                 sum
             })
             .collect();
-        Room { scene, class, seed, aim, cumulative }
+        EmissionContext { scene, class, seed, aim, cumulative }
     }
 }
 
@@ -70,22 +72,22 @@ impl Room<'_> {
 /// of them the result holds what was found.
 ///
 /// - `from`: number of the first photon; shots that follow each other have none in common
-pub fn shoot(scene: &Scene, class: Class, settings: &Settings, from: u64) -> Shot {
+pub fn emit(scene: &Scene, class: Class, settings: &PhotonSettings, from: u64) -> PhotonSet {
     let target = settings.photons;
     let possible = match class {
         Class::Caustic => scene.has_caustics(),
         Class::Indirect => scene.has_indirect_light(),
     };
     if !possible {
-        return Shot::default();
+        return PhotonSet::default();
     }
-    let room = Room::new(scene, class, settings.seed);
-    let mut photons: Vec<Photon> = Vec::new();
+    let room = EmissionContext::new(scene, class, settings.seed);
+    let mut photons: Vec<StoredPhoton> = Vec::new();
     let mut emitted = 0;
     let (patience, more_patience) = (PATIENCE * target as u64, PATIENCE * PATIENCE * target as u64);
     'enough: loop {
         let first = from + emitted;
-        let batches: Vec<Vec<(u64, Photon)>> =
+        let batches: Vec<Vec<(u64, StoredPhoton)>> =
             (0..ROUND).into_par_iter().map(|b| batch(&room, first + b * BATCH, BATCH)).collect();
         for batch in batches {
             let wanted = target - photons.len();
@@ -102,12 +104,12 @@ pub fn shoot(scene: &Scene, class: Class, settings: &Settings, from: u64) -> Sho
         }
     }
     photons.iter_mut().for_each(|photon| photon.power /= emitted as f32);
-    Shot { photons, emitted }
+    PhotonSet { photons, emitted }
 }
 
 /// Where a photon starts: light, wavelength, two for the place on it, three for the direction.
 /// Evenly spread over all photons, which makes maps smoother than independent draws do.
-type Place = [f64; 7];
+type EmissionUniforms = [f64; 7];
 
 /// Number of the stream that shifts the places; photons have the numbers from 0.
 const PLACES: u64 = u64::MAX;
@@ -115,50 +117,51 @@ const PLACES: u64 = u64::MAX;
 /// What a photon met last: a light, a surface, a stone or a mirror, of that number. What comes from a
 /// mirror counts as caustic, for no shadow ray finds it.
 #[derive(Clone, Copy, PartialEq)]
-enum Last {
+enum LastEvent {
     Light(usize),
     Surface(usize),
     Stone(usize),
     Mirror(usize),
 }
 
-impl Last {
+impl LastEvent {
     fn past(self) -> Past {
         match self {
-            Last::Light(i) => Past::Light(i),
-            Last::Surface(i) | Last::Mirror(i) => Past::Surface(i),
-            Last::Stone(i) => Past::Stone(i),
+            LastEvent::Light(i) => Past::Light(i),
+            LastEvent::Surface(i) | LastEvent::Mirror(i) => Past::Surface(i),
+            LastEvent::Stone(i) => Past::Stone(i),
         }
     }
 }
 
 /// A photon under way.
-struct Flight {
+struct PhotonPath {
     stream: Stream,
     number: u64,
     point: Vec3,
     direction: Vec3,
-    light: Light,
-    /// Uniform number by which the wavelength is chosen at the first meeting with the stone.
+    light: PhotonLight,
+    /// Uniform number by which the wavelength is chosen at the first interaction with the stone.
     hue: f32,
-    last: Last,
+    last: LastEvent,
 }
 
 /// Emits photons `from .. from + count` and returns those of the class that landed, in order.
-fn batch(room: &Room, from: u64, count: u64) -> Vec<(u64, Photon)> {
+fn batch(room: &EmissionContext, from: u64, count: u64) -> Vec<(u64, StoredPhoton)> {
     let mut landed = Vec::new();
-    let places = Points::new(room.seed, room.class.purpose(), PLACES, from..from + count);
-    let mut flights: Vec<Flight> =
-        (from..from + count).zip(places).filter_map(|(n, place)| emit(room, n, place)).collect();
-    let mut arrivals: Vec<Vec<(Flight, Entering)>> = room.scene.stones.iter().map(|_| Vec::new()).collect();
+    let places = KroneckerPoints::new(room.seed, room.class.purpose(), PLACES, from..from + count);
+    let mut flights: Vec<PhotonPath> =
+        (from..from + count).zip(places).filter_map(|(n, place)| start_path(room, n, place)).collect();
+    let mut arrivals: Vec<Vec<(PhotonPath, IncidentPhoton)>> =
+        room.scene.stones.iter().map(|_| Vec::new()).collect();
     while !flights.is_empty() {
         for flight in flights.drain(..) {
-            if let Some((stone, arrived)) = fly(room, flight, &mut landed) {
+            if let Some((stone, arrived)) = trace(room, flight, &mut landed) {
                 arrivals[stone].push(arrived);
             }
         }
         for (stone, arrivals) in arrivals.iter_mut().enumerate() {
-            cross_all(room.scene, stone, arrivals, &mut flights);
+            scatter_all(room.scene, stone, arrivals, &mut flights);
         }
     }
     // the order of landing depends on how long each photon took; the order of the map must not
@@ -169,43 +172,43 @@ fn batch(room: &Room, from: u64, count: u64) -> Vec<(u64, Photon)> {
 /// A photon leaving one of the lights.
 ///
 /// - `place`: its point of the cube of light, wavelength, place and direction
-fn emit(room: &Room, number: u64, place: Place) -> Option<Flight> {
+fn start_path(room: &EmissionContext, number: u64, place: EmissionUniforms) -> Option<PhotonPath> {
     let [which, hue, s, t, pick, u, v] = place.map(|x| x as f32);
     let lights = &room.scene.lights;
     let i = room.cumulative.partition_point(|c| *c <= which).min(lights.len().checked_sub(1)?);
     let before = if i == 0 { 0.0 } else { room.cumulative[i - 1] };
-    let start = lights[i].emitter.leave(&room.aim, [s, t, pick, u, v])?;
+    let start = lights[i].emitter.sample_le(&room.aim, [s, t, pick, u, v])?;
     let power = start.power / (room.cumulative[i] - before);
     let mut stream = Stream::new(room.seed, room.class.purpose(), number);
-    let light = Light::new(|nm| lights[i].at(power, nm), stream.unit());
+    let light = PhotonLight::new(|nm| lights[i].radiance_at(power, nm), stream.unit());
     let (point, direction) = (start.point, start.direction);
-    Some(Flight { stream, number, point, direction, light, hue, last: Last::Light(i) })
+    Some(PhotonPath { stream, number, point, direction, light, hue, last: LastEvent::Light(i) })
 }
 
 /// Carries a photon through the world until it ends or reaches a stone.
-fn fly(
-    room: &Room,
-    mut flight: Flight,
-    landed: &mut Vec<(u64, Photon)>,
-) -> Option<(usize, (Flight, Entering))> {
+fn trace(
+    room: &EmissionContext,
+    mut flight: PhotonPath,
+    landed: &mut Vec<(u64, StoredPhoton)>,
+) -> Option<(usize, (PhotonPath, IncidentPhoton))> {
     let scene = room.scene;
     let mut mirrors = 0;
     loop {
-        match scene.first(flight.point, flight.direction, flight.last.past()) {
-            Event::Stone(stone, arrival) => {
+        match scene.intersect(flight.point, flight.direction, flight.last.past()) {
+            Intersection::Stone(stone, arrival) => {
                 let nm = flight.light.single_wavelength(flight.hue);
                 let choice = flight.stream.unit64();
-                return Some((stone, (flight, Entering { arrival, nm, choice })));
+                return Some((stone, (flight, IncidentPhoton { hit: arrival, nm, choice })));
             }
-            Event::Surface(at) => match &scene.surfaces[at.surface].finish {
-                Finish::Diffuse(reflectance) => {
+            Intersection::Surface(at) => match &scene.surfaces[at.surface].finish {
+                Bsdf::Diffuse(reflectance) => {
                     let wanted = match flight.last {
-                        Last::Light(_) => false,
-                        Last::Stone(_) | Last::Mirror(_) => room.class == Class::Caustic,
-                        Last::Surface(_) => room.class == Class::Indirect,
+                        LastEvent::Light(_) => false,
+                        LastEvent::Stone(_) | LastEvent::Mirror(_) => room.class == Class::Caustic,
+                        LastEvent::Surface(_) => room.class == Class::Indirect,
                     };
                     if wanted {
-                        landed.push((flight.number, Photon::new(&at, flight.light.spectrum())));
+                        landed.push((flight.number, StoredPhoton::new(&at, flight.light.spectrum())));
                     }
                     if !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
@@ -214,34 +217,54 @@ fn fly(
                     let (direction, weight) = room.aim.direction(at.point, at.normal, 1.0, pick, u)?;
                     flight.point = scene.start(&at);
                     flight.direction = direction;
-                    flight.light.weigh(weight);
-                    flight.last = Last::Surface(at.surface);
+                    flight.light.scale(weight);
+                    flight.last = LastEvent::Surface(at.surface);
                 }
-                Finish::Mirror(reflectance) => {
+                Bsdf::Mirror(reflectance) => {
                     mirrors += 1;
                     if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
                         return None;
                     }
                     flight.point = scene.start(&at);
                     flight.direction = flight.direction.reflect(at.normal);
-                    flight.last = Last::Mirror(at.surface);
+                    flight.last = LastEvent::Mirror(at.surface);
                 }
             },
-            Event::Light(..) | Event::Nothing => return None,
+            Intersection::Light(..) | Intersection::None => return None,
         }
     }
 }
 
 /// Takes all photons that have reached a stone through it.
-fn cross_all(scene: &Scene, number: usize, arrivals: &mut Vec<(Flight, Entering)>, out: &mut Vec<Flight>) {
+fn scatter_all(
+    scene: &Scene,
+    number: usize,
+    arrivals: &mut Vec<(PhotonPath, IncidentPhoton)>,
+    out: &mut Vec<PhotonPath>,
+) {
     let placed = &scene.stones[number];
-    let entering: Vec<Entering> = arrivals.iter().map(|(_, e)| *e).collect();
-    let departures = crossing::cross(placed, scene.most_meetings(OUTSIDE), &entering);
+    let entering: Vec<IncidentPhoton> = arrivals.iter().map(|(_, e)| *e).collect();
+    let departures = stone_scattering::scatter(placed, scene.max_bounces(OUTSIDE), &entering);
     for ((mut flight, _), departure) in arrivals.drain(..).zip(departures) {
         flight.point = placed.point_to_world(departure.point);
         flight.direction = placed.direction_to_world(departure.direction);
-        flight.light.weigh(departure.share);
-        flight.last = Last::Stone(number);
+        flight.light.scale(departure.share);
+        flight.last = LastEvent::Stone(number);
         out.push(flight);
+    }
+}
+
+impl PhotonSets {
+    /// Sends photons through a scene until each class has as many as asked for.
+    pub fn emit(scene: &Scene, settings: &PhotonSettings) -> PhotonSets {
+        PhotonSets::resume(scene, settings, [0, 0])
+    }
+
+    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
+    pub fn resume(scene: &Scene, settings: &PhotonSettings, [caustic, indirect]: [u64; 2]) -> PhotonSets {
+        PhotonSets {
+            caustic: emit(scene, Class::Caustic, settings, caustic),
+            indirect: emit(scene, Class::Indirect, settings, indirect),
+        }
     }
 }

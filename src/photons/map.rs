@@ -2,13 +2,13 @@
 //!
 //! A map for each side of each surface: photons of two walls, or of the two sides of one, never mix.
 
-use super::cells::{self, Cell};
-use super::images::Edges;
-use super::{Photon, Shot, Spectrum};
-use crate::optics::colour::BANDS;
+use super::mirror_images::PlateEdges;
+use super::surface_cells::{self, SurfaceCell};
+use super::{BandSpectrum, PhotonSet, StoredPhoton};
+use crate::color::cie::BANDS;
+use crate::scene::intersection::SurfacePoint;
 use crate::scene::surface::{Plate, Shape};
 use crate::scene::{Scene, Surface};
-use crate::transport::SurfacePoint;
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use rayon::prelude::*;
@@ -29,14 +29,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Estimation*, 1986, §5.3. Checked in `tests/estimate.rs`.
 pub struct PhotonMap {
     /// Front and back of each surface.
-    sheets: Vec<[Option<Sheet>; 2]>,
+    surface_maps: Vec<[Option<SurfaceMap>; 2]>,
 }
 
 /// Light of one class on one side of a surface.
-struct Sheet {
+struct SurfaceMap {
     places: Tree,
-    cells: Vec<Cell>,
-    irradiance: Vec<Spectrum>,
+    cells: Vec<SurfaceCell>,
+    irradiance: Vec<BandSpectrum>,
     /// Longest edge of a cell as a share of its radius.
     edge: f32,
 }
@@ -64,28 +64,29 @@ impl PhotonMap {
     /// Arranges photons for look-up.
     ///
     /// - `nearest`: photons over which each is spread
-    pub fn new(scene: &Scene, shot: Shot, nearest: usize) -> PhotonMap {
-        let mut sides: Vec<[Vec<&Photon>; 2]> = scene.surfaces.iter().map(|_| Default::default()).collect();
+    pub fn new(scene: &Scene, shot: PhotonSet, nearest: usize) -> PhotonMap {
+        let mut sides: Vec<[Vec<&StoredPhoton>; 2]> =
+            scene.surfaces.iter().map(|_| Default::default()).collect();
         for photon in &shot.photons {
             if let Some(side) = sides.get_mut(usize::from(photon.surface)) {
                 side[usize::from(!photon.front)].push(photon);
             }
         }
-        let both = |(surface, [front, back]): (&Surface, &[Vec<&Photon>; 2])| {
-            [Sheet::new(surface, true, front, nearest), Sheet::new(surface, false, back, nearest)]
+        let both = |(surface, [front, back]): (&Surface, &[Vec<&StoredPhoton>; 2])| {
+            [SurfaceMap::new(surface, true, front, nearest), SurfaceMap::new(surface, false, back, nearest)]
         };
-        PhotonMap { sheets: scene.surfaces.iter().zip(&sides).map(both).collect() }
+        PhotonMap { surface_maps: scene.surfaces.iter().zip(&sides).map(both).collect() }
     }
 
-    fn sheet(&self, at: &SurfacePoint) -> Option<&Sheet> {
-        self.sheets[at.surface][usize::from(!at.front)].as_ref()
+    fn surface_map(&self, at: &SurfacePoint) -> Option<&SurfaceMap> {
+        self.surface_maps[at.surface][usize::from(!at.front)].as_ref()
     }
 
     /// Irradiance in each band at a place, interpolated between the cells around it; for what the camera
     /// sees directly. Also the radius of the estimate: within a small part of it the irradiance is the
     /// same.
-    pub fn irradiance(&self, at: &SurfacePoint) -> (Spectrum, f32) {
-        let Some(sheet) = self.sheet(at) else { return ([0.0; BANDS], f32::INFINITY) };
+    pub fn irradiance(&self, at: &SurfacePoint) -> (BandSpectrum, f32) {
+        let Some(sheet) = self.surface_map(at) else { return ([0.0; BANDS], f32::INFINITY) };
         let nearest = sheet.nearest(at.point, at.normal);
         let radius = sheet.cells[nearest].radius;
         let share = AROUND * sheet.edge;
@@ -109,30 +110,30 @@ impl PhotonMap {
     }
 
     /// Irradiance of the nearest cell: for what is seen through the stone.
-    pub fn irradiance_nearby(&self, at: &SurfacePoint) -> &Spectrum {
-        static NONE: Spectrum = [0.0; BANDS];
-        self.sheet(at).map_or(&NONE, |sheet| &sheet.irradiance[sheet.nearest(at.point, at.normal)])
+    pub fn irradiance_nearby(&self, at: &SurfacePoint) -> &BandSpectrum {
+        static NONE: BandSpectrum = [0.0; BANDS];
+        self.surface_map(at).map_or(&NONE, |sheet| &sheet.irradiance[sheet.nearest(at.point, at.normal)])
     }
 }
 
-impl Sheet {
+impl SurfaceMap {
     /// None where no photon is.
-    fn new(surface: &Surface, front: bool, photons: &[&Photon], nearest: usize) -> Option<Sheet> {
+    fn new(surface: &Surface, front: bool, photons: &[&StoredPhoton], nearest: usize) -> Option<SurfaceMap> {
         let nearest = nearest.max(FEW);
-        let radii = Radii::new(surface, photons, nearest)?;
+        let radii = GatherRadii::new(surface, photons, nearest)?;
         let edge = (EDGE * (ENOUGH_FOR_EDGE / nearest as f32).sqrt().max(1.0)).min(LONGEST);
-        let mut cells = cells::divide(surface, edge, &|place| radii.at(place));
+        let mut cells = surface_cells::divide(surface, edge, &|place| radii.radius(place));
         if !front {
             cells.iter_mut().for_each(|cell| cell.normal = -cell.normal);
         }
         let points: Vec<[f32; 3]> = cells.iter().map(|cell| cell.point.to_array()).collect();
         let places = Tree::new_from_slice(&points).ok()?;
-        let mut sheet = Sheet { places, cells, irradiance: Vec::new(), edge };
-        let mut homes: Vec<(u32, &Photon)> =
+        let mut sheet = SurfaceMap { places, cells, irradiance: Vec::new(), edge };
+        let mut homes: Vec<(u32, &StoredPhoton)> =
             photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
         homes.par_sort_by_key(|(home, _)| *home); // stable
-        let shares = Shares::new(photons, sheet.cells.len());
-        let edges = plate(surface).and_then(Edges::new);
+        let shares = CellPowers::new(photons, sheet.cells.len());
+        let edges = plate(surface).and_then(PlateEdges::new);
         homes
             .par_chunk_by(|a, b| a.0 == b.0)
             .for_each(|of_one| sheet.share_out(of_one, edges.as_ref(), &shares));
@@ -158,10 +159,10 @@ impl Sheet {
     /// Shares out the power of photons that lie in the same cell among the cells around.
     ///
     /// - `edges`: of the surface, if it is a plate
-    fn share_out(&self, photons: &[(u32, &Photon)], edges: Option<&Edges>, shares: &Shares) {
+    fn share_out(&self, photons: &[(u32, &StoredPhoton)], edges: Option<&PlateEdges>, shares: &CellPowers) {
         let Some((home, _)) = photons.first() else { return };
         let home = *home as usize;
-        let Cell { point, radius, .. } = self.cells[home];
+        let SurfaceCell { point, radius, .. } = self.cells[home];
         let apart = photons.iter().map(|(_, p)| p.point.distance(point)).fold(0.0, f32::max);
         let mut around = vec![home];
         let reach2 = (radius + apart).powi(2);
@@ -188,7 +189,7 @@ impl Sheet {
                 // no middle within reach: all stays at home, which comes first
                 (weights[0], total) = (1.0, 1.0);
             }
-            let power: Spectrum = std::array::from_fn(|b| photon.in_band(b) / total);
+            let power: BandSpectrum = std::array::from_fn(|b| photon.in_band(b) / total);
             for (sum, weight) in sums.iter_mut().zip(&weights) {
                 (0..BANDS).for_each(|b| sum[b] += power[b] * weight);
             }
@@ -206,7 +207,7 @@ fn plate(surface: &Surface) -> Option<&Plate> {
 }
 
 /// Over how wide a disc the photons of a side are spread.
-struct Radii<'a> {
+struct GatherRadii<'a> {
     /// The surface, if it is a plate.
     plate: Option<&'a Plate>,
     /// Every n-th photon in the order of emission, n the same for the whole side.
@@ -219,14 +220,14 @@ struct Radii<'a> {
     diagonal: f32,
 }
 
-impl<'a> Radii<'a> {
+impl<'a> GatherRadii<'a> {
     /// None where no photon is.
-    fn new(surface: &'a Surface, photons: &[&Photon], nearest: usize) -> Option<Radii<'a>> {
+    fn new(surface: &'a Surface, photons: &[&StoredPhoton], nearest: usize) -> Option<GatherRadii<'a>> {
         let (low, high) = surface.bounds();
         let every = (nearest / PILOTS).min(photons.len() / (2 * PILOTS)).max(1);
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
         let count = PILOTS.min(points.len() / 2);
-        Some(Radii {
+        Some(GatherRadii {
             plate: plate(surface),
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
@@ -235,7 +236,7 @@ impl<'a> Radii<'a> {
         })
     }
 
-    fn at(&self, place: Vec3) -> f32 {
+    fn radius(&self, place: Vec3) -> f32 {
         let Some(counted) = self.counted else { return self.diagonal };
         let at = place.to_array();
         let found = self.pilots.query(&at).nearest_n::<SquaredEuclidean<f32>>(counted).unsorted().execute();
@@ -252,19 +253,19 @@ fn share_of_disc(plate: &Plate, place: Vec3, radius: f32) -> f32 {
     let u = plate.u.normalize();
     let v = plate.normal().cross(u);
     let tips = [u, -u, v, -v];
-    if tips.iter().all(|tip| plate.holds(place + *tip * radius)) {
+    if tips.iter().all(|tip| plate.contains(place + *tip * radius)) {
         return 1.0; // a disc whose four tips lie on a rectangle lies on it whole
     }
     let inside = |i: &usize| {
         let (r, phi) = (radius * ((*i as f32 + 0.5) / POINTS as f32).sqrt(), *i as f32 * 2.399_963); // golden angle
-        plate.holds(place + u * (r * phi.cos()) + v * (r * phi.sin()))
+        plate.contains(place + u * (r * phi.cos()) + v * (r * phi.sin()))
     };
     (0..POINTS).filter(inside).count().max(1) as f32 / POINTS as f32
 }
 
 /// Power of each band that cells have got so far, in whole numbers: their sums do not depend on the order
 /// in which threads add to them.
-struct Shares {
+struct CellPowers {
     sums: Vec<[AtomicU64; BANDS]>,
     /// Whole numbers for each unit of power.
     unit: f64,
@@ -273,14 +274,14 @@ struct Shares {
 /// The whole number for all power of a side.
 const ALL: f64 = (1u64 << 62) as f64;
 
-impl Shares {
-    fn new(photons: &[&Photon], cells: usize) -> Shares {
+impl CellPowers {
+    fn new(photons: &[&StoredPhoton], cells: usize) -> CellPowers {
         let total: f64 = photons.iter().map(|p| f64::from(p.power.abs())).sum();
         let sums = (0..cells).map(|_| Default::default()).collect();
-        Shares { sums, unit: ALL / total.max(f64::MIN_POSITIVE) }
+        CellPowers { sums, unit: ALL / total.max(f64::MIN_POSITIVE) }
     }
 
-    fn add(&self, cell: usize, power: &Spectrum) {
+    fn add(&self, cell: usize, power: &BandSpectrum) {
         for (sum, power) in self.sums[cell].iter().zip(power) {
             if *power > 0.0 {
                 sum.fetch_add((f64::from(*power) * self.unit) as u64, Ordering::Relaxed);
@@ -288,8 +289,8 @@ impl Shares {
         }
     }
 
-    fn over_areas(self, cells: &[Cell]) -> Vec<Spectrum> {
-        let one = |(sums, cell): (&[AtomicU64; BANDS], &Cell)| {
+    fn over_areas(self, cells: &[SurfaceCell]) -> Vec<BandSpectrum> {
+        let one = |(sums, cell): (&[AtomicU64; BANDS], &SurfaceCell)| {
             let over =
                 |sum: &AtomicU64| sum.load(Ordering::Relaxed) as f64 / self.unit / f64::from(cell.area);
             std::array::from_fn(|b| over(&sums[b]) as f32)

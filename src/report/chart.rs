@@ -1,11 +1,11 @@
 //! Where a round brilliant stands on the contour map of light return.
 
-use super::plot::{Axis, Drawing, Style};
-use crate::cut::families;
-use crate::cut::proportions::Proportions;
+use super::plot::{Axis, ScorePlot, Style};
+use crate::batch::table::{NumericColumns, TableError, TableFormat};
+use crate::design::families;
+use crate::design::proportions::Proportions;
+use crate::materials::Material;
 use crate::metrics::Metric;
-use crate::optics::Material;
-use crate::study::table::{Form, Numbers, TableError};
 
 /// A sweep of the reference brilliant in diamond; `reports/sweeps/README.md` has its command.
 const TABLE: &str = include_str!("../../reports/sweeps/crown-pavilion-wlr.csv");
@@ -18,27 +18,27 @@ const ENDS: [(f64, f64); 2] = [(30.0, 38.0), (40.0, 42.0)];
 /// The map with a stone on it as SVG, and a line about it; none for what is no round brilliant.
 ///
 /// - `proportions`, `material`: of the stone
-pub fn of(proportions: &Proportions, material: &Material) -> Result<Option<(String, String)>, TableError> {
+pub fn draw(proportions: &Proportions, material: &Material) -> Result<Option<(String, String)>, TableError> {
     let p = proportions;
     let (Some(_), Some(crown), Some(pavilion)) = (p.brilliant, p.crown_angle_deg, p.pavilion_angle_deg)
     else {
         return Ok(None);
     };
-    let (Some(family), Some(metric)) = (families::family("round-brilliant").ok(), Metric::named("wlr"))
+    let (Some(family), Some(metric)) = (families::family("round-brilliant").ok(), Metric::by_name("wlr"))
     else {
         return Ok(None);
     };
     let at = [crown, pavilion];
-    let drawing = Drawing {
+    let drawing = ScorePlot {
         metric,
-        axes: &KEYS.map(|key| Axis::of(key, Some(family))),
+        axes: &KEYS.map(|key| Axis::new(key, Some(family))),
         stone: "round-brilliant",
         family: Some(family),
         is_diamond: true,
         style: &Style::default(),
         own: Some(("this stone", &at)),
     };
-    let svg = drawing.svg(&Numbers::read(TABLE.as_bytes(), Form::Csv)?, false, &[]);
+    let svg = drawing.svg(&NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv)?, false, &[]);
     let mut caption = String::from(
         "Map of the reference brilliant in diamond: table 56, star 50, lower half 75, girdle 3; the stone’s own \
          table, halves and girdle may differ.",
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn the_ends_are_those_of_the_table() {
-        let numbers = Numbers::read(TABLE.as_bytes(), Form::Csv).expect("can be read");
+        let numbers = NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv).expect("can be read");
         for (key, ends) in KEYS.iter().zip(ENDS) {
             let known = || numbers.column(key).iter().flatten().copied();
             let reach = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));

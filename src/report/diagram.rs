@@ -3,22 +3,22 @@
 
 mod facts;
 mod labels;
-mod pen;
 pub mod projection;
 mod rows;
+mod svg_canvas;
 mod table;
 mod views;
 mod wheel;
 
-pub use pen::Paper;
-pub use projection::View;
+pub use projection::DiagramView;
+pub use svg_canvas::Paper;
 
-use crate::cut::{Design, proportions};
-use crate::solid::SolidError;
+use crate::design::{Design, proportions};
+use crate::geometry::SolidError;
 use glam::DVec2;
-use pen::{Anchor, Pen};
-use table::Set;
-use views::Stone;
+use svg_canvas::{Anchor, SvgCanvas};
+use table::TypesetTable;
+use views::StoneViews;
 
 /// Edge of the page that stays white, in mm: what any printer reaches.
 const MARGIN: f64 = 12.0;
@@ -53,7 +53,7 @@ pub fn draw_on(design: &Design, index: Option<f64>, paper: Paper) -> Result<Stri
     let solid = design.solid()?;
     let measures = proportions::measure(&solid);
     let rows = rows::rows(design, &solid);
-    let stone = Stone::new(&solid, &rows, design.gear);
+    let stone = StoneViews::new(&solid, &rows, design.gear);
     let wide = page.x - 2.0 * MARGIN;
     let above = facts::above(design, &measures, index, wide);
     let below = facts::below(design, &rows, wide);
@@ -69,13 +69,13 @@ pub fn draw_on(design: &Design, index: Option<f64>, paper: Paper) -> Result<Stri
             0.0 => table::cut_short(&rows, design.gear, room),
             _ => table::fit(&rows, design.gear, room, least),
         };
-        table.map(|table| Layout { side, scale, height, start, table })
+        table.map(|table| PageLayout { side, scale, height, start, table })
     };
     let last = CHOICES[CHOICES.len() - 1];
     let layout = CHOICES.iter().find_map(|&(side, most, least)| set(side, most, least));
     let layout = layout.or_else(|| set(last.0, last.1, 0.0));
 
-    let mut pen = Pen::new(&design.name, paper);
+    let mut pen = SvgCanvas::new(&design.name, paper);
     above.draw(&mut pen, DVec2::new(MARGIN, MARGIN));
     pen.rule(DVec2::new(MARGIN, top - 0.5 * SPACE), wide);
     if let Some(layout) = layout {
@@ -87,7 +87,7 @@ pub fn draw_on(design: &Design, index: Option<f64>, paper: Paper) -> Result<Stri
 }
 
 /// Where everything stands.
-struct Layout {
+struct PageLayout {
     /// Width of a plan with its wheel.
     side: f64,
     /// Scale and height of the side views.
@@ -95,18 +95,18 @@ struct Layout {
     height: f64,
     /// Top of the table.
     start: f64,
-    table: Set,
+    table: TypesetTable,
 }
 
 /// Scale and height of the side views: the plans' scale, or less for a tall stone.
-fn side_view(stone: &Stone, side: f64, most: f64) -> (f64, f64) {
-    let tall = stone.extent(View::Side).y;
+fn side_view(stone: &StoneViews, side: f64, most: f64) -> (f64, f64) {
+    let tall = stone.extent(DiagramView::Side).y;
     let scale = stone.scale(side).min(most / tall);
     (scale, scale * tall)
 }
 
-impl Layout {
-    fn draw(&self, pen: &mut Pen, stone: &Stone, top: f64, page: DVec2) {
+impl PageLayout {
+    fn draw(&self, pen: &mut SvgCanvas, stone: &StoneViews, top: f64, page: DVec2) {
         let middles = [0.27 * page.x, 0.73 * page.x];
         let zero = wheel::index_name(stone.gear.offset, stone.gear);
         let quarter = wheel::index_name(stone.gear.offset + 0.25 * stone.gear.teeth, stone.gear);
@@ -118,10 +118,10 @@ impl Layout {
         let plan = top + 0.5 * self.side;
         let caption = top + self.side + CAPTION_LINE - 1.0;
         for (middle, view, said) in [
-            (middles[0], View::Crown, format!("Crown, from above; indices {}", runs.0)),
+            (middles[0], DiagramView::Crown, format!("Crown, from above; indices {}", runs.0)),
             (
                 middles[1],
-                View::Pavilion,
+                DiagramView::Pavilion,
                 format!("Pavilion, from below, turned over left to right; indices {}", runs.1),
             ),
         ] {
@@ -131,15 +131,17 @@ impl Layout {
             } else {
                 format!("; too small: {}", nowhere.join(", "))
             };
-            let said = pen::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * page.x - MARGIN);
+            let said = svg_canvas::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * page.x - MARGIN);
             pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);
         }
         let sides = caption + 1.0 + SPACE;
         let smaller = self.scale / stone.scale(self.side);
         let how = if smaller < 0.995 { format!(" (× {smaller:.2})") } else { String::new() };
-        for (middle, view, index) in [(middles[0], View::Side, zero), (middles[1], View::End, quarter)] {
+        for (middle, view, index) in
+            [(middles[0], DiagramView::Side, zero), (middles[1], DiagramView::End, quarter)]
+        {
             stone.side(pen, view, DVec2::new(middle, sides + 0.5 * self.height), self.scale);
-            let name = if view == View::Side { "Side" } else { "End" };
+            let name = if view == DiagramView::Side { "Side" } else { "End" };
             let said = format!("{name}, from index {index}{how}");
             let at = DVec2::new(middle, sides + self.height + CAPTION_LINE - 0.6);
             pen.text(at, CAPTION, Anchor::Middle, false, &said);

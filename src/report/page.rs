@@ -2,14 +2,15 @@
 
 mod scores;
 
-pub use scores::{Score, Section};
+pub use super::html::escaped;
+pub(super) use super::html::{data_uri, svg_uri};
+pub use scores::{PageScore, Section};
 
 use super::references::STONES;
-use super::scopes::Picture;
-use super::tilts::Plot;
-use crate::cut::proportions::Proportions;
-use crate::math::stats::Estimate;
-use base64::Engine;
+use super::tilt_curves::TiltPlot;
+use super::viewer_images::ViewerPicture;
+use crate::design::proportions::Proportions;
+use crate::sampling::stats::Estimate;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
@@ -34,13 +35,13 @@ pub struct Page<'a> {
     /// The picture on the table as PNG, and a line under it.
     pub picture: Option<(&'a [u8], String)>,
     /// The pictures through scopes.
-    pub scopes: &'a [Picture],
+    pub scopes: &'a [ViewerPicture],
     /// The cutting diagram as SVG.
     pub diagram: &'a str,
     /// The scores.
     pub sections: &'a [Section],
     /// Scores against the tilt.
-    pub tilts: &'a [Plot],
+    pub tilts: &'a [TiltPlot],
     /// The stone on the contour map as SVG, and a line under it; for round brilliants.
     pub map: Option<(String, String)>,
     /// What the reference stones are of.
@@ -51,22 +52,6 @@ pub struct Page<'a> {
     pub command: String,
     /// Files beside the page.
     pub files: &'a [String],
-}
-
-/// Text as HTML or XML, which has no control characters.
-pub fn escaped(text: &str) -> String {
-    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// A PNG picture inside the page.
-pub(super) fn data_uri(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
-}
-
-/// A drawing inside the page; as a picture of its own, so that no name in it meets another's.
-pub(super) fn svg_uri(svg: &str) -> String {
-    format!("data:image/svg+xml;base64,{}", base64::engine::general_purpose::STANDARD.encode(svg))
 }
 
 /// The beginning of a page, up to its content.
@@ -82,7 +67,7 @@ pub(super) fn head(title: &str, style: &str, sub: &str) -> String {
 }
 
 /// A picture through a scope, with its legend and shares.
-pub(super) fn scope_figure(picture: &Picture) -> String {
+pub(super) fn scope_figure(picture: &ViewerPicture) -> String {
     let scope = picture.scope;
     let colour =
         if picture.without_colour { "; without the colour of the stone, which the scores have" } else { "" };
@@ -107,7 +92,7 @@ pub(super) fn scope_figure(picture: &Picture) -> String {
 }
 
 /// The plots of scores against the tilt.
-pub(super) fn tilt_section(plots: &[Plot]) -> String {
+pub(super) fn tilt_section(plots: &[TiltPlot]) -> String {
     let mut out = String::from(
         "<section>\n<h2>Tilted</h2>\n<p class=\"note\">Scores of the stone as it is tilted about the x axis before a viewer \
          who stays with the light; the band holds the value 95 times in 100.</p>\n<div class=\"plots\">\n",
@@ -126,7 +111,7 @@ pub(super) fn tilt_section(plots: &[Plot]) -> String {
 
 /// A number with two digits of its error, and the error; a small number in powers of ten. What is nothing
 /// in the digits shown has no sign.
-pub fn number(e: Estimate) -> (String, Option<String>) {
+pub fn estimate_html(e: Estimate) -> (String, Option<String>) {
     let unsigned = |text: String| {
         let nothing = text.parse::<f64>() == Ok(0.0);
         if nothing { text.trim_start_matches('-').to_owned() } else { text }
@@ -144,7 +129,7 @@ pub fn number(e: Estimate) -> (String, Option<String>) {
 /// A score with its error as HTML.
 pub(super) fn cell(value: Option<Estimate>, unit: &str) -> String {
     let minus = |text: String| text.replace('-', "−");
-    match value.map(number).map(|(value, error)| (minus(value), error.map(minus))) {
+    match value.map(estimate_html).map(|(value, error)| (minus(value), error.map(minus))) {
         Some((value, Some(error))) => {
             format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>")
         }
@@ -299,7 +284,7 @@ mod tests {
 
     #[test]
     fn numbers_show_two_digits_of_their_error() {
-        let shown = |value, error| number(Estimate { value, error });
+        let shown = |value, error| estimate_html(Estimate { value, error });
         assert_eq!(shown(0.283_21, 0.000_43), ("0.28321".into(), Some("0.00043".into())));
         assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
         assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));
@@ -309,15 +294,16 @@ mod tests {
     /// A stone that absorbs is drawn without its colour, and its pictures say so.
     #[test]
     fn captions_tell_of_a_colour_that_is_not_shown() {
-        let octahedron = crate::cut::library::design("octahedron", &Default::default()).expect("a cut");
+        let octahedron = crate::design::library::design("octahedron", &Default::default()).expect("a cut");
         let solid = octahedron.expect("can be made").solid().expect("closed");
-        let scopes = &super::super::scopes::SCOPES;
+        let scopes = &super::super::viewer_images::VIEWER_IMAGES;
         let pictures =
-            super::super::scopes::pictures(&crate::walk::Stone::new(solid), 1.77, scopes, 16).expect("drawn");
+            super::super::viewer_images::pictures(&crate::trace::ConvexStone::new(solid), 1.77, scopes, 16)
+                .expect("drawn");
         assert_eq!(pictures.len(), 3);
         for picture in pictures {
             let clear = scope_figure(&picture);
-            let coloured = scope_figure(&Picture { without_colour: true, ..picture });
+            let coloured = scope_figure(&ViewerPicture { without_colour: true, ..picture });
             let said = "; without the colour of the stone, which the scores have";
             assert!(!clear.contains("without the colour") && coloured.contains(said), "{coloured}");
             assert_eq!(coloured.replace(said, ""), clear);

@@ -1,108 +1,38 @@
 //! Plots of sweeps as SVG: a score along one parameter, or over two.
 
+mod axes;
 mod curve;
 mod frame;
 mod map;
 mod style;
 mod surface;
 
-pub use curve::{Curve, Curves, Dot};
-pub use style::{Colours, Style};
+use crate::design::gia_envelopes;
+pub use axes::{Axis, ScorePlot, TILT, TILT_AXIS};
+use axes::{BAND, ReferenceMark};
+pub use curve::{Curves, Dot, PlotCurve};
+pub use style::{ColourScale, Style};
 
 use super::page::escaped;
-use crate::cut::brilliant;
-use crate::cut::families::Family;
-use crate::cut::library;
-use crate::formats::stone;
-use crate::metrics::Metric;
-use crate::study::table::Numbers;
+use crate::batch::table::NumericColumns;
+use crate::design::library;
+use crate::stone_spec;
 
 /// Pixels across a plot that becomes a picture.
 pub const PIXELS: u32 = 1600;
-
-/// A half-width of 95 in 100, in standard errors.
-const BAND: f64 = 1.96;
-
-/// A parameter along an axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
-    /// Its key: the column of the table.
-    pub key: String,
-    /// What stands along the axis, with the unit.
-    pub title: String,
-}
-
-impl Axis {
-    /// The axis of the parameter `key`, of a family or of every stone.
-    pub fn of(key: &str, family: Option<&Family>) -> Axis {
-        if key == TILT {
-            return Axis { key: key.into(), title: "tilt (°)".into() };
-        }
-        let parameter = family.and_then(|f| f.parameters.iter().find(|p| p.key == key));
-        let name = if key == "ri" { "refractive index".into() } else { key.replace('-', " ") };
-        let unit = match (parameter.map(|p| p.unit.trim()), key) {
-            (Some(""), _) | (None, "ri") => String::new(),
-            (None, "size") => " (mm)".into(),
-            (unit, _) => unit.map_or(String::new(), |u| format!(" ({u})")),
-        };
-        Axis { key: key.into(), title: format!("{name}{unit}") }
-    }
-}
-
-/// What is to be drawn.
-#[derive(Clone, Copy)]
-pub struct Drawing<'a> {
-    /// The score.
-    pub metric: &'static Metric,
-    /// One axis for a curve, two for a map: the first is drawn across.
-    pub axes: &'a [Axis],
-    /// The stone that was swept.
-    pub stone: &'a str,
-    /// Its family.
-    pub family: Option<&'static Family>,
-    /// Whether it is of diamond, for which alone grading envelopes are published.
-    pub is_diamond: bool,
-    /// How it is to look.
-    pub style: &'a Style,
-    /// A stone to be marked above the others: its name and place on the axes.
-    pub own: Option<(&'a str, &'a [f64])>,
-}
-
-/// Column of a stone's tilt.
-pub const TILT: &str = "tilt_deg";
-
-/// Column of the azimuth about which a stone is tilted.
-pub const TILT_AXIS: &str = "tilt_axis_deg";
-
-/// A point or a line to be named in a plot.
-struct Mark {
-    name: String,
-    at: Vec<f64>,
-    /// Whether it is the stone that the plot is about.
-    own: bool,
-    /// Parameters that are not on the axes and have another value in this stone than in the plot's.
-    other: Vec<&'static str>,
-}
-
-impl Mark {
-    /// Its name; with a star if it does not belong to the values beside it.
-    fn called(&self) -> String {
-        if self.other.is_empty() { self.name.clone() } else { format!("{} *", self.name) }
-    }
-}
 
 /// Parameters that say how large a stone is, or how many facets its girdle has: no score of a clear
 /// stone follows them by more than a hundredth.
 const MINOR: [&str; 3] = ["size", "facets", "girdle-facets"];
 
-impl Drawing<'_> {
+impl ScorePlot<'_> {
     /// The plot of a sweep's table.
     ///
     /// - `scattered`: the points are no grid
     /// - `curves`: columns that tell the curves of one parameter apart
     ///
     /// Points whose stone failed are left out. Looked at in `reports/sweeps/`.
-    pub fn svg(&self, numbers: &Numbers, scattered: bool, curves: &[String]) -> String {
+    pub fn svg(&self, numbers: &NumericColumns, scattered: bool, curves: &[String]) -> String {
         match self.axes {
             [x, y] => map::svg(self, x, y, numbers, scattered),
             [x, ..] => self.curve(x, numbers, curves),
@@ -110,9 +40,9 @@ impl Drawing<'_> {
         }
     }
 
-    fn curve(&self, x: &Axis, numbers: &Numbers, curves: &[String]) -> String {
+    fn curve(&self, x: &Axis, numbers: &NumericColumns, curves: &[String]) -> String {
         let se = format!("{}_se", self.metric.name);
-        let mut lines: Vec<Curve> = Vec::new();
+        let mut lines: Vec<PlotCurve> = Vec::new();
         let columns = numbers.column(&x.key).iter().zip(numbers.column(self.metric.name));
         for (row, ((at, value), error)) in columns.zip(numbers.column(&se)).enumerate() {
             let Some(at) = *at else { continue };
@@ -128,7 +58,7 @@ impl Drawing<'_> {
             let point = (at, value.zip(*error));
             match lines.iter_mut().find(|line| line.name == name) {
                 Some(line) => line.points.push(point),
-                None => lines.push(Curve { name, points: vec![point] }),
+                None => lines.push(PlotCurve { name, points: vec![point] }),
             }
         }
         lines.iter_mut().for_each(|line| line.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
@@ -143,7 +73,7 @@ impl Drawing<'_> {
                 .into_iter()
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
-            marks: self.marks().into_iter().map(|m| (m.called(), m.at[0])).collect(),
+            marks: self.marks().into_iter().map(|m| (m.label(), m.at[0])).collect(),
             ends: (self.style.range(&x.key), self.style.range(self.metric.name)),
             dots: Vec::new(),
             small: false,
@@ -166,7 +96,7 @@ impl Drawing<'_> {
     /// The value of a parameter in the stone that the plot is about.
     fn held(&self, key: &str) -> Option<f64> {
         let (name, items) = self.stone.split_once(':').unwrap_or((self.stone, ""));
-        let given = stone::parameters_of(items).ok()?.get(key).copied();
+        let given = stone_spec::parameters_of(items).ok()?.get(key).copied();
         let document = library::document(name).and_then(Result::ok);
         given.or_else(|| document?.parameters.get(key).copied()).or_else(|| self.default_of(key))
     }
@@ -184,7 +114,7 @@ impl Drawing<'_> {
     }
 
     /// Stones of the library that the swept stone's family makes, where their parameters put them.
-    fn marks(&self) -> Vec<Mark> {
+    fn marks(&self) -> Vec<ReferenceMark> {
         let Some(family) = self.family else { return Vec::new() };
         let mark = |name: &'static str| {
             let document = library::document(name)?.ok()?;
@@ -197,20 +127,24 @@ impl Drawing<'_> {
             let differs =
                 |key: &str| value(key).zip(self.held(key)).is_some_and(|(a, b)| (a - b).abs() > 1e-6);
             let other = family.parameters.iter().map(|p| p.key);
-            Some(Mark {
+            Some(ReferenceMark {
                 name: if name == family.name { "reference".into() } else { name.into() },
                 at,
                 own: false,
                 other: other.filter(|key| !MINOR.contains(key) && !is_axis(key) && differs(key)).collect(),
             })
         };
-        let own =
-            self.own.map(|(name, at)| Mark { name: name.into(), at: at.to_vec(), own: true, other: vec![] });
-        let near = |a: &Mark, b: &Mark| {
+        let own = self.own.map(|(name, at)| ReferenceMark {
+            name: name.into(),
+            at: at.to_vec(),
+            own: true,
+            other: vec![],
+        });
+        let near = |a: &ReferenceMark, b: &ReferenceMark| {
             let same_place = a.at.iter().zip(&b.at).all(|(a, b)| (a - b).abs() < 0.005);
             same_place && a.other.is_empty() == b.other.is_empty()
         };
-        let mut marks: Vec<Mark> = Vec::new();
+        let mut marks: Vec<ReferenceMark> = Vec::new();
         for mark in own.into_iter().chain(library::names().filter_map(mark)) {
             match marks.iter_mut().find(|m| near(m, &mark)) {
                 Some(same) => {
@@ -231,7 +165,7 @@ impl Drawing<'_> {
         }
         let mut found: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for axis in axes {
-            for (name, from, to) in brilliant::bounds(&axis.key) {
+            for (name, from, to) in gia_envelopes::bounds(&axis.key) {
                 match found.iter_mut().find(|(n, _)| n == name) {
                     Some((_, bounds)) => bounds.push((from, to)),
                     None => found.push((name.into(), vec![(from, to)])),

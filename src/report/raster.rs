@@ -25,7 +25,7 @@ pub const MOST_PIXELS: u32 = 10_000;
 #[derive(Debug, thiserror::Error)]
 pub enum RasterError {
     /// No SVG that resvg understands.
-    #[error("the drawing is no SVG: {0}")]
+    #[error("the drawing is not an SVG: {0}")]
     Svg(#[from] usvg::Error),
     /// Too large or without size.
     #[error("a drawing of {width} × {height} pixels: each must be from 1 to {MOST_PIXELS}")]
@@ -66,7 +66,7 @@ static OPTIONS: LazyLock<usvg::Options<'static>> = LazyLock::new(|| {
 /// - `width`: of the picture in pixels, up to [`MOST_PIXELS`]; the height follows from the drawing
 ///
 /// Text is drawn in the fonts of the binary whatever family it asks for; files that the SVG refers
-/// to are not opened. The same SVG gives the same bytes. Checked below.
+/// to are not opened. The same SVG gives the same bytes. Checked in this file's tests.
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
     png_of(svg, width, None)
 }
@@ -102,7 +102,7 @@ pub fn png_of(svg: &str, width: u32, command: Option<&str>) -> Result<Vec<u8>, R
 /// Width of a line of text in the fonts of the binary, in units of the font size; without kerning,
 /// which only narrows.
 ///
-/// Checked below against the drawn text.
+/// Checked in this file's tests against the drawn text.
 pub fn text_width(text: &str, bold: bool) -> f64 {
     static FACES: LazyLock<[Option<FontRef<'static>>; 2]> =
         LazyLock::new(|| [REGULAR, BOLD].map(|bytes| FontRef::new(bytes).ok()));

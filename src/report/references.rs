@@ -1,14 +1,14 @@
 //! The reference stones that a report sets scores beside: their table, made by the program.
 
-use crate::cut::library;
-use crate::formats::stone;
-use crate::math::stats::Estimate;
+use crate::batch::table::{NumericColumns, TableError, TableFormat};
+use crate::design::library;
+use crate::geometry::Polyhedron;
+use crate::materials::MATERIALS;
+use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
-use crate::optics::Material;
-use crate::optics::materials::MATERIALS;
-use crate::solid::Polyhedron;
-use crate::study::score::{DEFAULT_SAMPLES, Effort, Plan, Subject, score};
-use crate::study::table::{Form, Numbers, TableError};
+use crate::sampling::stats::Estimate;
+use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreSettings, Target, score};
+use crate::stone_spec;
 use std::collections::BTreeMap;
 
 /// Made with `cutlab score STONES -o reports/references.csv`, STONES as [`STONES`] names them, in
@@ -41,7 +41,7 @@ pub struct References {
 impl References {
     /// Reads the table in the binary: the stones in diamond.
     pub fn read() -> Result<References, TableError> {
-        let numbers = Numbers::read(TABLE.as_bytes(), Form::Csv)?;
+        let numbers = NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv)?;
         let of = |metric: &Metric| {
             let errors = numbers.column(&format!("{}_se", metric.name));
             let values = numbers.column(metric.name);
@@ -56,14 +56,19 @@ impl References {
     /// samples.
     ///
     /// - `width_mm`: girdle width, on which the scores depend if the material absorbs
-    pub fn within(material: &Material, width_mm: f64, plan: &Plan) -> Result<References, TableError> {
+    pub fn within(
+        material: &Material,
+        width_mm: f64,
+        plan: &ScoreSettings,
+    ) -> Result<References, TableError> {
         if material == MATERIALS[0] {
             return References::read();
         }
-        let plan = Plan { metrics: METRICS.to_vec(), effort: Effort::Samples(SAMPLES), ..plan.clone() };
+        let plan =
+            ScoreSettings { metrics: METRICS.to_vec(), target: Target::Samples(SAMPLES), ..plan.clone() };
         let scored = STONES.map(|(name, _, spec)| {
             let shape = solid(spec, width_mm).map(Into::into);
-            let subject = Subject { stone: name.into(), material: material.clone(), shape, tilt: None };
+            let subject = ScoreInput { stone: name.into(), material: material.clone(), shape, tilt: None };
             score(&subject, &plan).scores
         });
         let of = |m: usize| std::array::from_fn(|stone| scored[stone].get(m).copied().flatten());
@@ -74,7 +79,7 @@ impl References {
     /// One score of every stone of [`STONES`]; none where it has none.
     ///
     /// Some are scored afresh in `tests/report.rs`.
-    pub fn of(&self, metric: &Metric) -> [Option<Estimate>; STONES.len()] {
+    pub fn scores(&self, metric: &Metric) -> [Option<Estimate>; STONES.len()] {
         self.scores.get(metric.name).copied().unwrap_or_default()
     }
 }
@@ -82,7 +87,7 @@ impl References {
 /// The solid of a stone of [`STONES`], so many millimetres wide, or why there is none.
 fn solid(spec: &str, width_mm: f64) -> Result<Polyhedron, String> {
     let (name, parameters) = spec.split_once(':').unwrap_or((spec, ""));
-    let parameters = stone::parameters_of(parameters).map_err(|e| e.to_string())?;
+    let parameters = stone_spec::parameters_of(parameters).map_err(|e| e.to_string())?;
     let design = library::design(name, &parameters).ok_or_else(|| format!("no cut is called '{name}'"))?;
     let design = design.map_err(|e| e.to_string())?.sized(width_mm).map_err(|e| e.to_string())?;
     design.solid().map_err(|e| e.to_string())
@@ -99,7 +104,11 @@ mod tests {
         assert!(names.iter().zip(STONES).all(|(line, (.., stone))| line.starts_with(stone)), "{names:?}");
         let references = References::read().expect("can be read");
         for metric in METRICS {
-            assert!(references.of(metric).iter().all(Option::is_some), "{}: score them afresh", metric.name);
+            assert!(
+                references.scores(metric).iter().all(Option::is_some),
+                "{}: score them afresh",
+                metric.name
+            );
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The heads of a report and the scores under them, the ones that matter first.
 
-use super::page::{Score, Section};
+use super::page::{PageScore, Section};
 use super::references::References;
-use crate::math::stats::Estimate;
-use crate::metrics::{Metric, Reading};
-use crate::study::score::Row;
+use crate::metrics::{Metric, MetricSource};
+use crate::sampling::stats::Estimate;
+use crate::scoring::score::ScoreRow;
 
 /// A head, and under it the scores that are shown large, then those that follow.
 struct Head {
@@ -21,7 +21,7 @@ const HEADS: [Head; 6] = [
         name: "Brilliance",
         about: "How much light comes back to someone who looks at the crown. D line.",
         large: &["wlr", "leakage"],
-        takes: |m| matches!(m.reading, Reading::Hemisphere(_)) || m.name == "brightness",
+        takes: |m| matches!(m.read_from, MetricSource::Hemisphere(_)) || m.name == "brightness",
     },
     Head {
         name: "Dispersion",
@@ -34,7 +34,7 @@ const HEADS: [Head; 6] = [
         about: "How much the face-up picture varies, and how much it changes when the stone is rocked.",
         large: &[],
         takes: |m| {
-            matches!(m.reading, Reading::Contrast(_) | Reading::Scintillation(_))
+            matches!(m.read_from, MetricSource::Contrast(_) | MetricSource::Scintillation(_))
                 || ["extinction", "windowing"].contains(&m.name)
         },
     },
@@ -42,13 +42,13 @@ const HEADS: [Head; 6] = [
         name: "Faceters’ scores",
         about: "Light return by the rules of faceters, of the whole stone and of the table alone, in percent.",
         large: &[],
-        takes: |m| matches!(m.reading, Reading::Iso(_)),
+        takes: |m| matches!(m.read_from, MetricSource::FaceterView(_)),
     },
     Head {
         name: "Weight and spread",
         about: "The solid alone, against Tolkowsky’s brilliant.",
         large: &[],
-        takes: |m| matches!(m.reading, Reading::Solid(_)),
+        takes: |m| matches!(m.read_from, MetricSource::Solid(_)),
     },
     Head {
         name: "Viewer maps",
@@ -62,17 +62,17 @@ const HEADS: [Head; 6] = [
 /// The sections of a report.
 ///
 /// - `row`: a score, or why there is none, for each of `metrics`
-pub fn sections(metrics: &[&'static Metric], row: &Row, references: &References) -> Vec<Section> {
+pub fn sections(metrics: &[&'static Metric], row: &ScoreRow, references: &References) -> Vec<Section> {
     let scores: Vec<(&'static Metric, Option<Estimate>)> =
         metrics.iter().copied().zip(row.scores.iter().copied()).collect();
-    let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| Score {
+    let line = |&(metric, value): &(&'static Metric, Option<Estimate>)| PageScore {
         name: metric.name.into(),
         about: metric.about.into(),
         better: metric.better,
         unit: metric.unit.into(),
         value,
         left_out: row.why_left_out(metric).map(String::from),
-        references: references.of(metric),
+        references: references.scores(metric),
     };
     let home = |m: &Metric| HEADS.iter().position(|head| (head.takes)(m));
     HEADS
@@ -96,19 +96,19 @@ pub fn sections(metrics: &[&'static Metric], row: &Row, references: &References)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::materials::Material;
     use crate::metrics::METRICS;
-    use crate::optics::Material;
-    use crate::study::score::{Plan, Subject, score};
+    use crate::scoring::score::{ScoreInput, ScoreSettings, score};
 
     #[test]
     fn every_metric_stands_under_one_head() {
-        let nothing = Subject {
+        let nothing = ScoreInput {
             stone: String::new(),
-            material: Material::of_index(1.5),
+            material: Material::from_index(1.5),
             shape: Err("none".into()),
             tilt: None,
         };
-        let row = score(&nothing, &Plan::default());
+        let row = score(&nothing, &ScoreSettings::default());
         let sections = sections(METRICS, &row, &References::read().expect("can be read"));
         let names: Vec<&str> = sections.iter().flat_map(|s| &s.scores).map(|s| s.name.as_str()).collect();
         for metric in METRICS {

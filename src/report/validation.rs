@@ -1,9 +1,9 @@
 //! The page of a validation: what was expected, what came out, where the two are apart.
 
-use super::page::{escaped, number};
-use super::plot::{Curve, Curves, Dot};
-use crate::math::stats::Estimate;
-use crate::study::validate::{Axes, ERRORS, Expected, Figure, Outcome, Report, Verdict};
+use super::page::{escaped, estimate_html};
+use super::plot::{Curves, Dot, PlotCurve};
+use crate::batch::validate::{Axes, CheckReport, ERRORS, Expected, Figure, FigureOutcome, Verdict};
+use crate::sampling::stats::Estimate;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
@@ -24,7 +24,7 @@ pub fn written(ours: Estimate, tolerance: Option<f64>) -> String {
     if ours.error > 0.0 && ours.error < 1e-5 && ours.value.abs() > 1e-4 {
         return format!("{:.1$} ± {2:.0e}", ours.value, digits(ours.error), ours.error);
     }
-    match (number(ours), tolerance) {
+    match (estimate_html(ours), tolerance) {
         ((value, Some(error)), _) => format!("{value} ± {error}"),
         (_, Some(tolerance)) if tolerance > 0.0 => {
             let text = format!("{:.1$}", ours.value, digits(tolerance));
@@ -60,7 +60,7 @@ fn with_unit(text: &str, unit: &str) -> String {
 }
 
 /// How many figures have a verdict.
-pub fn count(reports: &[Report], verdict: Verdict) -> usize {
+pub fn count(reports: &[CheckReport], verdict: Verdict) -> usize {
     reports.iter().flat_map(|r| &r.outcomes).filter(|o| o.verdict == verdict).count()
 }
 
@@ -69,7 +69,7 @@ pub fn count(reports: &[Report], verdict: Verdict) -> usize {
 /// - `seed`, `command`: what it was made with
 ///
 /// Looked at in `reports/validation.html`.
-pub fn html(reports: &[Report], seed: u64, command: &str) -> String {
+pub fn html(reports: &[CheckReport], seed: u64, command: &str) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -95,7 +95,7 @@ pub fn html(reports: &[Report], seed: u64, command: &str) -> String {
         rule()
     );
     let failed = reports.iter().flat_map(|r| &r.outcomes).filter(|o| o.verdict == Verdict::Failed);
-    let failed: Vec<&Outcome> = failed.collect();
+    let failed: Vec<&FigureOutcome> = failed.collect();
     if !failed.is_empty() {
         table("What did not come out", &failed, &mut out);
     }
@@ -120,7 +120,7 @@ pub fn html(reports: &[Report], seed: u64, command: &str) -> String {
     out
 }
 
-fn plots(reports: &[Report], out: &mut String) {
+fn plots(reports: &[CheckReport], out: &mut String) {
     *out += "<section class=\"curves\">\n";
     let drawn = reports.iter().filter(|r| !r.line.is_empty());
     for (i, (report, axes)) in drawn.filter_map(|r| Some((r, r.plot?))).enumerate() {
@@ -131,8 +131,8 @@ fn plots(reports: &[Report], out: &mut String) {
     *out += "</section>\n";
 }
 
-fn plot(report: &Report, axes: Axes) -> String {
-    let dot = |o: &Outcome| match o.figure.expected {
+fn plot(report: &CheckReport, axes: Axes) -> String {
+    let dot = |o: &FigureOutcome| match o.figure.expected {
         Expected::Near(value, tolerance) => {
             Some(Dot { x: o.figure.at?, value, tolerance, hollow: o.verdict == Verdict::Failed })
         }
@@ -145,7 +145,7 @@ fn plot(report: &Report, axes: Axes) -> String {
             .into(),
         x: axes.x.into(),
         y: axes.y.into(),
-        curves: vec![Curve { name: String::new(), points }],
+        curves: vec![PlotCurve { name: String::new(), points }],
         small: false,
         dots: report.outcomes.iter().filter_map(dot).collect(),
         ..Curves::default()
@@ -153,7 +153,7 @@ fn plot(report: &Report, axes: Axes) -> String {
     .svg()
 }
 
-fn table(subject: &str, outcomes: &[&Outcome], out: &mut String) {
+fn table(subject: &str, outcomes: &[&FigureOutcome], out: &mut String) {
     let _ = writeln!(
         out,
         "<section>\n<h2>{}</h2>\n<div class=\"wide\"><table class=\"figures\"><thead><tr><th>figure</th>\

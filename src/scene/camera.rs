@@ -1,7 +1,7 @@
 //! The camera: a pinhole with a field of view, a thin lens of some width, or parallel rays.
 
-use crate::math::sample;
-use crate::optics::Illuminant;
+use crate::color::Illuminant;
+use crate::sampling::warps;
 use glam::{Mat3, Vec2, Vec3};
 
 /// How much a camera sees.
@@ -64,7 +64,7 @@ pub struct Camera {
     pub white: &'static Illuminant,
     /// Whether its colours are flat: each camera ray shows white, red, green, blue or black, whichever has
     /// the greatest share of its light, as in drawings of what gem viewers show. Linear light keeps the
-    /// shares, by the three bands of [`crate::optics::rgb::basis`].
+    /// shares, by the three bands of [`crate::color::rgb_upsampling::basis`].
     pub flat: bool,
 }
 
@@ -80,7 +80,7 @@ impl Camera {
     ///
     /// - `on_lens`: two uniforms, of no account unless the lens is open
     pub fn ray_through(&self, u: f32, v: f32, on_lens: [f32; 2]) -> (Vec3, Vec3) {
-        self.ray_by(u, v, if self.lens.is_open() { sample::disc(on_lens) } else { Vec2::ZERO })
+        self.ray_by(u, v, if self.lens.is_open() { warps::uniform_disc(on_lens) } else { Vec2::ZERO })
     }
 
     /// - `on_lens`: a place of the unit disc

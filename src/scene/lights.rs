@@ -2,144 +2,92 @@
 
 pub mod disc;
 pub mod dome;
+mod light;
 pub mod sky;
 pub mod sphere;
 pub mod spot;
 pub mod square;
 pub mod sun;
 
-use super::Aim;
-use super::entries::Wrong;
-use super::file::Place;
-use super::light_entry::LightEntry;
-use crate::optics::{Illuminant, rgb};
-use glam::{Mat3, Vec3};
-use std::fmt::Debug;
-use std::sync::Arc;
-
-/// Shape of a light and how it shines, at radiance 1. Colours are parts of
-/// [`crate::optics::rgb::basis`]; white is 1, 1, 1.
-pub trait Emitter: Debug + Send + Sync {
-    /// Distance along a ray to the light and the colour seen there; no colour from behind, where it is
-    /// dark. What shines from infinity is at `f32::INFINITY`.
-    ///
-    /// The origin may lie on the light itself only if the ray does not start there: every light is
-    /// convex, so a ray that leaves it cannot meet it again.
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
-
-    /// A place of the light as seen from a point, for shadow rays.
-    ///
-    /// - `normal`: of the surface at the point; `u`: two uniforms
-    fn seen_from(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse>;
-
-    /// A photon's start.
-    ///
-    /// - `u`: five uniforms
-    fn leave(&self, aim: &Aim, u: [f32; 5]) -> Option<Start>;
-
-    /// Roughly the power sent at the targets of `aim`, or into the world if it has none: what
-    /// decides how many photons a light gets.
-    fn reach(&self, aim: &Aim) -> f32;
-
-    /// Power emitted; none for a light at infinity.
-    fn power(&self) -> Option<f32>;
-
-    /// Whether it shines from infinity: then it stands in no other light's way.
-    fn is_far(&self) -> bool {
-        self.power().is_none()
-    }
-
-    /// The light turned about a point.
-    fn turned(&self, turn: Mat3, about: Vec3) -> Arc<dyn Emitter>;
-}
-
-/// A place of a light, seen from a surface.
-#[derive(Debug, Clone, Copy)]
-pub struct Glimpse {
-    /// Unit direction to it.
-    pub direction: Vec3,
-    /// How far away it is.
-    pub distance: f32,
-    /// Its colour over the density of the direction (per steradian): the mean over glimpses,
-    /// weighted by the cosine at the surface, is the irradiance.
-    pub radiance: Vec3,
-}
-
-/// A photon's first ray.
-#[derive(Debug, Clone, Copy)]
-pub struct Start {
-    /// Where.
-    pub point: Vec3,
-    /// Unit direction.
-    pub direction: Vec3,
-    /// Power: the mean over starts is the power emitted.
-    pub power: Vec3,
-}
-
-/// A light of a scene.
-#[derive(Debug, Clone)]
-pub struct Light {
-    /// Shape.
-    pub emitter: Arc<dyn Emitter>,
-    /// Spectrum.
-    pub spectrum: &'static Illuminant,
-    /// Radiance as a mixture of colours of the spectrum; grey for a light of the spectrum alone.
-    /// Scaled so that a grey light has the luminance of equal-energy light of that radiance.
-    pub radiance: Vec3,
-}
-
-impl Light {
-    /// A light of equal energy.
-    pub fn white(emitter: impl Emitter + 'static, radiance: f32) -> Light {
-        Light::new(Arc::new(emitter), Illuminant::equal_energy(), Vec3::splat(radiance))
-    }
-
-    /// A light of any spectrum.
-    ///
-    /// - `radiance`: that of equal-energy light of the same luminance
-    pub fn new(emitter: Arc<dyn Emitter>, spectrum: &'static Illuminant, radiance: Vec3) -> Light {
-        Light { emitter, spectrum, radiance: radiance / spectrum.luminance() }
-    }
-
-    /// The light turned about a point.
-    pub fn turned(&self, turn: Mat3, about: Vec3) -> Light {
-        Light { emitter: self.emitter.turned(turn, about), ..self.clone() }
-    }
-
-    /// Radiance or power at `nm` of a colour that the emitter gave.
-    pub fn at(&self, colour: Vec3, nm: f32) -> f32 {
-        let colour = colour * self.radiance;
-        if colour == Vec3::ZERO {
-            0.0
-        } else if colour == Vec3::splat(colour.x) {
-            self.spectrum.power(nm) * colour.x // the parts add up to 1
-        } else {
-            self.spectrum.power(nm) * rgb::basis(nm).dot(colour)
-        }
-    }
-}
-
-/// Makes a light's shape of its entry.
-pub type Reader = fn(&LightEntry, &Place) -> Result<Arc<dyn Emitter>, Wrong>;
-
-/// A kind of light.
-pub struct Kind {
-    /// Its name in scene files.
-    pub name: &'static str,
-    /// What it is, and what its entry states.
-    pub about: &'static str,
-    /// Makes one of its entry.
-    pub read: Reader,
-}
+use super::PhotonGuide;
+use super::light_schema::LightEntry;
+use super::scene_file::BuildContext;
+use super::schema::FieldError;
+use super::schema::{field_error, illuminant, positive, require_name};
+use super::{BoundingSphere, PlacedStone};
+use crate::color::rgb_upsampling;
+use glam::Vec3;
+pub use light::{EmissionSample, Emitter, Light, LightReader, LightSample, LightType};
 
 /// Every kind of light.
-pub static LIGHTS: &[&Kind] =
+pub static LIGHTS: &[&LightType] =
     &[&square::KIND, &disc::KIND, &sphere::KIND, &dome::KIND, &spot::KIND, &sky::KIND, &sun::KIND];
 
-impl Kind {
+impl LightType {
     /// The kind called `name`.
-    pub fn named(name: &str) -> Option<&'static Kind> {
-        LIGHTS.iter().copied().find(|k| crate::math::typed::is_called(k.name, name))
+    pub fn by_name(name: &str) -> Option<&'static LightType> {
+        LIGHTS.iter().copied().find(|k| crate::parse::is_name(k.name, name))
+    }
+}
+
+/// Greatest radiance: squares and sums of it stay far within `f32`.
+const BRIGHTEST: f32 = 1e12;
+
+impl LightEntry {
+    /// The light, if no part of it lies in a stone.
+    pub(super) fn light_outside(
+        &self,
+        place: &BuildContext,
+        stones: &[PlacedStone],
+    ) -> Result<Light, FieldError> {
+        let light = self.light(place)?;
+        if light.emitter.power().is_none() {
+            return Ok(light); // it is at infinity
+        }
+        /// Places of the light that are looked at, a side of the square of uniforms.
+        const GRID: u8 = 8;
+        let world = BoundingSphere { centre: place.centre, radius: 1.0 };
+        let aim = PhotonGuide { targets: Vec::new(), share: 0.0, world };
+        let shares = (0..GRID)
+            .flat_map(|y| (0..GRID).map(move |x| [x, y].map(|k| (f32::from(k) + 0.5) / f32::from(GRID))));
+        let begin: Vec<Vec3> = shares
+            .filter_map(|[s, t]| light.emitter.sample_le(&aim, [s, t, 0.5, 0.5, 0.5]))
+            .map(|start| start.point)
+            .chain(self.at.map(|p| place.point(p)))
+            .collect();
+        match stones.iter().position(|stone| begin.iter().any(|at| stone.contains(*at))) {
+            Some(i) => Err(field_error("at", format!("the light reaches into stone {}", i + 1))),
+            None => Ok(light),
+        }
+    }
+
+    fn light(&self, place: &BuildContext) -> Result<Light, FieldError> {
+        let all: Vec<&str> = LIGHTS.iter().map(|k| k.name).collect();
+        let kind = require_name("kind", LightType::by_name(&self.kind), &self.kind, &all)?;
+        let emitter = (kind.read)(self, place)?;
+        let radiance = match (self.radiance, self.power, emitter.power()) {
+            (radiance, None, _) => positive("radiance", radiance)?,
+            (None, power, Some(of_one)) => positive("power", power)? / of_one,
+            (None, Some(_), None) => return Err(field_error("power", "a light at infinity has a radiance")),
+            (Some(_), Some(_), _) => return Err(field_error("power", "a light has a radiance or a power")),
+        };
+        if radiance > BRIGHTEST || radiance.is_nan() {
+            let key = if self.power.is_some() { "power" } else { "radiance" };
+            return Err(field_error(
+                key,
+                format!("{key} makes a radiance of {radiance:e}, beyond {BRIGHTEST:e}"),
+            ));
+        }
+        if let Some(colour) = self.colour
+            && (colour.iter().any(|part| *part < 0.0) || colour.iter().all(|part| *part == 0.0))
+        {
+            return Err(field_error(
+                "colour",
+                "a colour is [red, green, blue], none below 0 and not all of them 0",
+            ));
+        }
+        let colour = self.colour.map_or(Vec3::ONE, |c| rgb_upsampling::upsample(c.into()));
+        Ok(Light::new(emitter, illuminant("spectrum", self.spectrum.as_deref())?, colour * radiance))
     }
 }
 
@@ -151,9 +99,10 @@ mod tests {
     use super::square::Square;
     use super::sun::Sun;
     use super::*;
-    use crate::math::random::{Purpose, Stream};
-    use crate::scene::aim::Ball;
+    use crate::sampling::random::{Purpose, Stream};
+    use crate::scene::photon_guide::BoundingSphere;
     use std::f32::consts::PI;
+    use std::sync::Arc;
 
     fn every_kind() -> Vec<(&'static str, Arc<dyn Emitter>)> {
         let at = Vec3::new(0.3, -0.2, 4.0);
@@ -171,26 +120,26 @@ mod tests {
     /// there; and the power of all photons is the closed form.
     #[test]
     fn photons_and_shadow_rays_agree_and_power_has_its_closed_form() {
-        let target = Ball { centre: Vec3::ZERO, radius: 0.5 };
-        let world = Ball { centre: Vec3::ZERO, radius: 2.0 };
+        let target = BoundingSphere { centre: Vec3::ZERO, radius: 0.5 };
+        let world = BoundingSphere { centre: Vec3::ZERO, radius: 2.0 };
         for (name, light) in every_kind() {
             let mut stream = Stream::new(3, Purpose::Test, 0);
             let n = 100_000;
             // irradiance on the disc z = 0, |xy| < 0.3, facing up, times its area
             let mut seen = 0.0f64;
             for _ in 0..n {
-                let at = (crate::math::sample::disc(stream.pair()) * 0.3).extend(0.0);
-                if let Some(g) = light.seen_from(at, Vec3::Z, stream.pair()) {
+                let at = (crate::sampling::warps::uniform_disc(stream.pair()) * 0.3).extend(0.0);
+                if let Some(g) = light.sample_li(at, Vec3::Z, stream.pair()) {
                     let cos = g.direction.z.max(0.0);
-                    seen += f64::from(g.radiance.y * cos * PI * 0.09) / f64::from(n);
+                    seen += f64::from(g.radiance_over_pdf.y * cos * PI * 0.09) / f64::from(n);
                 }
             }
             for share in [0.0, 0.5] {
-                let aim = Aim { targets: vec![target], share, world };
+                let aim = PhotonGuide { targets: vec![target], share, world };
                 let (mut caught, mut all, mut hits) = (0.0f64, 0.0f64, 0);
                 for _ in 0..n {
                     let u = std::array::from_fn(|_| stream.unit());
-                    let Some(start) = light.leave(&aim, u) else { continue };
+                    let Some(start) = light.sample_le(&aim, u) else { continue };
                     all += f64::from(start.power.y) / f64::from(n);
                     let t = -start.point.z / start.direction.z;
                     let at = start.point + start.direction * t;
@@ -214,7 +163,7 @@ mod tests {
     fn lamps_are_dark_behind() {
         for (name, light) in every_kind() {
             let from = Vec3::new(0.3, -0.2, 9.0);
-            match light.hit(from, Vec3::new(0.01, 0.02, -1.0).normalize()) {
+            match light.intersect(from, Vec3::new(0.01, 0.02, -1.0).normalize()) {
                 Some((t, colour)) if t.is_finite() => {
                     assert_eq!(colour.is_some(), name == "sphere", "{name}: {colour:?}");
                     assert!(!light.is_far());
@@ -225,15 +174,15 @@ mod tests {
     }
 
     #[test]
-    fn what_a_glimpse_sees_is_there() {
+    fn what_a_light_sample_sees_is_there() {
         let mut stream = Stream::new(4, Purpose::Test, 0);
         for (name, light) in every_kind() {
             for _ in 0..1000 {
                 let point = Vec3::new(stream.unit(), stream.unit(), 0.0);
-                let Some(g) = light.seen_from(point, Vec3::Z, stream.pair()) else { continue };
-                let (t, colour) = light.hit(point, g.direction).expect(name);
+                let Some(g) = light.sample_li(point, Vec3::Z, stream.pair()) else { continue };
+                let (t, colour) = light.intersect(point, g.direction).expect(name);
                 assert!(t == g.distance || (t - g.distance).abs() < 1e-3, "{name}: {t} {}", g.distance);
-                assert!(colour.expect("its front").y > 0.0 || g.radiance.y == 0.0);
+                assert!(colour.expect("its front").y > 0.0 || g.radiance_over_pdf.y == 0.0);
             }
         }
     }

@@ -2,9 +2,9 @@
 //!
 //! Equirectangular, the zenith at the top, the middle of the picture toward +y.
 
-use crate::optics::rgb;
-use crate::store::limits;
-use crate::store::text;
+use crate::color::rgb_upsampling;
+use crate::storage::limits;
+use crate::storage::text;
 use glam::Vec3;
 use image::{DynamicImage, ImageDecoder};
 use std::f32::consts::{PI, TAU};
@@ -23,7 +23,7 @@ fn bounded(x: f32) -> f32 {
 pub struct Panorama {
     width: usize,
     height: usize,
-    /// Colours as parts of [`rgb::basis`].
+    /// Colours as parts of [`rgb_upsampling::basis`].
     pixels: Vec<Vec3>,
     /// Cumulative brightness × solid angle after each pixel, from 0 to 1.
     cumulative: Vec<f64>,
@@ -43,15 +43,15 @@ impl Panorama {
     /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
     pub fn open(path: &Path) -> Result<Panorama, String> {
         let wrong =
-            |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", text::shown(path));
+            |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", text::display_name(path));
         let bytes = limits::PANORAMA.read_regular(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
-        Panorama::of(&bytes).map_err(|e| wrong(&e))
+        Panorama::from_bytes(&bytes).map_err(|e| wrong(&e))
     }
 
     /// Reads the bytes of such a file; the error says in one line what is wrong.
     ///
     /// Its size is known to be within the limits before any of it is decoded.
-    pub fn of(bytes: &[u8]) -> Result<Panorama, String> {
+    pub fn from_bytes(bytes: &[u8]) -> Result<Panorama, String> {
         let one_line = |e: image::ImageError| e.to_string().replace('\n', " ");
         let reader = image::ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         let decoder = reader.map_err(|e| e.to_string())?.into_decoder().map_err(one_line)?;
@@ -61,7 +61,7 @@ impl Panorama {
         limits::PIXELS_PER_BYTE.check(count / bytes.len() as u64).map_err(|e| e.to_string())?;
         let picture = DynamicImage::from_decoder(decoder).map_err(one_line)?.into_rgb32f();
         let pixels: Vec<Vec3> =
-            picture.pixels().map(|p| rgb::mixture(Vec3::from_array(p.0.map(bounded)))).collect();
+            picture.pixels().map(|p| rgb_upsampling::upsample(Vec3::from_array(p.0.map(bounded)))).collect();
         if pixels.iter().all(|p| *p == Vec3::ZERO) {
             return Err("it is black".into());
         }
@@ -70,7 +70,7 @@ impl Panorama {
 
     /// A table of what a function says of the middle of each pixel.
     ///
-    /// - `colour`: parts of [`rgb::basis`] in a unit direction; `checksum`: what tells it from others
+    /// - `colour`: parts of [`rgb_upsampling::basis`] in a unit direction; `checksum`: what tells it from others
     pub fn painted(
         (width, height): (usize, usize),
         colour: impl Fn(Vec3) -> Vec3,
@@ -120,7 +120,7 @@ impl Panorama {
     }
 
     /// A direction drawn by brightness, and its colour over the density per steradian.
-    pub fn draw(&self, u: [f32; 2]) -> (Vec3, Vec3) {
+    pub fn sample(&self, u: [f32; 2]) -> (Vec3, Vec3) {
         let target = f64::from(u[0]);
         let i = self.cumulative.partition_point(|c| *c <= target).min(self.pixels.len() - 1);
         let before = if i == 0 { 0.0 } else { self.cumulative[i - 1] };
@@ -138,7 +138,7 @@ impl Panorama {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::random::{Purpose, Stream};
+    use crate::sampling::random::{Purpose, Stream};
 
     #[test]
     fn directions_are_drawn_by_brightness_and_found_again() {
@@ -149,7 +149,7 @@ mod tests {
         let n = 100_000;
         let mut up = Vec3::ZERO;
         for _ in 0..n {
-            let (d, radiance) = sky.draw(stream.pair());
+            let (d, radiance) = sky.sample(stream.pair());
             let seen = sky.colour(d);
             let density = seen.y / radiance.y;
             assert!((density / (seen.element_sum() / 3.0) * (4.0 * PI * sky.mean()) - 1.0).abs() < 1e-3);

@@ -1,6 +1,6 @@
 //! How a stone lies: a stable rest from its shape and centre of mass, or on its culet.
 
-use crate::solid::Polyhedron;
+use crate::geometry::Polyhedron;
 use glam::{DMat3, DVec3};
 
 /// A way for a stone to stand on a plane.
@@ -21,7 +21,7 @@ impl Pose {
         [("lying", Pose::Lying), ("table-up", Pose::TableUp), ("table-down", Pose::TableDown)];
 
     /// The pose called `name`.
-    pub fn named(name: &str) -> Option<Pose> {
+    pub fn by_name(name: &str) -> Option<Pose> {
         Self::ALL.iter().find(|(n, _)| *n == name).map(|(_, pose)| *pose)
     }
 
@@ -51,7 +51,7 @@ impl Pose {
 ///
 /// A facet is a stable rest if the foot of the perpendicular from the centre of mass lies within
 /// it. Among those that leave the crown side up the one with the lowest centre of mass is taken,
-/// else among all. Checked below.
+/// else among all. Checked in this file's tests.
 fn resting_facet(solid: &Polyhedron) -> Option<DVec3> {
     let (_, centre) = solid.volume_and_centre();
     let mut rests: Vec<(bool, f64, DVec3)> = Vec::new();
@@ -80,7 +80,7 @@ fn rotation_between(a: DVec3, b: DVec3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::library;
+    use crate::design::library;
     use std::collections::BTreeMap;
 
     #[test]

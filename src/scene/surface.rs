@@ -1,7 +1,8 @@
 //! Surfaces around the stones: parallelograms and meshes, diffuse or mirrors, the same on both sides.
 
-use super::mesh::Mesh;
-use crate::optics::rgb;
+use super::scene_mesh::SceneMesh;
+pub use super::surface_hit::SurfaceHit;
+use crate::color::rgb_upsampling;
 use glam::{Mat3, Vec3};
 use std::sync::Arc;
 
@@ -20,17 +21,17 @@ pub enum Reflectance {
         /// Wavelength of the middle, nm.
         edge_nm: f32,
     },
-    /// Parts of [`rgb::basis`], each in 0..=1.
+    /// Parts of [`rgb_upsampling::basis`], each in 0..=1.
     Mixture(Vec3),
 }
 
 impl Reflectance {
     /// Reflectance at `nm`, in 0..=1.
-    pub fn at(&self, nm: f32) -> f32 {
+    pub fn value(&self, nm: f32) -> f32 {
         const SOFTNESS_NM: f32 = 8.0;
         match *self {
             Self::Grey(r) => r,
-            Self::Mixture(parts) => rgb::basis(nm).dot(parts),
+            Self::Mixture(parts) => rgb_upsampling::basis(nm).dot(parts),
             Self::Edge { low, high, edge_nm } => {
                 low + (high - low) / (1.0 + ((edge_nm - nm) / SOFTNESS_NM).exp())
             }
@@ -40,7 +41,7 @@ impl Reflectance {
 
 /// What a surface does with light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Finish {
+pub enum Bsdf {
     /// Scatters it evenly.
     Diffuse(Reflectance),
     /// Mirrors it.
@@ -53,19 +54,7 @@ pub enum Shape {
     /// A parallelogram. For light it is there from both sides; the camera looks through its back.
     Plate(Plate),
     /// Triangles, there from both sides for light and camera.
-    Mesh(Arc<Mesh>),
-}
-
-/// Where a ray meets a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hit {
-    /// Distance along the ray.
-    pub distance: f32,
-    /// Unit normal on the ray's side.
-    pub normal: Vec3,
-    /// Whether that side is the front: of a plate the one that u × v points to, of a triangle the one
-    /// from which its corners run counterclockwise.
-    pub front: bool,
+    Mesh(Arc<SceneMesh>),
 }
 
 /// A surface.
@@ -74,7 +63,7 @@ pub struct Surface {
     /// Its shape.
     pub shape: Shape,
     /// What it does with light.
-    pub finish: Finish,
+    pub finish: Bsdf,
     /// Whether it is background, such as a floor or a wall: a picture that leaves its background out
     /// ([`super::Scene::cut_out`]) does not show it.
     pub backdrop: bool,
@@ -84,16 +73,16 @@ impl Surface {
     /// A diffuse parallelogram; `u × v` points to its front.
     pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
         let shape = Shape::Plate(Plate { corner, u, v });
-        Surface { shape, finish: Finish::Diffuse(reflectance), backdrop: true }
+        Surface { shape, finish: Bsdf::Diffuse(reflectance), backdrop: true }
     }
 
-    /// The first meeting of a ray with either side.
+    /// The first intersection of a ray with either side.
     ///
-    /// - `near`: meetings no farther than this do not count
-    pub fn hit(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<Hit> {
+    /// - `near`: intersections no farther than this do not count
+    pub fn intersect(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<SurfaceHit> {
         match &self.shape {
-            Shape::Plate(plate) => plate.hit(origin, direction).filter(|hit| hit.distance > near),
-            Shape::Mesh(mesh) => mesh.hit(origin, direction, near),
+            Shape::Plate(plate) => plate.intersect(origin, direction).filter(|hit| hit.distance > near),
+            Shape::Mesh(mesh) => mesh.intersect(origin, direction, near),
         }
     }
 
@@ -102,12 +91,12 @@ impl Surface {
     pub fn start(&self, point: Vec3, normal: Vec3) -> Vec3 {
         match &self.shape {
             Shape::Plate(_) => point,
-            Shape::Mesh(mesh) => point + normal * mesh.off(point),
+            Shape::Mesh(mesh) => point + normal * mesh.offset(point),
         }
     }
 
     /// The surface turned about a point, then moved.
-    pub fn carried(&self, turn: Mat3, about: Vec3, by: Vec3) -> Surface {
+    pub fn moved(&self, turn: Mat3, about: Vec3, by: Vec3) -> Surface {
         let point = |p: Vec3| about + turn * (p - about) + by;
         let shape = match &self.shape {
             Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.moved(&point))),
@@ -153,21 +142,21 @@ impl Plate {
         self.u.cross(self.v).normalize()
     }
 
-    /// The meeting of a ray with either side.
-    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
-        let (distance, front) = parallelogram_hit(self.corner, self.u, self.v, origin, direction)?;
+    /// The intersection of a ray with either side.
+    pub fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<SurfaceHit> {
+        let (distance, front) = intersect_parallelogram(self.corner, self.u, self.v, origin, direction)?;
         let normal = if front { self.normal() } else { -self.normal() };
-        Some(Hit { distance, normal, front })
+        Some(SurfaceHit { distance, normal, front })
     }
 
     /// Whether a point of the plane lies within the edges.
-    pub fn holds(&self, p: Vec3) -> bool {
+    pub fn contains(&self, p: Vec3) -> bool {
         within(self.u, self.v, p - self.corner)
     }
 }
 
 /// Distance to a parallelogram along a ray, and whether its front is met.
-pub(super) fn parallelogram_hit(
+pub(super) fn intersect_parallelogram(
     corner: Vec3,
     u: Vec3,
     v: Vec3,
@@ -197,12 +186,12 @@ mod tests {
     fn a_plate_is_met_from_both_sides() {
         let floor = Plate { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0 };
         assert_eq!(floor.normal(), Vec3::Z);
-        let above = floor.hit(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z);
-        assert_eq!(above, Some(Hit { distance: 3.0, normal: Vec3::Z, front: true }));
-        let below = floor.hit(Vec3::new(0.5, 0.0, -3.0), Vec3::Z);
-        assert_eq!(below, Some(Hit { distance: 3.0, normal: -Vec3::Z, front: false }));
-        assert_eq!(floor.hit(Vec3::new(1.5, 0.0, 3.0), -Vec3::Z), None);
-        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 3.0), Vec3::Z), None);
-        assert_eq!(floor.hit(Vec3::new(0.5, 0.0, 0.0), Vec3::X), None);
+        let above = floor.intersect(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z);
+        assert_eq!(above, Some(SurfaceHit { distance: 3.0, normal: Vec3::Z, front: true }));
+        let below = floor.intersect(Vec3::new(0.5, 0.0, -3.0), Vec3::Z);
+        assert_eq!(below, Some(SurfaceHit { distance: 3.0, normal: -Vec3::Z, front: false }));
+        assert_eq!(floor.intersect(Vec3::new(1.5, 0.0, 3.0), -Vec3::Z), None);
+        assert_eq!(floor.intersect(Vec3::new(0.5, 0.0, 3.0), Vec3::Z), None);
+        assert_eq!(floor.intersect(Vec3::new(0.5, 0.0, 0.0), Vec3::X), None);
     }
 }

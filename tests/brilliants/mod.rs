@@ -2,13 +2,14 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use cutlab::cut::Design;
-use cutlab::math::stats::Estimate;
+use cutlab::batch::validate::stones;
+use cutlab::batch::validate::stones::STONES;
+use cutlab::design::Design;
+use cutlab::materials::Material;
 use cutlab::metrics::Metric;
-use cutlab::optics::Material;
-use cutlab::study::score::{Effort, Plan, Subject, score};
-use cutlab::study::validate::stones::{self, STONES};
-use cutlab::walk::Stone;
+use cutlab::sampling::stats::Estimate;
+use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, score};
+use cutlab::trace::ConvexStone;
 
 /// The only seed of these tests.
 pub const SEED: u64 = 1;
@@ -21,28 +22,34 @@ pub fn named(name: &str) -> Design {
     design(STONES.iter().find(|(n, _)| *n == name).expect("a stone of the list").1)
 }
 
-pub fn stone(design: &Design) -> Stone {
-    Stone::new(design.solid().expect("closed"))
+pub fn stone(design: &Design) -> ConvexStone {
+    ConvexStone::new(design.solid().expect("closed"))
 }
 
 /// The stones of §4 have this index at all wavelengths.
 pub fn n2417() -> Material {
-    Material::of_index(2.417)
+    Material::from_index(2.417)
 }
 
 pub fn diamond() -> Material {
-    Material::named("diamond").expect("in the catalogue").clone()
+    Material::by_name("diamond").expect("in the catalogue").clone()
 }
 
-pub fn subject(name: &str, design: &Design, material: Material) -> Subject {
+pub fn subject(name: &str, design: &Design, material: Material) -> ScoreInput {
     let shape = design.solid().map(Into::into).map_err(|e| e.to_string());
-    Subject { stone: name.into(), material, shape, tilt: None }
+    ScoreInput { stone: name.into(), material, shape, tilt: None }
 }
 
 /// Scalar Fresnel, as the reference figures have it.
-pub fn plan(metrics: &[&str], samples: u64) -> Plan {
-    let metrics = metrics.iter().map(|m| Metric::named(m).expect("in the catalogue")).collect();
-    Plan { metrics, effort: Effort::Samples(samples), polarised: false, seed: SEED, ..Plan::default() }
+pub fn plan(metrics: &[&str], samples: u64) -> ScoreSettings {
+    let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue")).collect();
+    ScoreSettings {
+        metrics,
+        target: Target::Samples(samples),
+        polarised: false,
+        seed: SEED,
+        ..ScoreSettings::default()
+    }
 }
 
 pub fn scores<const N: usize>(

@@ -1,7 +1,7 @@
 //! Designs: GemCad's text and binary, Gem Cut Studio, and how all text is encoded.
 
 use super::{encoded, read, refused, warned};
-use cutlab::formats::{self, Imported};
+use cutlab::formats::{self, Loaded};
 use std::fmt::Write;
 
 const GEMCAD: &str = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.54\nH Square\na -42 0.5 96 n P 24 48 72 G Meet\n\
@@ -35,13 +35,13 @@ fn gemcad_text_is_words_and_not_lines() {
     ] {
         assert!(GEMCAD.contains(from), "{what}");
         let other = read(what, "x.asc", GEMCAD.replacen(from, to, 1).as_bytes());
-        let off = |(p, q): (cutlab::solid::Plane, cutlab::solid::Plane)| {
+        let off = |(p, q): (cutlab::geometry::Plane, cutlab::geometry::Plane)| {
             p.normal.distance(q.normal) + (p.distance - q.distance).abs()
         };
         let (mine, its) = (plain.design.planes(), other.design.planes());
         assert_eq!(mine.len(), its.len(), "{what}");
         assert!(mine.into_iter().zip(its).map(off).fold(0.0, f64::max) < 1e-15, "{what}");
-        let said = |i: &Imported| (i.design.gear, i.design.symmetry, i.design.refractive_index);
+        let said = |i: &Loaded| (i.design.gear, i.design.symmetry, i.design.refractive_index);
         assert_eq!(said(&plain), said(&other), "{what}");
     }
     let of = |from: &str, to: &str| read(to, "x.asc", GEMCAD.replacen(from, to, 1).as_bytes());

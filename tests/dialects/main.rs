@@ -7,9 +7,10 @@ mod gltf;
 mod meshes;
 mod strangers;
 
-use cutlab::formats::{self, Imported, stone};
+use cutlab::formats::{self, Loaded};
+use cutlab::stone_spec;
 
-fn read(what: &str, name: &str, bytes: &[u8]) -> Imported {
+fn read(what: &str, name: &str, bytes: &[u8]) -> Loaded {
     formats::read_bytes(name, bytes, None).unwrap_or_else(|e| panic!("{what}: {e}"))
 }
 
@@ -18,15 +19,15 @@ fn refused(name: &str, bytes: &[u8]) -> String {
 }
 
 fn encoded(spec: &str, format: &str) -> Vec<u8> {
-    formats::encode(&stone::open(spec).expect("a library cut").design, format).expect("is written")
+    formats::encode(&stone_spec::open(spec).expect("a library cut").design, format).expect("is written")
 }
 
-fn is_octahedron(what: &str, stone: &Imported, volume: f64) {
+fn is_octahedron(what: &str, stone: &Loaded, volume: f64) {
     assert_eq!(stone.design.facets().count(), 8, "{what}");
     let found = stone.design.solid().expect("closed").volume();
     assert!((found / volume - 1.0).abs() < 1e-6, "{what}: {found}");
 }
 
-fn warned(what: &str, stone: &Imported, said: &str) {
+fn warned(what: &str, stone: &Loaded, said: &str) {
     assert!(stone.warnings.iter().any(|w| w.contains(said)), "{what}: {:?}", stone.warnings);
 }

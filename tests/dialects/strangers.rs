@@ -2,7 +2,7 @@
 
 use super::refused;
 
-/// Files of other kinds under every ending: one line that says what they are, and shows nothing of them.
+/// Files of other kinds under every extension: one line that says what they are, and shows nothing of them.
 #[test]
 fn strangers_files_are_named_and_not_shown() {
     let secret = "root:x:0:0:root";
@@ -12,21 +12,25 @@ fn strangers_files_are_named_and_not_shown() {
     );
     let junk: Vec<u8> = (0..5000u32).map(|i| (i.wrapping_mul(2654435761) >> 13) as u8).collect();
     for (what, bytes, said) in [
-        ("passwd", passwd.into_bytes(), "text, no design or mesh"),
+        ("passwd", passwd.into_bytes(), "text, not a design or mesh"),
         ("page", page.into_bytes(), "a web page (HTML)"),
-        ("table", format!("{{\"stone\":\"{secret}\"}}").into_bytes(), "JSON, no design or mesh"),
+        ("table", format!("{{\"stone\":\"{secret}\"}}").into_bytes(), "JSON, not a design or mesh"),
         ("picture", [b"\x89PNG\r\n\x1a\n", &junk[..]].concat(), "a picture (PNG)"),
         ("archive", [b"PK\x03\x04", &junk[..]].concat(), "a ZIP archive"),
         ("drawing", format!("<svg xmlns=\"s\"><text>{secret}</text></svg>").into_bytes(), "a drawing (SVG)"),
-        ("XML", format!("<?xml version=\"1.0\"?><a>{secret}</a>").into_bytes(), "XML, no design or mesh"),
+        ("XML", format!("<?xml version=\"1.0\"?><a>{secret}</a>").into_bytes(), "XML, not a design or mesh"),
         ("junk", junk, ""),
     ] {
-        for ending in ["asc", "gem", "gcs", "obj", "stl", "ply", "glb", "gltf", "toml", "txt", "pbrt", "xyz"]
+        for extension in
+            ["asc", "gem", "gcs", "obj", "stl", "ply", "glb", "gltf", "toml", "txt", "pbrt", "xyz"]
         {
-            let error = refused(&format!("stone.{ending}"), &bytes);
-            assert!(error.len() < 200 && !error.contains('\n'), "{what}.{ending}: {error}");
-            assert!(!error.contains(secret), "{what}.{ending}: {error}");
-            assert!(error.contains(said) || ["obj", "toml"].contains(&ending), "{what}.{ending}: {error}");
+            let error = refused(&format!("stone.{extension}"), &bytes);
+            assert!(error.len() < 200 && !error.contains('\n'), "{what}.{extension}: {error}");
+            assert!(!error.contains(secret), "{what}.{extension}: {error}");
+            assert!(
+                error.contains(said) || ["obj", "toml"].contains(&extension),
+                "{what}.{extension}: {error}"
+            );
         }
     }
 }

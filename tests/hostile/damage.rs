@@ -4,8 +4,8 @@
 use super::targets::{self, FOUND, READ_ONLY};
 use super::{SAMPLES, cutlab};
 use cutlab::formats::{self, FORMATS};
-use cutlab::render::animation;
-use cutlab::store::progress::Progress;
+use cutlab::integrators::animation;
+use cutlab::storage::journal::Journal;
 use rayon::prelude::*;
 use std::fs;
 use std::io::Cursor;
@@ -44,16 +44,16 @@ fn samples() -> Vec<Sample> {
     let map = read("m.map");
     add("photon map", targets::maps, Some(0), &map);
     add("photon map behind its checksum", targets::maps, Some(1), &map[16..map.len() - 4]);
-    for (how, ending) in ["csv", "jsonl", "json"].iter().enumerate() {
-        good(&format!("score -q octahedron cube --metrics weight_ratio -o t.{ending}"));
-        add(ending, targets::tables, Some(how as u8), &read(&format!("t.{ending}")));
+    for (how, extension) in ["csv", "jsonl", "json"].iter().enumerate() {
+        good(&format!("score -q octahedron cube --metrics weight_ratio -o t.{extension}"));
+        add(extension, targets::tables, Some(how as u8), &read(&format!("t.{extension}")));
     }
     add("companion", targets::tables, Some(3), &read("t.csv.meta.json"));
     let sky = image::Rgb32FImage::from_fn(8, 4, |x, y| image::Rgb([x as f32, y as f32 / 9.0, 1.0]));
-    for ending in ["hdr", "exr"] {
-        let path = folder.path().join(format!("sky.{ending}"));
+    for extension in ["hdr", "exr"] {
+        let path = folder.path().join(format!("sky.{extension}"));
         sky.save(&path).expect("written");
-        add(ending, targets::panoramas, None, &fs::read(&path).expect("was written"));
+        add(extension, targets::panoramas, None, &fs::read(&path).expect("was written"));
     }
     add("scene", targets::scenes, None, SCENE.as_bytes());
     for (name, bytes) in good_files(&["octahedron.obj", "octahedron-odd.obj", "octahedron.gltf"]) {
@@ -81,11 +81,11 @@ fn there_is_a_sample_of_every_format() {
 fn try_progress(folder: &Path, damage: &str, bytes: &[u8], records: &[&[u8]]) {
     let path = folder.join(".t.csv.progress");
     fs::write(&path, bytes).expect("written");
-    let mut progress = Progress::open(&path, "work", &|_| ()).unwrap_or_else(|e| panic!("{damage}: {e}"));
+    let mut progress = Journal::open(&path, "work", &|_| ()).unwrap_or_else(|e| panic!("{damage}: {e}"));
     assert!(progress.count() <= records.len() as u64, "{damage}");
     let mut there: Vec<Vec<u8>> = Vec::new();
     progress
-        .each(|payload| {
+        .for_each(|payload| {
             there.push(payload.to_vec());
             Ok(())
         })
@@ -95,7 +95,7 @@ fn try_progress(folder: &Path, damage: &str, bytes: &[u8], records: &[&[u8]]) {
     let next = progress.missing_from();
     progress.append(next, b"again").expect("writes");
     drop(progress);
-    let again = Progress::open(&path, "work", &|_| ()).expect("opens");
+    let again = Journal::open(&path, "work", &|_| ()).expect("opens");
     assert!(again.count() > 0 && again.missing_from() > next, "{damage}");
 }
 
@@ -104,7 +104,7 @@ fn damaged_progress_is_never_taken_for_work_that_is_done() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(".t.csv.progress");
     let records: [&[u8]; 4] = [b"ok\n1,2,3", b"", b"x", b"line\nanother"];
-    let mut progress = Progress::open(&path, "work", &|_| ()).expect("opens");
+    let mut progress = Journal::open(&path, "work", &|_| ()).expect("opens");
     for i in [0, 2, 1, 3] {
         progress.append(i as u64, records[i]).expect("writes");
     }

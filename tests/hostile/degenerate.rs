@@ -1,9 +1,9 @@
 //! Planes that meet too well, hardly, or not at all: a correct solid of the known volume, however they
 //! are shuffled and turned, or an error that says what is wrong.
 
-use cutlab::cut::library;
-use cutlab::solid::polyhedron::Fate;
-use cutlab::solid::{Plane, Polyhedron, SolidError};
+use cutlab::design::library;
+use cutlab::geometry::polyhedron::PlaneStatus;
+use cutlab::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DVec3, EulerRot};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap};
@@ -109,7 +109,7 @@ fn coplanar_duplicate_and_redundant_planes_change_nothing() {
     assert_stable("a cube four times over", &planes, 8.0);
     let solid = Polyhedron::from_planes(&planes).expect("closed");
     assert_eq!(solid.faces.len(), 6);
-    assert_eq!(solid.fates.iter().filter(|f| matches!(f, Fate::Duplicate(_))).count(), 18);
+    assert_eq!(solid.plane_status.iter().filter(|f| matches!(f, PlaneStatus::Duplicate(_))).count(), 18);
 
     let mut planes = cube();
     let rounding = |x: f64, k: usize| x * (1.0 + (k % 5) as f64 * f64::EPSILON);
@@ -126,7 +126,7 @@ fn coplanar_duplicate_and_redundant_planes_change_nothing() {
     assert_stable("a cube with planes that touch it", &planes, 8.0);
     let solid = Polyhedron::from_planes(&planes).expect("closed");
     assert_eq!((solid.vertices.len(), solid.faces.len()), (8, 6));
-    assert!(solid.fates[6..].iter().all(|f| *f == Fate::Redundant));
+    assert!(solid.plane_status[6..].iter().all(|f| *f == PlaneStatus::Redundant));
 }
 
 #[test]
@@ -182,10 +182,7 @@ fn films_and_needles_are_correct_or_refused() {
     }
     for (x, y, z) in [(1.0, 1.0, 1e-9), (1.0, 1e-9, 1e-9), (1.0, 1e-6, 1e-6), (1.0, 1.0, 0.0)] {
         assert_refused(&format!("{x} × {y} × {z}"), &thin(x, y, z), |e| {
-            matches!(
-                e,
-                SolidError::Sliver { .. } | SolidError::Nothing { .. } | SolidError::Degenerate { .. }
-            )
+            matches!(e, SolidError::Sliver { .. } | SolidError::Empty { .. } | SolidError::Degenerate { .. })
         });
     }
 }
@@ -255,7 +252,7 @@ fn far_planes_change_nothing_at_any_scale() {
     // a far plane that leaves nothing, and one that makes a needle
     let mut planes = cube();
     planes.push(Plane::new(DVec3::X, -1e33));
-    assert_refused("a cube behind a far plane", &planes, |e| matches!(e, SolidError::Nothing { .. }));
+    assert_refused("a cube behind a far plane", &planes, |e| matches!(e, SolidError::Empty { .. }));
     let mut planes = cube();
     planes[4].distance = 1e33;
     assert_refused("a cube with a far side", &planes, |_| true);
@@ -311,10 +308,7 @@ fn a_plane_that_misses_cuts_nothing_or_everything() {
         let mut planes = cube();
         planes.push(Plane::new(DVec3::X, distance));
         assert_refused(&format!("a plane at {distance}"), &planes, |e| {
-            matches!(
-                e,
-                SolidError::Nothing { .. } | SolidError::Sliver { .. } | SolidError::Degenerate { .. }
-            )
+            matches!(e, SolidError::Empty { .. } | SolidError::Sliver { .. } | SolidError::Degenerate { .. })
         });
     }
 }

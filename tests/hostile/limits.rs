@@ -2,7 +2,7 @@
 //! entities that would expand. The program runs with a gigabyte of address space and says one line.
 
 use super::cutlab;
-use cutlab::store::limits;
+use cutlab::storage::limits;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -292,44 +292,48 @@ fn scenes_are_limited_and_their_numbers_sensible() {
 fn tables_that_are_read_back_are_limited() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let at = |name: &str| folder.path().join(name);
-    for ending in ["csv", "jsonl"] {
+    for extension in ["csv", "jsonl"] {
         for shard in ["1/2", "2/2"] {
             let part = shard.replace('/', "-");
             let out = cutlab(
                 folder.path(),
                 &format!(
-                    "score -q octahedron cube --metrics weight_ratio --shard {shard} -o {part}.{ending}"
+                    "score -q octahedron cube --metrics weight_ratio --shard {shard} -o {part}.{extension}"
                 ),
             );
             assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
         }
         // a row without end, with the checksum in the companion put right
-        let row = if ending == "csv" { "\"" } else { "{" };
+        let row = if extension == "csv" { "\"" } else { "{" };
         let table = [
-            fs::read(at(&format!("1-2.{ending}"))).expect("is there"),
+            fs::read(at(&format!("1-2.{extension}"))).expect("is there"),
             row.as_bytes().to_vec(),
             vec![b'x'; 3 << 20],
         ]
         .concat();
-        let good = fs::read_to_string(at(&format!("1-2.{ending}.meta.json"))).expect("is there");
+        let good = fs::read_to_string(at(&format!("1-2.{extension}.meta.json"))).expect("is there");
         let sum = |bytes: &[u8]| format!("{:08x}", crc32fast::hash(bytes));
-        let was = sum(&fs::read(at(&format!("1-2.{ending}"))).expect("is there"));
+        let was = sum(&fs::read(at(&format!("1-2.{extension}"))).expect("is there"));
         // the long row comes first
         let head = table.iter().position(|b| *b == b'\n').expect("a line") + 1;
-        let head = if ending == "csv" { head } else { 0 };
+        let head = if extension == "csv" { head } else { 0 };
         let long = [&table[..head], &table[table.len() - (3 << 20) - 1..]].concat();
-        fs::write(at(&format!("1-2.{ending}")), &long).expect("written");
-        fs::write(at(&format!("1-2.{ending}.meta.json")), good.replace(&was, &sum(&long))).expect("written");
-        let out = within_memory(folder.path(), &format!("merge 1-2.{ending} 2-2.{ending} -o all.{ending}"));
+        fs::write(at(&format!("1-2.{extension}")), &long).expect("written");
+        fs::write(at(&format!("1-2.{extension}.meta.json")), good.replace(&was, &sum(&long)))
+            .expect("written");
+        let out = within_memory(
+            folder.path(),
+            &format!("merge 1-2.{extension} 2-2.{extension} -o all.{extension}"),
+        );
         let said = String::from_utf8_lossy(&out.stderr);
         assert!(said.contains("more than 1048576 bytes in a row"), "{said}");
         assert_eq!(said.trim_end().lines().count(), 1, "{said}");
-        assert!(!at(&format!("all.{ending}")).exists());
-        fs::write(at(&format!("1-2.{ending}.meta.json")), format!("{good}{}", " ".repeat(1 << 20)))
+        assert!(!at(&format!("all.{extension}")).exists());
+        fs::write(at(&format!("1-2.{extension}.meta.json")), format!("{good}{}", " ".repeat(1 << 20)))
             .expect("written");
         refused(
             folder.path(),
-            &format!("merge 1-2.{ending} 2-2.{ending} -o all.{ending}"),
+            &format!("merge 1-2.{extension} 2-2.{extension} -o all.{extension}"),
             "more than 1048576 bytes in a .meta.json",
         );
     }
@@ -373,7 +377,7 @@ fn the_readme_has_every_limit() {
     let readme =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("is there");
     for limit in limits::ALL {
-        let row = format!("| {} | {} |", limit.most(), limit.of);
+        let row = format!("| {} | {} |", limit.max(), limit.of);
         assert!(readme.contains(&row), "README lacks '{row}'");
     }
     assert!(readme.contains(limits::VARIABLE));

@@ -65,11 +65,11 @@ impl Inputs {
         let table = |words: &[&str], output: &str| make(&[words, &scored, &["-o", output]].concat());
         let stones = ["score", "cube", "classic", "a.asc"];
         table(&stones, WHOLE);
-        for (ending, number) in [("csv", "p"), ("jsonl", "q"), ("json", "r")] {
+        for (extension, number) in [("csv", "p"), ("jsonl", "q"), ("json", "r")] {
             for shard in ["1/2", "2/2"] {
                 table(
                     &[&stones[..], &["--shard", shard]].concat(),
-                    &format!("{number}{}.{ending}", &shard[..1]),
+                    &format!("{number}{}.{extension}", &shard[..1]),
                 );
             }
         }

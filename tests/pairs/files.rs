@@ -9,14 +9,14 @@ use std::path::Path;
 ///
 /// - `inputs`: in a folder of which designs and meshes are shown
 pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
-    // a file without ending is what it begins as
-    let ending =
+    // a file without extension is what it begins as
+    let extension =
         name.extension().map_or_else(|| sniffed(bytes, "").into(), |e| e.to_string_lossy().to_lowercase());
-    let said = |e: &dyn std::fmt::Display| Some(format!("{ending}: {e}"));
+    let said = |e: &dyn std::fmt::Display| Some(format!("{extension}: {e}"));
     if bytes.is_empty() {
-        return Some(format!("{ending}: empty"));
+        return Some(format!("{extension}: empty"));
     }
-    match ending.as_str() {
+    match extension.as_str() {
         "png" | "apng" => png(bytes).and_then(|e| said(&e)),
         "gif" | "jpg" | "webp" => image::load_from_memory(bytes).err().and_then(|e| said(&e)),
         "exr" => exr::prelude::read()
@@ -55,7 +55,7 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
     }
 }
 
-/// What standard output holds, by its first bytes, as an ending.
+/// What standard output holds, by its first bytes, as an extension.
 ///
 /// - `otherwise`: if it is none of the kinds that can be told so
 pub fn sniffed<'a>(bytes: &[u8], otherwise: &'a str) -> &'a str {

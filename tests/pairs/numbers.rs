@@ -33,12 +33,12 @@ fn printed(case: &Case, inputs: &Inputs) -> Result<Vec<Row>, String> {
 fn table(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     let mut faults = Vec::new();
     let name = case.values("output").first().copied().filter(|name| *name != "-").map(Path::new);
-    let (bytes, ending) = match name {
+    let (bytes, extension) = match name {
         Some(name) => (ran.files.get(name), name.extension().and_then(|e| e.to_str()).unwrap_or("csv")),
         None => (Some(&ran.stdout), streamed(case)),
     };
     let Some(bytes) = bytes else { return faults };
-    let rows = match tables::rows(bytes, ending) {
+    let rows = match tables::rows(bytes, extension) {
         Ok(rows) if rows.iter().all(|r| r.contains_key("error")) && !rows.is_empty() => rows,
         // a shard of a small table may have no rows
         Ok(rows) if rows.is_empty() && case.has("shard") => rows,
@@ -71,7 +71,7 @@ fn table(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     let plain = case.without(silent);
     match printed(&plain, inputs) {
         Ok(csv) if csv == rows => (),
-        Ok(_) => faults.push(fault("the same numbers in every form", format!("{ending} and CSV differ"))),
+        Ok(_) => faults.push(fault("the same numbers in every form", format!("{extension} and CSV differ"))),
         Err(error) => faults.push(fault("the same numbers in every form", error)),
     }
     if case.has("exact") {
@@ -120,12 +120,12 @@ fn whole(case: &Case, rows: &[Row], inputs: &Inputs) -> Option<Fault> {
 /// What differs between the parts of a table, merged, and the whole.
 fn joined(case: &Case, shard: &str, name: &Path, inputs: &Inputs) -> Option<String> {
     let of: u32 = shard.split('/').nth(1)?.parse().ok()?;
-    let ending = name.extension()?.to_str()?;
+    let extension = name.extension()?.to_str()?;
     let whole = Bench::once(inputs, &case.without(&["shard"]).words(), 2);
     let bench = Bench::new(inputs, &case.words());
     let mut merge = vec!["merge".to_string()];
     for i in 1..=of {
-        let part = format!("part{i}.{ending}");
+        let part = format!("part{i}.{extension}");
         let (shard, output) = (format!("{i}/{of}"), part.clone());
         let case = case.with("shard", &["--shard", &shard]).with("output", &["--output", &output]);
         let ran = bench.run(&case.words(), 2);

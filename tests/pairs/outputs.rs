@@ -78,7 +78,7 @@ fn companion(table: &Path) -> PathBuf {
     name.into()
 }
 
-/// What standard output holds when it is a file, as an ending.
+/// What standard output holds when it is a file, as an extension.
 pub fn streamed(case: &Case) -> &str {
     match case.command.as_str() {
         // whatever form the parts of a whole have

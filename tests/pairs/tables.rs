@@ -1,15 +1,15 @@
 //! Tables read back, and what must hold of their cells.
 
-use cutlab::metrics::{METRICS, Metric, Reading};
+use cutlab::metrics::{METRICS, Metric, MetricSource};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A row by its columns; cells as text, numbers as JSON and CSV both write them.
 pub type Row = BTreeMap<String, String>;
 
-/// The rows of a table of the form that `ending` says.
-pub fn rows(bytes: &[u8], ending: &str) -> Result<Vec<Row>, String> {
-    if ending == "csv" {
+/// The rows of a table of the form that `extension` says.
+pub fn rows(bytes: &[u8], extension: &str) -> Result<Vec<Row>, String> {
+    if extension == "csv" {
         let mut reader = csv::Reader::from_reader(bytes);
         let head = reader.headers().map_err(|e| e.to_string())?.clone();
         let row = |record: csv::StringRecord| {
@@ -17,7 +17,7 @@ pub fn rows(bytes: &[u8], ending: &str) -> Result<Vec<Row>, String> {
         };
         return reader.records().map(|r| r.map(row).map_err(|e| e.to_string())).collect();
     }
-    let values: Result<Vec<Value>, _> = match ending {
+    let values: Result<Vec<Value>, _> = match extension {
         "json" => serde_json::from_slice(bytes),
         _ => serde_json::Deserializer::from_slice(bytes).into_iter().collect(),
     };
@@ -78,7 +78,7 @@ fn cell_fault(row: &Row, metric: &Metric) -> Option<String> {
 
 /// Cells that are no scores.
 fn other_fault(row: &Row) -> Option<String> {
-    let is_score = |column: &str| Metric::named(column.trim_end_matches("_se")).is_some();
+    let is_score = |column: &str| Metric::by_name(column.trim_end_matches("_se")).is_some();
     row.iter().filter(|(column, _)| !is_score(column)).find_map(|(column, cell)| {
         if cell.is_empty() && !MAY_BE_EMPTY.contains(&column.as_str()) && !has_reason(row) {
             return Some(format!("{column} is empty without a reason"));
@@ -109,7 +109,7 @@ const CUBES: [&str; 4] = ["cube", "a.asc", "d/one.asc", "-"];
 
 /// A score that is summed over samples, lies between the ends of its range, and is said to be certain.
 pub fn certain(rows: &[Row]) -> Option<String> {
-    let sampled = || METRICS.iter().filter(|m| !matches!(m.reading, Reading::Solid(_)));
+    let sampled = || METRICS.iter().filter(|m| !matches!(m.read_from, MetricSource::Solid(_)));
     let is_cube = |row: &&Row| row.get("stone").is_some_and(|stone| CUBES.contains(&stone.as_str()));
     rows.iter().filter(|row| !is_cube(row)).find_map(|row| {
         sampled().find_map(|m| {

@@ -2,9 +2,9 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use cutlab::photons::{self, Shots};
-use cutlab::render::{self, Curve, Maps, Tone};
-use cutlab::scene::{Cast, Scene, SceneFile};
+use cutlab::integrators::{self, PhotonMaps, Tone, ToneCurve};
+use cutlab::photons::{self, PhotonSets};
+use cutlab::scene::{Scene, SceneFile, SceneOverrides};
 use std::path::Path;
 
 pub const SMALL: [&str; 8] = ["--width", "16", "--spp", "1", "--photons", "200", "--nearest", "10"];
@@ -36,13 +36,20 @@ radiance = 0.1
 
 pub fn built(text: &str) -> Result<Scene, String> {
     let file = SceneFile::parse("t", "t.toml", text, Path::new("")).map_err(|e| e.to_string())?;
-    file.build(&Cast::default(), 4.0 / 3.0).map_err(|e| e.to_string())
+    file.build(&SceneOverrides::default(), 4.0 / 3.0).map_err(|e| e.to_string())
 }
 
-pub fn taken(scene: &Scene, side: u32) -> render::Film {
-    let photons = photons::Settings { photons: 100, nearest: 10, seed: 1 };
-    let maps = Maps::new(scene, Shots::shoot(scene, &photons), photons.nearest);
-    let tone = Tone { curve: Curve::Linear, ..Tone::default() };
-    let settings = render::Settings { width: side, height: side, rays: 9, round: 0, tone, seed: 1 };
-    render::render(scene, &scene.camera, &maps, &settings, &|| ())
+pub fn taken(scene: &Scene, side: u32) -> integrators::Film {
+    let photons = photons::PhotonSettings { photons: 100, nearest: 10, seed: 1 };
+    let maps = PhotonMaps::new(scene, PhotonSets::emit(scene, &photons), photons.nearest);
+    let tone = Tone { curve: ToneCurve::Linear, ..Tone::default() };
+    let settings = integrators::RenderSettings {
+        width: side,
+        height: side,
+        samples_per_pixel: 9,
+        round: 0,
+        tone,
+        seed: 1,
+    };
+    integrators::render(scene, &scene.camera, &maps, &settings, &|| ())
 }

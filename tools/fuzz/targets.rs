@@ -5,17 +5,17 @@
 
 #![allow(dead_code)] // every binary uses one of them
 
-use cutlab::cut::Design;
-use cutlab::cut::families::{self, FAMILIES};
-use cutlab::formats::{self, FORMATS, FormatError, Source, scenery};
-use cutlab::photons::file;
-use cutlab::scene::mesh::Mesh;
+use cutlab::batch::sidecar::TableMeta;
+use cutlab::batch::table::{NumericColumns, RowReader, TableFormat};
+use cutlab::design::Design;
+use cutlab::design::families::{self, FAMILIES};
+use cutlab::formats::{self, FORMATS, FormatError, Input, triangle_mesh};
+use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::photons::map_file;
 use cutlab::scene::panorama::Panorama;
-use cutlab::scene::surface::Hit;
-use cutlab::scene::{Cast, SceneFile};
-use cutlab::solid::{Plane, Polyhedron};
-use cutlab::study::meta::Meta;
-use cutlab::study::table::{Form, Numbers, RowReader};
+use cutlab::scene::scene_mesh::SceneMesh;
+use cutlab::scene::surface::SurfaceHit;
+use cutlab::scene::{SceneFile, SceneOverrides};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -74,7 +74,7 @@ pub fn readers(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
     let read: Result<Design, FormatError> = match FORMATS.get(usize::from(how & FOUND)) {
         Some(format) => {
-            let source = Source { name: "fuzzed", bytes, folder: None };
+            let source = Input { name: "fuzzed", bytes, folder: None };
             (format.read)(&source).map(|reading| reading.design)
         }
         None => formats::read_bytes("fuzzed", bytes, None).map(|imported| imported.design),
@@ -207,7 +207,7 @@ pub fn scenes(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     let nowhere = Path::new("/nowhere");
     let scene = SceneFile::parse("fuzzed", "fuzzed.toml", &text, nowhere)
-        .and_then(|f| f.build(&Cast::default(), 1.5));
+        .and_then(|f| f.build(&SceneOverrides::default(), 1.5));
     match scene {
         Ok(scene) => assert!(!scene.stones.is_empty()),
         Err(error) => is_one_line(&error),
@@ -216,8 +216,8 @@ pub fn scenes(data: &[u8]) {
 
 /// A mesh that stands around stones, of any shape: rays meet it in front of them on the side they see.
 pub fn sceneries(data: &[u8]) {
-    let source = Source { name: "fuzzed", bytes: data, folder: None };
-    let mesh = match scenery::triangles_of(&source) {
+    let source = Input { name: "fuzzed", bytes: data, folder: None };
+    let mesh = match triangle_mesh::triangles_from(&source) {
         Ok(mesh) => mesh,
         Err(error) => return is_one_line(&error),
     };
@@ -225,12 +225,12 @@ pub fn sceneries(data: &[u8]) {
     if mesh.vertices.iter().any(|v| v.length() > 1e9) {
         return;
     }
-    let mesh = match Mesh::new(&mesh, DMat3::IDENTITY, 1.0, DVec3::ZERO) {
+    let mesh = match SceneMesh::new(&mesh, DMat3::IDENTITY, 1.0, DVec3::ZERO) {
         Ok(mesh) => mesh,
         Err(error) => return is_one_line(&error),
     };
     for d in [Vec3::X, Vec3::NEG_Z, Vec3::new(0.6, -0.48, 0.64)] {
-        if let Some(Hit { distance, normal, .. }) = mesh.hit(-3.0 * d, d, 0.0) {
+        if let Some(SurfaceHit { distance, normal, .. }) = mesh.intersect(-3.0 * d, d, 0.0) {
             assert!(distance > 0.0 && normal.dot(d) <= 1e-6, "{distance} {normal} against {d}");
         }
     }
@@ -238,11 +238,11 @@ pub fn sceneries(data: &[u8]) {
 
 /// A panorama: light from it is finite, or there is an error.
 pub fn panoramas(data: &[u8]) {
-    match Panorama::of(data) {
+    match Panorama::from_bytes(data) {
         Ok(sky) => {
             assert!(sky.mean().is_finite() && sky.mean() >= 0.0, "mean {}", sky.mean());
             for u in [[0.0, 0.0], [0.3, 0.7], [0.999_999, 0.5]] {
-                let (direction, _) = sky.draw(u);
+                let (direction, _) = sky.sample(u);
                 let colour = sky.colour(direction);
                 assert!(direction.is_finite() && colour.is_finite(), "{sky:?}, {u:?}: {direction} {colour}");
             }
@@ -255,7 +255,7 @@ pub fn panoramas(data: &[u8]) {
 /// the right checksum, as the header, which ends at the first `}`, and the photons.
 pub fn maps(data: &[u8]) {
     let Some((how, rest)) = data.split_first() else { return };
-    let decoded = if *how == 0 { file::decode(rest) } else { file::decode(&photon_map(rest)) };
+    let decoded = if *how == 0 { map_file::decode(rest) } else { map_file::decode(&photon_map(rest)) };
     match decoded {
         Ok((_, shots)) => {
             let all = shots.caustic.photons.iter().chain(&shots.indirect.photons);
@@ -268,7 +268,7 @@ pub fn maps(data: &[u8]) {
 fn photon_map(rest: &[u8]) -> Vec<u8> {
     let header = rest.iter().position(|b| *b == b'}').map_or(0, |at| at + 1);
     let mut bytes = b"CUTLABPM".to_vec();
-    bytes.extend(file::VERSION.to_le_bytes());
+    bytes.extend(map_file::VERSION.to_le_bytes());
     bytes.extend((header as u32).to_le_bytes());
     bytes.extend(rest);
     bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
@@ -279,13 +279,13 @@ fn photon_map(rest: &[u8]) -> Vec<u8> {
 pub fn tables(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
     if how % 4 == 3 {
-        if let Err(error) = serde_json::from_slice::<Meta>(bytes) {
+        if let Err(error) = serde_json::from_slice::<TableMeta>(bytes) {
             is_one_line(&error);
         }
         return;
     }
-    let form = [Form::Csv, Form::JsonLines, Form::Json][usize::from(how % 4)];
-    if let Err(error) = Numbers::read(bytes, form) {
+    let form = [TableFormat::Csv, TableFormat::JsonLines, TableFormat::Json][usize::from(how % 4)];
+    if let Err(error) = NumericColumns::read(bytes, form) {
         is_one_line(&error);
     }
     let Ok(mut rows) = RowReader::new(form, bytes) else { return };

@@ -1,8 +1,8 @@
 //! Which files an import takes, and where each is written.
 
-use crate::cli::folders;
-use crate::cli::outcome::Failure;
-use crate::cli::stones;
+use crate::cli::args::inputs;
+use crate::cli::args::stone;
+use crate::cli::exit_code::CliError;
 use std::collections::{HashMap, HashSet};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -14,12 +14,12 @@ pub struct Job {
     pub stone: OsString,
     /// Where to write it; `-` is standard output.
     pub target: PathBuf,
-    /// Found in a folder and no stone by its ending or content: nobody asked for it.
+    /// Found in a folder and no stone by its extension or content: nobody asked for it.
     pub by_chance: bool,
 }
 
-/// A stone and its place below the output folder, without ending.
-struct Found {
+/// A stone and its place below the output folder, without extension.
+struct FoundStone {
     stone: OsString,
     below: PathBuf,
     /// The name of the folder that it lies in, if that is not part of `below`.
@@ -27,8 +27,8 @@ struct Found {
     by_chance: bool,
 }
 
-impl Found {
-    /// The place with more and more of the stone's own name in it: alone, with its ending, with its
+impl FoundStone {
+    /// The place with more and more of the stone's own name in it: alone, with its extension, with its
     /// folder before it.
     fn name(&self, detail: u32) -> PathBuf {
         let with = |parts: [Option<&OsStr>; 3]| {
@@ -42,12 +42,12 @@ impl Found {
             self.below.with_file_name(name)
         };
         let stem = self.below.file_name();
-        let ending = Path::new(&self.stone).extension();
+        let extension = Path::new(&self.stone).extension();
         match detail {
             0 => self.below.clone(),
-            1 => with([stem, ending, None]),
-            2 => with([self.folder.as_deref(), stem, ending]),
-            n => with([stem, ending, Some((n - 1).to_string().as_ref())]),
+            1 => with([stem, extension, None]),
+            2 => with([self.folder.as_deref(), stem, extension]),
+            n => with([stem, extension, Some((n - 1).to_string().as_ref())]),
         }
     }
 }
@@ -58,30 +58,30 @@ impl Found {
 /// much as needed of their own names into it: `a.asc` and `a.gem` become `a-asc.glb` and `a-gem.glb`,
 /// `x/a.asc` and `y/a.asc` become `x-a-asc.glb` and `y-a-asc.glb`; what is then left gets a number. A
 /// stone that is named twice is taken once. The output folder itself is not searched.
-pub fn into_folder(arguments: &[OsString], output: &Path, ending: &str) -> Result<Vec<Job>, Failure> {
+pub fn into_folder(arguments: &[OsString], output: &Path, extension: &str) -> Result<Vec<Job>, CliError> {
     let skipped = output.canonicalize().ok();
-    let mut found: Vec<Found> = Vec::new();
+    let mut found: Vec<FoundStone> = Vec::new();
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
-            for file in folders::files(path, skipped.as_deref())? {
+            for file in inputs::files(path, skipped.as_deref())? {
                 let below = file.strip_prefix(path).unwrap_or(&file).with_extension("");
-                let by_chance = !folders::is_meant_as_stone(&file);
-                found.push(Found { stone: folders::as_stone(&file), below, folder: None, by_chance });
+                let by_chance = !inputs::is_meant_as_stone(&file);
+                found.push(FoundStone { stone: inputs::as_stone(&file), below, folder: None, by_chance });
             }
         } else {
             let folder = path.parent().and_then(Path::file_name).map(OsStr::to_owned);
-            let below = stones::file_stem(argument).into();
-            found.push(Found { stone: argument.clone(), below, folder, by_chance: false });
+            let below = stone::file_stem(argument).into();
+            found.push(FoundStone { stone: argument.clone(), below, folder, by_chance: false });
         }
     }
     let mut seen = HashSet::new();
     found.retain(|f| seen.insert(f.stone.clone()));
     let places = places(&found);
-    let job = |(f, place): (Found, PathBuf)| {
+    let job = |(f, place): (FoundStone, PathBuf)| {
         let mut name = place.into_os_string();
         name.push(".");
-        name.push(ending);
+        name.push(extension);
         Job { stone: f.stone, target: output.join(name), by_chance: f.by_chance }
     };
     Ok(found.into_iter().zip(places).map(job).collect())
@@ -91,14 +91,14 @@ pub fn into_folder(arguments: &[OsString], output: &Path, ending: &str) -> Resul
 pub fn places_of(stones: &[OsString]) -> Vec<PathBuf> {
     let found = |stone: &OsString| {
         let folder = Path::new(stone).parent().and_then(Path::file_name).map(OsStr::to_owned);
-        Found { stone: stone.clone(), below: stones::file_stem(stone).into(), folder, by_chance: false }
+        FoundStone { stone: stone.clone(), below: stone::file_stem(stone).into(), folder, by_chance: false }
     };
     places(&stones.iter().map(found).collect::<Vec<_>>())
 }
 
 /// A place for each, no two the same: each has the shortest name that no other would have as well.
-fn places(found: &[Found]) -> Vec<PathBuf> {
-    let key = |name: &Path| stones::shown(name).to_lowercase();
+fn places(found: &[FoundStone]) -> Vec<PathBuf> {
+    let key = |name: &Path| stone::display_name(name).to_lowercase();
     let mut places: Vec<Option<PathBuf>> = found.iter().map(|f| f.by_chance.then(|| f.name(1))).collect();
     let mut taken: HashSet<String> = HashSet::new();
     let mut detail = 0;

@@ -1,17 +1,18 @@
 //! The entries of each catalogue.
 
-use super::Entry;
-use crate::cut::document::Document;
-use crate::cut::{families, library};
+use super::CatalogueEntry;
+use crate::color::illuminants::ILLUMINANTS;
+use crate::color::{Illuminant, cie};
+use crate::design::design_file::DesignFile;
+use crate::design::{families, library};
 use crate::formats::{FORMATS, Format};
-use crate::metrics::{METRICS, Metric, Reading, Statistic};
+use crate::materials::MATERIALS;
+use crate::materials::Material;
+use crate::metrics::{METRICS, Metric, MetricSource, Statistic};
 use crate::optics::dispersion::lines;
-use crate::optics::illuminants::ILLUMINANTS;
-use crate::optics::materials::MATERIALS;
-use crate::optics::{Illuminant, Material, colour};
-use crate::scene::lights::{Kind as LightKind, LIGHTS};
+use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
-use crate::store::limits::{self as limit, Limit};
+use crate::storage::limits::{self as limit, Limit};
 use serde_json::{Value, json};
 
 /// Width of a block's text, without its label.
@@ -45,27 +46,27 @@ fn textwrap(text: &str) -> Vec<String> {
 }
 
 /// Scores.
-pub fn metrics() -> Vec<Entry> {
+pub fn metrics() -> Vec<CatalogueEntry> {
     METRICS.iter().map(|m| metric(m)).collect()
 }
 
-fn metric(m: &Metric) -> Entry {
+fn metric(m: &Metric) -> CatalogueEntry {
     let unit = match m.unit {
         "" if m.scale == 1.0 && m.range.1 <= 1.0 => "a fraction",
         "" => "a ratio",
         unit => unit,
     };
     let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
-    let how = match m.reading {
-        Reading::Solid(_) => "none: a closed form",
-        Reading::View(Statistic::Share(_)) => "by Wilson's interval, of 64 batches of random rays",
-        Reading::Beam(Statistic::Median(..)) => {
+    let how = match m.read_from {
+        MetricSource::Solid(_) => "none: a closed form",
+        MetricSource::View(Statistic::Share(_)) => "by Wilson's interval, of 64 batches of random rays",
+        MetricSource::PointLight(Statistic::Median(..)) => {
             "of 64 batches of random rays: the longer side of a 95 % interval for the median, over 1.96"
         }
         _ => "of 64 batches of random rays",
     };
     let error = format!("{how}{}", if m.by_beams { "; beams with --exact" } else { "" });
-    let shapes = if m.dented { "convex, and with dents" } else { "convex" };
+    let shapes = if m.nonconvex { "convex or not" } else { "convex" };
     let text = block(
         &format!("{}: {}", m.name, m.about),
         &[
@@ -79,7 +80,7 @@ fn metric(m: &Metric) -> Entry {
                     word => word.into(),
                 },
             ),
-            ("experiment", m.reading.experiment().into()),
+            ("experiment", m.read_from.estimator().into()),
             ("stones", shapes.into()),
             ("error", error),
             ("source", m.source.into()),
@@ -90,21 +91,21 @@ fn metric(m: &Metric) -> Entry {
         "range": [m.range.0, m.range.1],
         "better": (!m.better.word().is_empty()).then(|| m.better.word()),
         "observer_deg": m.observer,
-        "experiment": m.reading.experiment(),
+        "experiment": m.read_from.estimator(),
         "by_beams": m.by_beams,
-        "dented": m.dented,
+        "dented": m.nonconvex,
         "definition": m.definition,
         "source": m.source,
     });
-    Entry { name: m.name.into(), about: m.about_and_better(), text, facts }
+    CatalogueEntry { name: m.name.into(), about: m.about_and_better(), text, facts }
 }
 
 /// Materials.
-pub fn materials() -> Vec<Entry> {
+pub fn materials() -> Vec<CatalogueEntry> {
     MATERIALS.iter().map(|m| material(m)).collect()
 }
 
-fn material(m: &Material) -> Entry {
+fn material(m: &Material) -> CatalogueEntry {
     let n_e = m.extraordinary.map(|law| law.index(lines::D));
     let b_g = m.index(lines::G) - m.index(lines::B);
     let valid = [1000.0 * m.valid_um.0, 1000.0 * m.valid_um.1];
@@ -146,7 +147,7 @@ fn material(m: &Material) -> Entry {
         "source": m.source,
     });
     let about = format!("n {:.4}, B–G {b_g:.4}, {density}: {}", m.index_d(), m.about);
-    Entry { name: m.name.to_string(), about, text, facts }
+    CatalogueEntry { name: m.name.to_string(), about, text, facts }
 }
 
 /// To six decimals, beyond which no index is known.
@@ -161,22 +162,22 @@ const DEPTH_MM: f64 = 10.0;
 fn through(m: &Material) -> Option<String> {
     let absorption = m.absorption?;
     let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm) / 1000.0)).exp() as f32;
-    let byte = |x| (255.0 * colour::srgb_encode(x)).round() as u8;
+    let byte = |x| (255.0 * cie::srgb_encode(x)).round() as u8;
     let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
     Some(format!("#{r:02x}{g:02x}{b:02x}"))
 }
 
 /// Cuts of the library.
-pub fn cuts() -> Vec<Entry> {
+pub fn cuts() -> Vec<CatalogueEntry> {
     library::names().map(cut).collect()
 }
 
-fn cut(name: &'static str) -> Entry {
+fn cut(name: &'static str) -> CatalogueEntry {
     let document = match library::document(name) {
         Some(Ok(document)) => document,
         // a test keeps both from happening
-        Some(Err(error)) => Document { about: error.to_string(), ..Document::default() },
-        None => Document::default(),
+        Some(Err(error)) => DesignFile { about: error.to_string(), ..DesignFile::default() },
+        None => DesignFile::default(),
     };
     let family = document.family.as_deref().and_then(|f| families::family(f).ok());
     let parameters = family.map_or(&[][..], |f| f.parameters).iter().map(|p| {
@@ -195,12 +196,12 @@ fn cut(name: &'static str) -> Entry {
         "parameters": parameters.collect::<Vec<_>>(),
     });
     let text = library::source(name).unwrap_or_default().into();
-    Entry { name: name.into(), about: document.about, text, facts }
+    CatalogueEntry { name: name.into(), about: document.about, text, facts }
 }
 
 /// Lights by which colours are judged.
-pub fn illuminants() -> Vec<Entry> {
-    let entry = |i: &&Illuminant| Entry {
+pub fn illuminants() -> Vec<CatalogueEntry> {
+    let entry = |i: &&Illuminant| CatalogueEntry {
         name: i.name.into(),
         about: i.about.into(),
         text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.into())]),
@@ -210,11 +211,11 @@ pub fn illuminants() -> Vec<Entry> {
 }
 
 /// File formats.
-pub fn formats() -> Vec<Entry> {
+pub fn formats() -> Vec<CatalogueEntry> {
     let entry = |f: &&Format| {
         let how = if f.write.is_some() { "read, written" } else { "read" };
         let about = format!("{} ({how}; .{})", f.about, f.extensions.join(", ."));
-        Entry {
+        CatalogueEntry {
             name: f.name.into(),
             text: format!("{}: {about}", f.name),
             about,
@@ -225,17 +226,17 @@ pub fn formats() -> Vec<Entry> {
 }
 
 /// Scenes for pictures.
-pub fn scenes() -> Vec<Entry> {
+pub fn scenes() -> Vec<CatalogueEntry> {
     let entry = |(name, text): &(&'static str, &'static str)| {
         let about = preset(name).and_then(Result::ok).map_or_else(String::new, |s| s.about().into());
-        Entry { name: (*name).into(), about, text: (*text).into(), facts: Value::Null }
+        CatalogueEntry { name: (*name).into(), about, text: (*text).into(), facts: Value::Null }
     };
     SCENES.iter().map(entry).collect()
 }
 
 /// Kinds of light for scene files.
-pub fn lights() -> Vec<Entry> {
-    let entry = |k: &&LightKind| Entry {
+pub fn lights() -> Vec<CatalogueEntry> {
+    let entry = |k: &&LightKind| CatalogueEntry {
         name: k.name.into(),
         about: k.about.into(),
         text: format!("{}: {}", k.name, k.about),
@@ -245,12 +246,12 @@ pub fn lights() -> Vec<Entry> {
 }
 
 /// How much a file may hold.
-pub fn limits() -> Vec<Entry> {
-    let entry = |l: &&Limit| Entry {
-        name: l.most().to_string(),
+pub fn limits() -> Vec<CatalogueEntry> {
+    let entry = |l: &&Limit| CatalogueEntry {
+        name: l.max().to_string(),
         about: l.of.into(),
-        text: format!("{} {}", l.most(), l.of),
-        facts: json!({ "most": l.most(), "of": l.of }),
+        text: format!("{} {}", l.max(), l.of),
+        facts: json!({ "most": l.max(), "of": l.of }),
     };
     limit::ALL.iter().map(entry).collect()
 }

@@ -3,9 +3,10 @@
 //! PNG and APNG have it as the text `Command`, EXR as the comment of its first layer, SVG, HTML and GIF
 //! as a processing instruction behind their end.
 
-use crate::cli::{stones, words};
+use crate::cli::args::stone;
+use crate::cli::shell_quote;
 use crate::report::page::escaped;
-use crate::store::limits;
+use crate::storage::limits;
 use exr::meta::MetaData;
 use std::ffi::OsString;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -30,7 +31,7 @@ pub fn own_command() -> String {
 
 fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
     let mut said = vec!["cutlab".to_owned()];
-    let mut arguments = arguments.map(stones::shown);
+    let mut arguments = arguments.map(stone::display_name);
     while let Some(argument) = arguments.next() {
         let name = argument.split('=').next().unwrap_or_default();
         if WHERE.contains(&name) && !argument.contains('=') {
@@ -38,7 +39,7 @@ fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
         }
         let with_value = argument.starts_with("-o") || argument.starts_with("-j");
         if !with_value && !WHERE.contains(&name) && !HOW.contains(&&*argument) {
-            said.push(words::quoted(&argument));
+            said.push(shell_quote::quoted(&argument));
         }
     }
     said.join(" ")
@@ -104,7 +105,7 @@ pub fn is_of(path: &Path, command: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::Film;
+    use crate::integrators::Film;
 
     #[test]
     fn a_command_is_recorded_without_where_its_output_goes() {
@@ -141,10 +142,10 @@ mod tests {
 
     #[test]
     fn pictures_are_known_by_their_command() {
-        use crate::render::write::{Bits, Made, exr, png};
+        use crate::integrators::image_io::{Bits, Provenance, exr, png};
         let top = tempfile::tempdir().expect("a temporary folder");
         let film = Film { width: 2, height: 1, pixels: vec![Default::default(); 2] };
-        let made = Made { command: "cutlab render a --spp 4", rounds: Some(3) };
+        let made = Provenance { command: "cutlab render a --spp 4", rounds: Some(3) };
         let shown = [glam::Vec3::ZERO; 2];
         let files = [
             png(&shown, 2, 1, Bits::Eight, Some(made)).expect("a PNG"),

@@ -1,6 +1,6 @@
 //! `--background`: what stands behind the stones in a picture.
 
-use crate::optics::colour;
+use crate::color::cie;
 use glam::Vec3;
 
 /// What a picture has for its background.
@@ -15,7 +15,7 @@ pub enum Background {
 /// Value parser: `transparent`, `white`, `black`, `#RRGGBB`.
 pub fn parse(text: &str) -> Result<Background, String> {
     let of = |[r, g, b]: [u8; 3]| {
-        let linear = |byte: u8| colour::srgb_decode(f32::from(byte) / 255.0);
+        let linear = |byte: u8| cie::srgb_decode(f32::from(byte) / 255.0);
         Background::Colour(Vec3::new(linear(r), linear(g), linear(b)))
     };
     match text.to_ascii_lowercase().as_str() {

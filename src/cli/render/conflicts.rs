@@ -1,27 +1,27 @@
 //! Options of `cutlab render` that cannot go together, or have no effect: told before any work.
 
-use super::Args;
+use super::RenderArgs;
 use super::background::Background;
-use super::target::{Kind, Target};
-use crate::render::animation::Turn;
+use super::target::{OutputTarget, PictureKind};
+use crate::integrators::animation::Turn;
 use crate::scene::SceneFile;
 
 /// Most frames of a GIF in a second: viewers slow down what is faster.
 const GIF_FPS: u32 = 50;
 
 /// The first problem, in one sentence with what to do.
-pub fn first(args: &Args, target: &Target, scene: &SceneFile) -> Option<String> {
+pub fn first(args: &RenderArgs, target: &OutputTarget, scene: &SceneFile) -> Option<String> {
     let all = [of_glare(args), of_animation(args, target), of_kind(args, target), of_scene(args, scene)];
     all.into_iter().flatten().next()
 }
 
 /// `--glare 8`: the number counts as a STONE.
-fn of_glare(args: &Args) -> Option<String> {
+fn of_glare(args: &RenderArgs) -> Option<String> {
     let number = args.stones.iter().filter_map(|s| s.to_str()).find(|s| s.parse::<f32>().is_ok())?;
     args.glare.is_some().then(|| format!("--glare takes its number after '=': --glare={number}"))
 }
 
-fn of_animation(args: &Args, target: &Target) -> Option<String> {
+fn of_animation(args: &RenderArgs, target: &OutputTarget) -> Option<String> {
     let moved = match args.turn {
         Turn::Camera => None,
         Turn::Stone => Some("--turn stone moves the stones"),
@@ -35,15 +35,17 @@ fn of_animation(args: &Args, target: &Target) -> Option<String> {
     }
     let fps = args.fps?;
     match target.kind() {
-        Kind::Numbered => Some("numbered pictures have no --fps: the program that joins them sets it".into()),
-        Kind::Gif if fps > GIF_FPS => {
+        PictureKind::Numbered => {
+            Some("numbered pictures have no --fps: the program that joins them sets it".into())
+        }
+        PictureKind::Gif if fps > GIF_FPS => {
             Some(format!("a GIF shows at most {GIF_FPS} frames a second: --fps {GIF_FPS}, or -o name.mp4"))
         }
         _ => None,
     }
 }
 
-fn of_kind(args: &Args, target: &Target) -> Option<String> {
+fn of_kind(args: &RenderArgs, target: &OutputTarget) -> Option<String> {
     let kind = target.kind();
     let name = kind.name();
     let in_vain = [
@@ -52,15 +54,15 @@ fn of_kind(args: &Args, target: &Target) -> Option<String> {
         ("--glare", args.glare.is_some()),
         ("--bits", args.bits.is_some()),
     ];
-    if let (Kind::Exr, Some((option, _))) = (kind, in_vain.iter().find(|(_, given)| *given)) {
+    if let (PictureKind::Exr, Some((option, _))) = (kind, in_vain.iter().find(|(_, given)| *given)) {
         return Some(format!("{option} has no effect on an EXR, which holds linear light: leave it out"));
     }
     let deep = args.bits.as_deref() == Some("16");
-    if deep && !matches!(kind, Kind::Png | Kind::Numbered) {
+    if deep && !matches!(kind, PictureKind::Png | PictureKind::Numbered) {
         return Some(format!("{name} has 8 bits a channel: --bits 16 needs a PNG"));
     }
     match args.background {
-        Some(Background::Colour(_)) if kind == Kind::Exr => {
+        Some(Background::Colour(_)) if kind == PictureKind::Exr => {
             Some("an EXR keeps linear light with its coverage: --background transparent".into())
         }
         Some(Background::Transparent) if !kind.has_alpha() => Some(format!(
@@ -70,7 +72,7 @@ fn of_kind(args: &Args, target: &Target) -> Option<String> {
     }
 }
 
-fn of_scene(args: &Args, scene: &SceneFile) -> Option<String> {
+fn of_scene(args: &RenderArgs, scene: &SceneFile) -> Option<String> {
     if args.hdr.is_some() && !scene.has_panorama() {
         return Some(format!(
             "--hdr has no effect: the scene '{}' is not lit by a panorama, as 'daylight' is",
@@ -91,5 +93,6 @@ fn of_scene(args: &Args, scene: &SceneFile) -> Option<String> {
         ("--turn stone", args.turn == Turn::Stone),
     ];
     let (option, _) = of_stones.iter().find(|(_, given)| *given)?;
-    (scene.places() == 0).then(|| format!("{option} has no effect: the scene '{}' has no stone", scene.name))
+    (scene.stone_count() == 0)
+        .then(|| format!("{option} has no effect: the scene '{}' has no stone", scene.name))
 }

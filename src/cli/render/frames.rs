@@ -5,34 +5,34 @@
 //! Frames of a film wait as PNG in a hidden folder and are read back one by one when all are there, so
 //! that memory holds one of them.
 
-use super::picture::{self, File, Progress};
-use super::target::{Alone, Kind, Target};
-use super::{Args, command};
+use super::picture::{self, PictureFile, PictureProgress};
+use super::target::{OutputLock, OutputTarget, PictureKind};
+use super::{RenderArgs, command};
+use crate::batch::fingerprint::BUILD;
 use crate::cli::console::Console;
-use crate::cli::outcome::Failure;
+use crate::cli::exit_code::CliError;
 use crate::cli::outputs::record;
-use crate::photons::file;
-use crate::render::animation::{self, Pace, Turn};
-use crate::render::write::{EncodeError, Made};
-use crate::render::{Maps, Settings, mp4};
+use crate::integrators::animation::{self, FrameTiming, Turn};
+use crate::integrators::image_io::{EncodeError, Provenance};
+use crate::integrators::{PhotonMaps, RenderSettings, mp4};
+use crate::photons::map_file;
 use crate::scene::Scene;
-use crate::store::replace::{self, WriteError};
-use crate::study::identity::BUILD;
+use crate::storage::atomic_write::{self, WriteError};
 use std::io::Write;
 use std::path::PathBuf;
 
 /// Takes one picture, or all frames that are not there yet; returns the files.
-pub fn take(
-    args: &Args,
+pub fn render(
+    args: &RenderArgs,
     scene: &Scene,
-    settings: Settings,
-    target: &Target,
+    settings: RenderSettings,
+    target: &OutputTarget,
     console: &Console,
-) -> Result<Vec<PathBuf>, Failure> {
+) -> Result<Vec<PathBuf>, CliError> {
     let command = command::normalised();
     // what another version made, or was made of files that have changed since, is of no use
     let identity =
-        format!("{command} # {} {BUILD}, scene {:08x}", env!("CARGO_PKG_VERSION"), file::checksum(scene));
+        format!("{command} # {} {BUILD}, scene {:08x}", env!("CARGO_PKG_VERSION"), map_file::checksum(scene));
     match args.frames {
         None => one(args, scene, settings, target, (&command, &identity), console),
         Some(frames) => all(args, scene, settings, target, frames, &identity, console),
@@ -40,48 +40,48 @@ pub fn take(
 }
 
 fn one(
-    args: &Args,
+    args: &RenderArgs,
     scene: &Scene,
-    mut settings: Settings,
-    target: &Target,
+    mut settings: RenderSettings,
+    target: &OutputTarget,
     (command, identity): (&str, &str),
     console: &Console,
-) -> Result<Vec<PathBuf>, Failure> {
-    let goes_on = args.stops.progressive && !replace::is_stream(target.path());
-    let alone = if goes_on || target.has_leftovers() { Some(target.alone(goes_on, console)?) } else { None };
-    let progress = Progress::Single(console);
+) -> Result<Vec<PathBuf>, CliError> {
+    let goes_on = args.stops.progressive && !atomic_write::is_stream(target.path());
+    let alone = if goes_on || target.has_leftovers() { Some(target.lock(goes_on, console)?) } else { None };
+    let progress = PictureProgress::Single(console);
     let mut maps = None;
     settings.tone.stops = picture::exposure(args, scene, &mut maps, &settings, &progress)?;
-    let mut file = File::new(args, target.path(), target.kind(), command);
-    picture::take(scene, maps, &settings, &mut file, identity, &progress)?;
-    alone.map_or(Ok(()), Alone::ends)?;
+    let mut file = PictureFile::new(args, target.path(), target.kind(), command);
+    picture::render(scene, maps, &settings, &mut file, identity, &progress)?;
+    alone.map_or(Ok(()), OutputLock::ends)?;
     Ok(file.written)
 }
 
 fn all(
-    args: &Args,
+    args: &RenderArgs,
     scene: &Scene,
-    mut settings: Settings,
-    target: &Target,
+    mut settings: RenderSettings,
+    target: &OutputTarget,
     frames: u32,
     command: &str,
     console: &Console,
-) -> Result<Vec<PathBuf>, Failure> {
-    let alone = target.alone(true, console)?;
+) -> Result<Vec<PathBuf>, CliError> {
+    let alone = target.lock(true, console)?;
     let alpha = scene.cut_out && picture::is_transparent(args);
     let pixels = settings.width * settings.height;
     let finished = |number| target.finished(number, (args.passes, alpha), command, pixels);
     let bar = console.progress((frames * settings.height) as usize, "frames");
     // where only the camera moves, the light stands still
     let still = args.turn == Turn::Camera;
-    let mut kept: Option<Maps> = None;
+    let mut kept: Option<PhotonMaps> = None;
     let mut stops = None;
     let mut files = Vec::new();
     for frame in 0..frames {
         let path = target.frame(frame);
-        let progress = Progress::Frame { console, bar: &bar, frame, frames };
+        let progress = PictureProgress::Frame { console, bar: &bar, frame, frames };
         if finished(frame).is_some() {
-            files.extend(File::new(args, &path, target.kind(), command).names());
+            files.extend(PictureFile::new(args, &path, target.kind(), command).names());
             bar.set_position(u64::from(frame + 1) * u64::from(settings.height));
             bar.reset_eta();
             continue;
@@ -91,10 +91,10 @@ fn all(
             stops = Some(picture::exposure(args, scene, &mut kept, &settings, &progress)?);
         }
         settings.tone.stops = stops.unwrap_or_default();
-        let moved = animation::at(scene, args.turn, args.rock, frame, frames);
+        let moved = animation::scene_at(scene, args.turn, args.rock, frame, frames);
         let maps = if still { kept.take() } else { None };
-        let mut file = File::new(args, &path, target.kind(), command);
-        kept = picture::take(&moved, maps, &settings, &mut file, command, &progress)?;
+        let mut file = PictureFile::new(args, &path, target.kind(), command);
+        kept = picture::render(&moved, maps, &settings, &mut file, command, &progress)?;
         bar.set_position(u64::from(frame + 1) * u64::from(settings.height));
         files.extend(file.written);
     }
@@ -102,8 +102,8 @@ fn all(
     if target.kind().is_film() {
         let sign = console.spinner("putting the frames together");
         let mut pictures = (0..frames).map(|n| finished(n).ok_or(EncodeError::Frame(n)));
-        let film = Film { size: (settings.width, settings.height), frames, alpha, args, command };
-        replace::stream(target.path(), |out| {
+        let film = AnimationFrames { size: (settings.width, settings.height), frames, alpha, args, command };
+        atomic_write::stream(target.path(), |out| {
             let fail = |error| WriteError { path: target.path().into(), cause: io_error(error) };
             film.write(target.kind(), &mut pictures, out).map_err(fail)
         })?;
@@ -115,30 +115,30 @@ fn all(
 }
 
 /// An animation in one file.
-struct Film<'a> {
+struct AnimationFrames<'a> {
     size: (u32, u32),
     frames: u32,
     alpha: bool,
-    args: &'a Args,
+    args: &'a RenderArgs,
     command: &'a str,
 }
 
-impl Film<'_> {
+impl AnimationFrames<'_> {
     fn write(
         &self,
-        kind: Kind,
+        kind: PictureKind,
         pictures: &mut animation::Frames,
         out: &mut dyn Write,
     ) -> Result<(), EncodeError> {
-        let pace = self.args.fps.map_or_else(|| Pace::of_turn(self.frames), Pace::of_rate);
-        let made = Made { command: self.command, rounds: None };
+        let pace = self.args.fps.map_or_else(|| FrameTiming::of_turn(self.frames), FrameTiming::of_rate);
+        let made = Provenance { command: self.command, rounds: None };
         let record = record::behind(&command::normalised());
         match kind {
-            Kind::Gif => {
+            PictureKind::Gif => {
                 animation::gif(pictures, self.size, pace, out)?;
                 Ok(out.write_all(record.as_bytes())?)
             }
-            Kind::Mp4 => {
+            PictureKind::Mp4 => {
                 mp4::mp4(pictures, self.size, pace, made, out)?;
                 // a box that players pass over
                 let length = (record.len() + 8) as u32;

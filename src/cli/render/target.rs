@@ -1,22 +1,22 @@
 //! `-o` of `cutlab render`: what is written and where, and the work that is kept beside it.
 
-use super::{Args, command};
+use super::{RenderArgs, command};
+use crate::cli::args::stone;
 use crate::cli::console::Console;
-use crate::cli::outcome::{self, Failure};
+use crate::cli::exit_code::{self, CliError};
 use crate::cli::outputs::{Outputs, record};
-use crate::cli::stones;
-use crate::render::animation;
-use crate::render::{Pass, mp4};
+use crate::integrators::animation;
+use crate::integrators::{Pass, mp4};
 use crate::scene::SceneFile;
-use crate::scene::file::MOST_PIXELS;
-use crate::store::replace::{self, WriteError};
-use crate::store::{limits, lock};
+use crate::scene::scene_file::MOST_PIXELS;
+use crate::storage::atomic_write::{self, WriteError};
+use crate::storage::{limits, lock};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum PictureKind {
     Png,
     Jpeg,
     WebP,
@@ -28,46 +28,53 @@ pub enum Kind {
     Mp4,
 }
 
-impl Kind {
+impl PictureKind {
     /// Its name in a sentence.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Png | Kind::Numbered => "a PNG",
-            Kind::Jpeg => "a JPEG",
-            Kind::WebP => "a WebP",
-            Kind::Exr => "an EXR",
-            Kind::Gif => "a GIF",
-            Kind::Apng => "an animated PNG",
-            Kind::Mp4 => "an MP4",
+            PictureKind::Png | PictureKind::Numbered => "a PNG",
+            PictureKind::Jpeg => "a JPEG",
+            PictureKind::WebP => "a WebP",
+            PictureKind::Exr => "an EXR",
+            PictureKind::Gif => "a GIF",
+            PictureKind::Apng => "an animated PNG",
+            PictureKind::Mp4 => "an MP4",
         }
     }
 
     /// Whether its pixels can be transparent by degrees.
     pub fn has_alpha(self) -> bool {
-        matches!(self, Kind::Png | Kind::Numbered | Kind::WebP | Kind::Exr | Kind::Apng)
+        matches!(
+            self,
+            PictureKind::Png
+                | PictureKind::Numbered
+                | PictureKind::WebP
+                | PictureKind::Exr
+                | PictureKind::Apng
+        )
     }
 
     /// Whether it is an animation in one file.
     pub fn is_film(self) -> bool {
-        matches!(self, Kind::Gif | Kind::Apng | Kind::Mp4)
+        matches!(self, PictureKind::Gif | PictureKind::Apng | PictureKind::Mp4)
     }
 }
 
 /// A target that this process has to itself until it is dropped.
-pub struct Alone<'a> {
-    target: &'a Target,
+pub struct OutputLock<'a> {
+    target: &'a OutputTarget,
     path: PathBuf,
     _lock: std::fs::File,
 }
 
-impl Alone<'_> {
+impl OutputLock<'_> {
     /// Takes away what is kept beside the target, the work being done.
     pub fn ends(self) -> Result<(), WriteError> {
         let gone = |path: PathBuf, result: std::io::Result<()>| match result {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(WriteError { path, cause }),
             _ => Ok(()),
         };
-        let [kept, frames] = [lock::hidden(&self.target.path, "kept"), self.target.folder()];
+        let [kept, frames] = [lock::sidecar_path(&self.target.path, "kept"), self.target.folder()];
         gone(kept.clone(), std::fs::remove_file(&kept))?;
         gone(frames.clone(), std::fs::remove_dir_all(&frames))
     }
@@ -75,7 +82,7 @@ impl Alone<'_> {
 
 /// The lock goes with the process that had it, and a folder without frames with it; work that is kept
 /// stays for the next start.
-impl Drop for Alone<'_> {
+impl Drop for OutputLock<'_> {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir(self.target.folder());
         let _ = std::fs::remove_file(&self.path);
@@ -84,65 +91,67 @@ impl Drop for Alone<'_> {
 
 /// Where pictures go.
 #[derive(Debug)]
-pub struct Target {
+pub struct OutputTarget {
     path: PathBuf,
-    kind: Kind,
+    kind: PictureKind,
 }
 
-impl Target {
-    /// The file's ending decides, and whether it is an animation.
-    pub fn of(path: &Path, args: &Args) -> Result<Target, Failure> {
-        let ending = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
+impl OutputTarget {
+    /// The file's extension decides, and whether it is an animation.
+    pub fn new(path: &Path, args: &RenderArgs) -> Result<OutputTarget, CliError> {
+        let extension = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
         let several = args.frames.is_some();
-        let shown = stones::shown(&path);
-        // the name of a pipe may have an ending that tells, that of a device or an open file has none
-        let nameless = replace::is_stream(path) && ending.is_empty();
+        let shown = stone::display_name(&path);
+        // the name of a pipe may have an extension that tells, that of a device or an open file has none
+        let nameless = atomic_write::is_stream(path) && extension.is_empty();
         if nameless && (several || args.passes) {
-            let what = if replace::is_stdout(path) { "standard output" } else { "a stream" };
-            return Err(Failure::input(format!("several pictures cannot go to {what}: name a file with -o")));
+            let what = if atomic_write::is_stdout(path) { "standard output" } else { "a stream" };
+            return Err(CliError::input(format!(
+                "several pictures cannot go to {what}: name a file with -o"
+            )));
         }
         let places = path.file_name().map_or(0, |n| n.to_string_lossy().matches('%').count());
         let numbered = numbered(path, 0).is_some();
-        if several && places > 0 && !(numbered && ending == "png") {
-            return Err(Failure::input(format!(
+        if several && places > 0 && !(numbered && extension == "png") {
+            return Err(CliError::input(format!(
                 "{shown}: frames are numbered by one %d or %03d in the name of a .png; other names of an animation have no %"
             )));
         }
         if !several && numbered {
-            return Err(Failure::input(format!("{shown}: the name has a place for numbers of --frames N")));
+            return Err(CliError::input(format!("{shown}: the name has a place for numbers of --frames N")));
         }
-        let kind = match (ending.as_str(), several) {
-            _ if nameless => Kind::Png,
-            ("png", true) if numbered => Kind::Numbered,
-            ("png" | "apng", true) => Kind::Apng,
-            ("gif", true) => Kind::Gif,
-            ("mp4" | "m4v", true) => Kind::Mp4,
-            ("png", false) => Kind::Png,
-            ("jpg" | "jpeg", false) => Kind::Jpeg,
-            ("webp", false) => Kind::WebP,
-            ("exr", false) => Kind::Exr,
+        let kind = match (extension.as_str(), several) {
+            _ if nameless => PictureKind::Png,
+            ("png", true) if numbered => PictureKind::Numbered,
+            ("png" | "apng", true) => PictureKind::Apng,
+            ("gif", true) => PictureKind::Gif,
+            ("mp4" | "m4v", true) => PictureKind::Mp4,
+            ("png", false) => PictureKind::Png,
+            ("jpg" | "jpeg", false) => PictureKind::Jpeg,
+            ("webp", false) => PictureKind::WebP,
+            ("exr", false) => PictureKind::Exr,
             (_, true) => {
-                return Err(Failure::input(format!(
+                return Err(CliError::input(format!(
                     "{shown}: an animation is .mp4, .gif, .apng or .png, or numbered pictures (name-%03d.png)"
                 )));
             }
             ("mp4" | "m4v" | "gif" | "apng", false) => {
-                return Err(Failure::input(format!("{shown}: an animation needs --frames N")));
+                return Err(CliError::input(format!("{shown}: an animation needs --frames N")));
             }
             (_, false) => {
-                return Err(Failure::input(format!(
+                return Err(CliError::input(format!(
                     "{shown}: pictures are .png, .jpg, .webp or .exr, name the file so"
                 )));
             }
         };
         if args.passes && kind.is_film() {
-            return Err(Failure::input("passes of an animation need numbered pictures: -o name-%03d.png"));
+            return Err(CliError::input("passes of an animation need numbered pictures: -o name-%03d.png"));
         }
-        Ok(Target { path: path.into(), kind })
+        Ok(OutputTarget { path: path.into(), kind })
     }
 
     /// Width and height; one of them alone keeps the scene's shape. Those of an MP4 are even.
-    pub fn size(&self, args: &Args, file: &SceneFile) -> Result<(u32, u32), Failure> {
+    pub fn size(&self, args: &RenderArgs, file: &SceneFile) -> Result<(u32, u32), CliError> {
         let (w, h) = file.picture();
         let scaled = |side: u32, a: u32, b: u32| {
             (u64::from(side) * u64::from(a)).div_ceil(u64::from(b)).clamp(1, u64::from(MOST_PIXELS)) as u32
@@ -153,19 +162,19 @@ impl Target {
             (None, Some(height)) => (scaled(height, w, h), height),
             (None, None) => (w, h),
         };
-        if self.kind != Kind::Mp4 {
+        if self.kind != PictureKind::Mp4 {
             return Ok((width, height));
         }
         for (option, given) in [("--width", args.width), ("--height", args.height)] {
             if let Some(odd) = given.filter(|n| n % 2 == 1) {
                 let even = odd + 1;
-                return Err(Failure::input(format!("an MP4 has even sides: {option} {even}")));
+                return Err(CliError::input(format!("an MP4 has even sides: {option} {even}")));
             }
         }
         let (width, height) = (width.next_multiple_of(2), height.next_multiple_of(2));
         let fits = mp4::SIDES.contains(&width) && mp4::SIDES.contains(&height);
         if !fits || width.min(height) > mp4::SHORTER_SIDE {
-            return Err(Failure::input(format!(
+            return Err(CliError::input(format!(
                 "an MP4 is from {0}×{0} to {1}×{2} pixels, not {width}×{height}: --width and --height set it",
                 mp4::SIDES.start(),
                 mp4::SIDES.end(),
@@ -176,16 +185,16 @@ impl Target {
     }
 
     /// Takes the places of all files, or says why they cannot be written.
-    pub fn claim(&self, args: &Args, outputs: &mut Outputs) -> Result<(), Failure> {
+    pub fn claim(&self, args: &RenderArgs, outputs: &mut Outputs) -> Result<(), CliError> {
         let command = command::normalised();
         let is_own = |there: &Path| record::is_of(there, &command);
         if let Some(map) = &args.photon_map {
             outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
         }
-        let numbers = if self.kind == Kind::Numbered { args.frames.unwrap_or(1) } else { 1 };
+        let numbers = if self.kind == PictureKind::Numbered { args.frames.unwrap_or(1) } else { 1 };
         for number in 0..numbers {
             let path = if self.kind.is_film() { self.path.clone() } else { self.frame(number) };
-            for (_, name) in Pass::ALL.iter().filter(|_| args.passes && self.kind != Kind::Exr) {
+            for (_, name) in Pass::ALL.iter().filter(|_| args.passes && self.kind != PictureKind::Exr) {
                 outputs.claim(&beside(&path, name), is_own)?;
             }
             outputs.claim(&path, is_own)?;
@@ -194,7 +203,7 @@ impl Target {
     }
 
     /// What is written.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> PictureKind {
         self.kind
     }
 
@@ -206,28 +215,29 @@ impl Target {
     /// Has the target to itself from here on.
     ///
     /// - `goes_on`: whether what is done of it outlives this process
-    pub fn alone(&self, goes_on: bool, console: &Console) -> Result<Alone<'_>, Failure> {
+    pub fn lock(&self, goes_on: bool, console: &Console) -> Result<OutputLock<'_>, CliError> {
         if goes_on {
-            outcome::goes_on();
+            exit_code::mark_resumable();
         }
         let waiting = || {
-            let path = stones::shown(&self.path);
+            let path = stone::display_name(&self.path);
             console.note(&format!("another cutlab is making {path}: waiting for it to end"));
         };
-        let path = lock::hidden(&self.path, "lock");
-        let lock = lock::take(&path, &waiting).map_err(|cause| WriteError { path: path.clone(), cause })?;
-        Ok(Alone { target: self, path, _lock: lock })
+        let path = lock::sidecar_path(&self.path, "lock");
+        let lock =
+            lock::acquire(&path, &waiting).map_err(|cause| WriteError { path: path.clone(), cause })?;
+        Ok(OutputLock { target: self, path, _lock: lock })
     }
 
     /// Whether another start, which may have been killed, left something beside the target.
     pub fn has_leftovers(&self) -> bool {
-        let beside = ["kept", "lock", "frames"].map(|ending| lock::hidden(&self.path, ending));
-        !replace::is_stream(&self.path) && beside.iter().any(|p| p.symlink_metadata().is_ok())
+        let beside = ["kept", "lock", "frames"].map(|extension| lock::sidecar_path(&self.path, extension));
+        !atomic_write::is_stream(&self.path) && beside.iter().any(|p| p.symlink_metadata().is_ok())
     }
 
     /// Frames of an animation in one file wait here until all are there.
     fn folder(&self) -> PathBuf {
-        lock::hidden(&self.path, "frames")
+        lock::sidecar_path(&self.path, "frames")
     }
 
     /// What frame number `number` shows, if it is there with all that belongs to it.
@@ -241,7 +251,7 @@ impl Target {
         pixels: u32,
     ) -> Option<Vec<u8>> {
         let path = self.frame(number);
-        let shown = |path: &Path| animation::finished_frame(&whole(path, pixels)?, command, pixels);
+        let shown = |path: &Path| animation::finished_frame(&read_whole(path, pixels)?, command, pixels);
         let mut others = Pass::ALL.iter().filter(|_| passes);
         if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
             return None;
@@ -253,7 +263,7 @@ impl Target {
     /// The file of frame number `number`.
     pub fn frame(&self, number: u32) -> PathBuf {
         match self.kind {
-            Kind::Numbered => numbered(&self.path, number).unwrap_or_else(|| self.path.clone()),
+            PictureKind::Numbered => numbered(&self.path, number).unwrap_or_else(|| self.path.clone()),
             kind if kind.is_film() => self.folder().join(format!("{number:03}.png")),
             _ => self.path.clone(),
         }
@@ -261,7 +271,7 @@ impl Target {
 }
 
 /// The bytes of a file, if it is one and not larger than a PNG of so many pixels of ours can be.
-fn whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
+fn read_whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
     /// Of a pixel of four channels of 16 bits that nothing packs, with room to spare; and of the texts.
     const PIXEL: u64 = 16;
     const TEXTS: u64 = 1 << 20;
@@ -294,8 +304,8 @@ fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
 /// `turn.png` for the caustic pass: `turn-caustic.png`.
 pub fn beside(path: &Path, pass: &str) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{pass}.{ending}"))
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{pass}.{extension}"))
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! Measures of a stone, as `cutlab show` prints them.
 
-use crate::cut::proportions::Proportions;
-use crate::cut::{Design, Unit};
-use crate::optics::weight::Weight;
+use crate::design::proportions::Proportions;
+use crate::design::{Design, LengthUnit};
+use crate::materials::weight::Weight;
 use serde::Serialize;
 
 /// Lengths are in the file's unit, percentages of the girdle width.
 #[derive(Debug, Serialize)]
-pub struct Measured {
+pub struct MeasuredProportions {
     pub width: f64,
     pub length: f64,
     pub surface: f64,
@@ -29,20 +29,20 @@ pub struct Measured {
     pub weight_note: Option<String>,
 }
 
-impl Measured {
+impl MeasuredProportions {
     /// Measures the stone.
     ///
     /// - `size`: girdle width in millimetres, if asked for
-    pub fn of(p: &Proportions, design: &Design, size: Option<f64>, weight: &Weight) -> Measured {
+    pub fn new(p: &Proportions, design: &Design, size: Option<f64>, weight: &Weight) -> MeasuredProportions {
         // weight is asked for by --size or known by the unit
         let to_mm = match (size, design.unit) {
             (Some(mm), _) => Some(mm / p.width),
-            (None, Unit::Millimetre) => Some(1.0),
-            (None, Unit::Free) => None,
+            (None, LengthUnit::Millimetre) => Some(1.0),
+            (None, LengthUnit::Free) => None,
         };
         let volume_mm3 = to_mm.map(|k| p.volume * k.powi(3));
         let carats = volume_mm3.and_then(|v| weight.carats(v));
-        Measured {
+        MeasuredProportions {
             width: p.width,
             length: p.length,
             surface: p.surface,
@@ -63,10 +63,20 @@ impl Measured {
     }
 }
 
-impl Measured {
+impl MeasuredProportions {
     /// With the lengths in a unit of `mm` millimetres, as the file has it.
-    pub fn in_unit_of(self, mm: f64) -> Measured {
+    pub fn in_unit_of(self, mm: f64) -> MeasuredProportions {
         let (width, length, surface) = (self.width / mm, self.length / mm, self.surface / mm.powi(2));
-        Measured { width, length, surface, ..self }
+        MeasuredProportions { width, length, surface, ..self }
+    }
+}
+
+/// A length or a volume with so many decimals, or with as many digits where these would show none of it: a
+/// file may be in metres.
+pub fn figure(value: f64, decimals: usize) -> String {
+    if value.abs() < 100.0 * 10f64.powi(-(decimals as i32)) {
+        format!("{value:.decimals$e}")
+    } else {
+        format!("{value:.decimals$}")
     }
 }

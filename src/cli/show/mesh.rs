@@ -1,10 +1,10 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
-use crate::cli::outcome::{Failure, Shape};
-use crate::store::terminal::in_line;
+use crate::cli::exit_code::{CliError, MeshFacts};
+use crate::storage::terminal::in_line;
 use serde::Serialize;
 
-/// A closed mesh with dents or in several parts: shown, though it is no stone that can be cut.
+/// A closed mesh with concavities or in several parts: shown, though it is no stone that can be cut.
 #[derive(Debug, Serialize)]
 pub struct MeshSheet {
     file: String,
@@ -25,8 +25,8 @@ pub struct MeshSheet {
 
 impl MeshSheet {
     /// What is known of the file; none if it is no closed mesh.
-    pub fn of(file: &str, failure: &Failure) -> Option<MeshSheet> {
-        let Shape { format, closed, body: Some(mesh), .. } = failure.shape()? else { return None };
+    pub fn new(file: &str, failure: &CliError) -> Option<MeshSheet> {
+        let MeshFacts { format, closed, body: Some(mesh), .. } = failure.shape()? else { return None };
         let (low, high) = mesh.bounds();
         Some(MeshSheet {
             file: file.into(),

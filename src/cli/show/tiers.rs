@@ -1,9 +1,9 @@
 //! The tiers of a design, as `cutlab show` lists them.
 
-use crate::cut::design::read_alike;
-use crate::cut::measured::{self, MeasuredTier};
-use crate::cut::{Design, Tier};
-use crate::solid::Polyhedron;
+use crate::design::measured_tiers::{self, MeasuredTier};
+use crate::design::tiers::same_cutting_row;
+use crate::design::{Design, Tier};
+use crate::geometry::Polyhedron;
 use serde::Serialize;
 
 /// One tier of the design.
@@ -24,12 +24,15 @@ impl TierRow {
         if design.tiers.iter().all(|t| t.angle_deg.is_none()) {
             let labels: Vec<String> =
                 design.tiers.iter().enumerate().flat_map(|(i, t)| t.labels(i + 1)).collect();
-            return measured::tiers(design, solid).iter().map(|t| TierRow::measured(t, &labels)).collect();
+            return measured_tiers::tiers(design, solid)
+                .iter()
+                .map(|t| TierRow::measured(t, &labels))
+                .collect();
         }
-        design.tiers.iter().enumerate().map(|(i, tier)| TierRow::of(tier, i + 1)).collect()
+        design.tiers.iter().enumerate().map(|(i, tier)| TierRow::from_tier(tier, i + 1)).collect()
     }
 
-    fn of(tier: &Tier, number: usize) -> TierRow {
+    fn from_tier(tier: &Tier, number: usize) -> TierRow {
         TierRow {
             name: tier.name.clone(),
             angle_deg: tier.angle_deg,
@@ -51,7 +54,7 @@ impl TierRow {
 
     /// Whether two rows differ in their distances only: the girdle of a fancy outline.
     pub fn reads_like(&self, other: &TierRow) -> bool {
-        read_alike((&self.name, self.angle_deg), (&other.name, other.angle_deg))
+        same_cutting_row((&self.name, self.angle_deg), (&other.name, other.angle_deg))
     }
 
     /// Rows that read alike, as one.

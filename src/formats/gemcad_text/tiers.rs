@@ -1,28 +1,16 @@
 //! From the tiers of a GemCad text file to a design: wheels, flat facets, texts.
 
-use super::File;
-use crate::cut::design::facet_normal;
-use crate::cut::{Design, Facet, Gear, Tier};
-use crate::formats::Reading;
+use super::{AscFile, TierLine};
+use crate::design::tiers::facet_normal;
+use crate::design::{Design, Facet, Gear, Tier};
+use crate::formats::Parsed;
 use crate::formats::cutting_table::index_of;
 use crate::formats::error::FormatError;
-use crate::solid::{Plane, SolidError};
+use crate::geometry::{Plane, SolidError};
 
-/// A tier as the file gives it, before it is known which way its flat facets look.
-pub(super) struct Entry {
-    pub line: usize,
-    /// The wheel at that place of the file.
-    pub gear: Option<Gear>,
-    pub angle_deg: f64,
-    pub rho: f64,
-    pub indices: Vec<(f64, String)>,
-    pub name: String,
-    pub instructions: String,
-}
-
-impl File<'_> {
+impl AscFile<'_> {
     /// The design of the tiers.
-    pub(super) fn design(mut self) -> Result<Reading, FormatError> {
+    pub(super) fn design(mut self) -> Result<Parsed, FormatError> {
         // a table lies at any index
         for flat in self.tiers.iter_mut().filter(|t| t.angle_deg == 0.0 && t.indices.is_empty()) {
             flat.indices.push((self.gear.map_or(0.0, |g| g.teeth.abs()), flat.name.clone()));
@@ -34,7 +22,7 @@ impl File<'_> {
             self.warnings.push("no gear is given: 96 teeth assumed".into());
             Gear::default()
         });
-        let mut design = Design::named(self.source.stem());
+        let mut design = Design::new(self.source.stem());
         if let Some(title) = self.headers.iter().find(|h| !h.is_empty()) {
             design.name = title.clone();
         }
@@ -57,10 +45,10 @@ impl File<'_> {
             // blank lines after the last say nothing, and the binary form cannot tell them from none
             kept.truncate(kept.iter().rposition(|l| !l.is_empty()).map_or(0, |last| last + 1));
         }
-        Ok(Reading { design, warnings: self.warnings })
+        Ok(Parsed { design, warnings: self.warnings })
     }
 }
-impl Entry {
+impl TierLine {
     /// Whether the tier's facets are on the pavilion's side. For flat facets the sign of the
     /// distance tells, or, if that leaves the stone open, the sign of the angle's zero.
     fn looks_down(&self, by_token: bool) -> bool {

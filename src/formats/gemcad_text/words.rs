@@ -1,12 +1,12 @@
 //! The words of a GemCad text file, one after the other, with a look ahead and to the line's end; and which
 //! of them are keywords.
 
-use crate::formats::source::{lines, number};
+use crate::formats::input::{lines, number};
 use std::collections::VecDeque;
 
 /// One word and where it stands.
 #[derive(Debug, Clone, Copy)]
-pub struct Word<'t> {
+pub struct AscWord<'t> {
     /// The line, from 1.
     pub line: usize,
     /// The word itself.
@@ -19,7 +19,7 @@ pub struct Word<'t> {
     pub indented: bool,
 }
 
-impl<'t> Word<'t> {
+impl<'t> AscWord<'t> {
     /// The line from this word on.
     pub fn onward(&self) -> String {
         format!("{} {}", self.text, self.rest).trim_end().to_owned()
@@ -32,19 +32,19 @@ impl<'t> Word<'t> {
 }
 
 /// The words that are still to be read.
-pub struct Words<'t> {
+pub struct AscWords<'t> {
     lines: Box<dyn Iterator<Item = (usize, &'t str)> + 't>,
-    ahead: VecDeque<Word<'t>>,
+    ahead: VecDeque<AscWord<'t>>,
     /// What is left of the line whose words are looked at, and its number.
     line: (usize, &'t str),
     first: bool,
     indented: bool,
 }
 
-impl<'t> Words<'t> {
-    pub fn of(text: &'t str) -> Words<'t> {
+impl<'t> AscWords<'t> {
+    pub fn new(text: &'t str) -> AscWords<'t> {
         let (ahead, line) = (VecDeque::new(), (1, ""));
-        Words { lines: Box::new(lines(text)), ahead, line, first: false, indented: false }
+        AscWords { lines: Box::new(lines(text)), ahead, line, first: false, indented: false }
     }
 
     /// The number of the line that was looked at last.
@@ -53,7 +53,7 @@ impl<'t> Words<'t> {
     }
 
     /// The word after the next `k`.
-    pub fn peek(&mut self, k: usize) -> Option<Word<'t>> {
+    pub fn peek(&mut self, k: usize) -> Option<AscWord<'t>> {
         while self.ahead.len() <= k {
             let word = self.split()?;
             self.ahead.push_back(word);
@@ -71,7 +71,7 @@ impl<'t> Words<'t> {
         }
     }
 
-    fn split(&mut self) -> Option<Word<'t>> {
+    fn split(&mut self) -> Option<AscWord<'t>> {
         while self.line.1.trim_start().is_empty() {
             self.line = self.lines.next()?;
             self.first = true;
@@ -80,7 +80,7 @@ impl<'t> Words<'t> {
         let (line, left) = (self.line.0, self.line.1.trim_start());
         let (text, rest) = left.split_at(left.find(char::is_whitespace).unwrap_or(left.len()));
         self.line.1 = rest;
-        Some(Word {
+        Some(AscWord {
             line,
             text,
             rest: rest.trim(),
@@ -90,10 +90,10 @@ impl<'t> Words<'t> {
     }
 }
 
-impl<'t> Iterator for Words<'t> {
-    type Item = Word<'t>;
+impl<'t> Iterator for AscWords<'t> {
+    type Item = AscWord<'t>;
 
-    fn next(&mut self) -> Option<Word<'t>> {
+    fn next(&mut self) -> Option<AscWord<'t>> {
         self.peek(0)?;
         self.ahead.pop_front()
     }

@@ -1,19 +1,16 @@
 //! The numbers in a glTF's buffers, which lie in the file itself, in its text, or in its folder.
 
-use super::Reader;
 use super::document::Accessor;
-use crate::formats::beside;
-use crate::formats::error::{FormatError, shown};
-use crate::store::limits;
+use super::{GltfReader, PACKED, unsigned};
+use crate::formats::error::{FormatError, quoted_excerpt};
+use crate::formats::include;
+use crate::storage::limits;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use std::borrow::Cow;
 
-/// What the names of extensions end in that pack buffers: Draco's, meshopt's.
-pub(super) const PACKED: &str = "_compression";
-
-impl<'a> Reader<'a> {
+impl<'a> GltfReader<'a> {
     pub(super) fn accessor(&self, index: usize) -> Result<&'a Accessor, FormatError> {
         let accessors = &self.document.accessors;
         let expected = || format!("an accessor below {}", accessors.len());
@@ -21,7 +18,8 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn component(&self, code: u64) -> Result<Component, FormatError> {
-        Component::of(code).ok_or_else(|| self.bad("a component type from 5120 to 5126", code.to_string()))
+        Component::from_code(code)
+            .ok_or_else(|| self.bad("a component type from 5120 to 5126", code.to_string()))
     }
 
     /// The bytes of every element, one after the other, with what a sparse accessor replaces.
@@ -39,7 +37,8 @@ impl<'a> Reader<'a> {
             (Some(view), ..) => self.packed(view, accessor.byte_offset, size, count)?,
             (None, Some(_), _) => vec![0; size * count],
             (None, None, Some(packed)) => {
-                return Err(self.bad("uncompressed buffers", format!("{}, which is not read", shown(packed))));
+                return Err(self
+                    .bad("uncompressed buffers", format!("{}, which is not read", quoted_excerpt(packed))));
             }
             (None, None, None) => return Err(self.bad("uncompressed buffers", "an accessor without one")),
         };
@@ -88,7 +87,7 @@ impl<'a> Reader<'a> {
             _ => {
                 let packed = view.extensions.keys().find(|name| name.ends_with(PACKED));
                 let found = match packed.filter(|_| buffer.is_empty()) {
-                    Some(packed) => format!("{}, which is not read", shown(packed)),
+                    Some(packed) => format!("{}, which is not read", quoted_excerpt(packed)),
                     None => format!("{} bytes", buffer.len()),
                 };
                 Err(self.bad(&format!("a buffer that holds {count} elements"), found))
@@ -125,14 +124,9 @@ impl<'a> Reader<'a> {
             let (_, data) = data.split_once(";base64,").unwrap_or(("", ""));
             return BASE64.decode(data).map_err(|error| self.bad("a buffer in base64", error.to_string()));
         }
-        beside::fetch(self.source, &unescaped(uri))
-            .ok_or_else(|| self.bad("a buffer in the file's own folder", shown(uri)))?
+        include::fetch(self.source, &unescaped(uri))
+            .ok_or_else(|| self.bad("a buffer in the file's own folder", quoted_excerpt(uri)))?
     }
-}
-
-/// An unsigned number of any length, least byte first.
-pub(super) fn unsigned(bytes: &[u8]) -> usize {
-    bytes.iter().rev().fold(0, |n, &b| n << 8 | b as usize)
 }
 
 /// Type of a stored number.
@@ -148,7 +142,7 @@ pub(super) enum Component {
 
 impl Component {
     /// By the number that the format has for it.
-    pub(super) fn of(code: u64) -> Option<Component> {
+    pub(super) fn from_code(code: u64) -> Option<Component> {
         Some(match code {
             5120 => Component::I8,
             5121 => Component::U8,

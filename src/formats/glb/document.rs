@@ -1,8 +1,8 @@
 //! What of a glTF document a stone is made of. All else is passed over unread: no material, animation or
 //! accessor that is not needed can refuse a file.
 
-use crate::formats::error::{FormatError, counted, shown};
-use crate::formats::source::Source;
+use crate::formats::error::{FormatError, counted, quoted_excerpt};
+use crate::formats::input::Input;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::borrow::Cow;
@@ -11,15 +11,15 @@ use std::collections::BTreeMap;
 /// The document.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
-pub struct Document {
+pub struct GltfDocument {
     asset: Option<Asset>,
     extensions_required: Vec<String>,
     pub scene: Option<usize>,
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<GltfScene>,
     pub nodes: Vec<Node>,
     pub meshes: Vec<GltfMesh>,
     pub accessors: Vec<Accessor>,
-    pub buffer_views: Vec<View>,
+    pub buffer_views: Vec<BufferView>,
     pub buffers: Vec<Buffer>,
 }
 
@@ -32,7 +32,7 @@ struct Asset {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Scene {
+pub struct GltfScene {
     pub nodes: Vec<usize>,
 }
 
@@ -85,14 +85,14 @@ pub struct Accessor {
 #[derive(Debug, Deserialize)]
 pub struct Sparse {
     pub count: usize,
-    pub indices: Part,
-    pub values: Part,
+    pub indices: SparsePart,
+    pub values: SparsePart,
 }
 
 /// Where a sparse accessor's indices or values are.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
-pub struct Part {
+pub struct SparsePart {
     pub buffer_view: usize,
     pub byte_offset: usize,
     pub component_type: u64,
@@ -100,7 +100,7 @@ pub struct Part {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
-pub struct View {
+pub struct BufferView {
     pub buffer: usize,
     pub byte_offset: usize,
     pub byte_length: usize,
@@ -128,10 +128,10 @@ const OF_NO_SHAPE: [&str; 8] = [
 ];
 
 /// A document, the buffer inside its file, if there is one, and remarks.
-pub type Opened<'s> = (Document, Option<&'s [u8]>, Vec<String>);
+pub type Opened<'s> = (GltfDocument, Option<&'s [u8]>, Vec<String>);
 
 /// Reads the document of a glTF or GLB file.
-pub fn document<'s>(source: &Source<'s>) -> Result<Opened<'s>, FormatError> {
+pub fn document<'s>(source: &Input<'s>) -> Result<Opened<'s>, FormatError> {
     let mut remarks = Vec::new();
     let (json, inside): (Cow<str>, _) = if source.bytes.starts_with(b"glTF") {
         let (json, inside) = chunks(source, &mut remarks)?;
@@ -139,7 +139,7 @@ pub fn document<'s>(source: &Source<'s>) -> Result<Opened<'s>, FormatError> {
     } else {
         (source.text(), None)
     };
-    let mut values = serde_json::Deserializer::from_str(&json).into_iter::<Document>();
+    let mut values = serde_json::Deserializer::from_str(&json).into_iter::<GltfDocument>();
     let broken = |said: String| source.at_byte(0, "a glTF 2.0 file", said);
     let document = match values.next() {
         Some(Ok(document)) => document,
@@ -154,11 +154,11 @@ pub fn document<'s>(source: &Source<'s>) -> Result<Opened<'s>, FormatError> {
     let Some(asset) = &document.asset else { return Err(broken("no asset with a version".into())) };
     let needed = asset.min_version.as_ref().unwrap_or(&asset.version);
     if !needed.starts_with("2.") {
-        return Err(broken(format!("version {}", shown(needed))));
+        return Err(broken(format!("version {}", quoted_excerpt(needed))));
     }
     let is_read = |name: &String| OF_NO_SHAPE.iter().any(|known| name.starts_with(known));
     if let Some(name) = document.extensions_required.iter().find(|name| !is_read(name)) {
-        let found = format!("the required extension {}, which is not read", shown(name));
+        let found = format!("the required extension {}, which is not read", quoted_excerpt(name));
         return Err(source.at_byte(0, "a glTF 2.0 file without it", found));
     }
     Ok((document, inside, remarks))
@@ -166,7 +166,7 @@ pub fn document<'s>(source: &Source<'s>) -> Result<Opened<'s>, FormatError> {
 
 /// The JSON chunk and the binary one. Chunks of unknown type are passed over, and so is what follows the last.
 fn chunks<'s>(
-    source: &Source<'s>,
+    source: &Input<'s>,
     remarks: &mut Vec<String>,
 ) -> Result<(&'s [u8], Option<&'s [u8]>), FormatError> {
     const HEADER: usize = 12;

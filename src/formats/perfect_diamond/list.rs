@@ -2,16 +2,16 @@
 //!
 //! Rows may begin with `v` and `f` or not; lines of counts before the rows are passed over.
 
-use super::Shapes;
+use super::PolygonShapes;
 use crate::formats::error::FormatError;
-use crate::formats::shell::Digits;
-use crate::formats::source::{Source, lines, number, without_comment};
-use crate::solid::recover::Polygon;
-use crate::store::limits;
+use crate::formats::input::{Input, lines, number, without_comment};
+use crate::formats::mesh_import::Digits;
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
 use glam::DVec3;
 
 /// One row: its line, its letter if any, its numbers, and whether all are written as whole ones.
-struct Row {
+struct ListRow {
     line: usize,
     letter: Option<char>,
     numbers: Vec<f64>,
@@ -21,7 +21,7 @@ struct Row {
 
 /// How surely this is such a list: surely for `v` and `f` rows that count from 0, which OBJ cannot;
 /// faintly for bare numbers.
-pub fn sniff(source: &Source) -> u8 {
+pub fn sniff(source: &Input) -> u8 {
     let start = source.beginning();
     let mut rows = lines(&start).filter_map(|(at, line)| row(at, line)).take(8).peekable();
     if rows.peek().is_none() || rows.any(|r| r.is_none()) {
@@ -33,7 +33,7 @@ pub fn sniff(source: &Source) -> u8 {
 }
 
 /// The row on a line: none for an empty line, none within for one that is no row.
-fn row(line: usize, text: &str) -> Option<Option<Row>> {
+fn row(line: usize, text: &str) -> Option<Option<ListRow>> {
     let said = without_comment(text);
     let mut words = said.split(|c: char| c.is_whitespace() || c == ',').filter(|w| !w.is_empty()).peekable();
     let letter = match *words.peek()? {
@@ -53,11 +53,11 @@ fn row(line: usize, text: &str) -> Option<Option<Row>> {
         digits.see(word);
         whole &= word.bytes().all(|b| b.is_ascii_digit());
     }
-    Some(Some(Row { line, letter, numbers, whole, digits }))
+    Some(Some(ListRow { line, letter, numbers, whole, digits }))
 }
 
 /// The mesh of the list.
-pub fn mesh(source: &Source) -> Result<Shapes, FormatError> {
+pub fn mesh(source: &Input) -> Result<PolygonShapes, FormatError> {
     let text = source.text();
     let mut rows = Vec::new();
     for (at, line) in lines(&text) {

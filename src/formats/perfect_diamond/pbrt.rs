@@ -3,27 +3,27 @@
 //! Matrices are written column after column, as pbrt's own files are. pbrt's frame is left-handed
 //! and so may be the data: whether the stone is its own mirror image is part of what is unverified.
 
-use super::words::{Word, words};
-use super::{Shape, Shapes};
-use crate::formats::beside;
+use super::words::{PbrtWord, words};
+use super::{PolygonShape, PolygonShapes};
 use crate::formats::error::FormatError;
-use crate::formats::shell::Digits;
-use crate::formats::source::{Source, is_no_value};
-use crate::solid::recover::Polygon;
-use crate::store::limits;
-use crate::store::text;
+use crate::formats::include;
+use crate::formats::input::{Input, is_no_value};
+use crate::formats::mesh_import::Digits;
+use crate::geometry::facet_recovery::Polygon;
+use crate::storage::limits;
+use crate::storage::text;
 use glam::{DMat4, DVec3};
 use std::iter::Peekable;
 
 /// How surely this is a pbrt scene.
-pub fn sniff(source: &Source) -> u8 {
+pub fn sniff(source: &Input) -> u8 {
     let start = source.beginning();
     let mut sure = 0;
     for (_, word) in words(&start) {
         sure = sure.max(match word {
-            Word::Text("trianglemesh") => 95,
-            Word::Name("Shape" | "WorldBegin" | "LookAt" | "AttributeBegin" | "TransformBegin") => 85,
-            Word::Name("Include" | "ConcatTransform") => 60,
+            PbrtWord::Text("trianglemesh") => 95,
+            PbrtWord::Name("Shape" | "WorldBegin" | "LookAt" | "AttributeBegin" | "TransformBegin") => 85,
+            PbrtWord::Name("Include" | "ConcatTransform") => 60,
             _ => 0,
         });
     }
@@ -31,9 +31,9 @@ pub fn sniff(source: &Source) -> u8 {
 }
 
 /// Every triangle mesh of the scene, in the scene's frame.
-pub fn meshes(source: &Source) -> Result<Shapes, FormatError> {
+pub fn meshes(source: &Input) -> Result<PolygonShapes, FormatError> {
     let mut scene =
-        Scene { at: DMat4::IDENTITY, saved: Vec::new(), meshes: Vec::new(), bytes: 0, included: 0 };
+        PbrtScene { at: DMat4::IDENTITY, saved: Vec::new(), meshes: Vec::new(), bytes: 0, included: 0 };
     scene.file(source, 0)?;
     if scene.meshes.is_empty() {
         return Err(source.at_line(1, "a Shape \"trianglemesh\"", "no such shape"));
@@ -42,24 +42,24 @@ pub fn meshes(source: &Source) -> Result<Shapes, FormatError> {
     Ok((scene.meshes, Digits::F32))
 }
 
-struct Scene {
+struct PbrtScene {
     at: DMat4,
     saved: Vec<DMat4>,
-    meshes: Vec<Shape>,
+    meshes: Vec<PolygonShape>,
     /// Bytes of all files so far.
     bytes: usize,
     included: usize,
 }
 
-impl Scene {
-    fn file(&mut self, source: &Source, depth: usize) -> Result<(), FormatError> {
+impl PbrtScene {
+    fn file(&mut self, source: &Input, depth: usize) -> Result<(), FormatError> {
         self.bytes += source.bytes.len();
         let too_large = |cause| FormatError::TooLarge { file: source.name.into(), cause };
         limits::FILE.check(self.bytes).map_err(too_large)?;
         let text = source.text();
         let mut words = words(&text).peekable();
         while let Some((line, word)) = words.next() {
-            let Word::Name(directive) = word else { continue };
+            let PbrtWord::Name(directive) = word else { continue };
             let mut take = |n: usize| numbers(source, line, directive, &mut words, n);
             let step = match directive {
                 "Identity" | "WorldBegin" => {
@@ -77,7 +77,7 @@ impl Scene {
                     continue;
                 }
                 "Include" => {
-                    let Some((_, Word::Text(name))) = words.next() else {
+                    let Some((_, PbrtWord::Text(name))) = words.next() else {
                         return Err(source.at_line(line, "a file name in quotes", directive));
                     };
                     self.include(source, line, name, depth)?;
@@ -107,27 +107,27 @@ impl Scene {
         Ok(())
     }
 
-    fn include(&mut self, source: &Source, line: usize, name: &str, depth: usize) -> Result<(), FormatError> {
+    fn include(&mut self, source: &Input, line: usize, name: &str, depth: usize) -> Result<(), FormatError> {
         source.within_at(line, &limits::INCLUDES, depth + 1)?;
         self.included += 1;
         source.within_at(line, &limits::INCLUDED, self.included)?;
-        let bytes = beside::fetch(source, name)
+        let bytes = include::fetch(source, name)
             .ok_or_else(|| source.at_line(line, "a file in the scene's own folder", name))??;
-        let path = source.folder.map_or_else(|| name.to_owned(), |f| text::shown(f.join(name)));
-        self.file(&Source { name: &path, bytes: &bytes, folder: source.folder }, depth + 1)
+        let path = source.folder.map_or_else(|| name.to_owned(), |f| text::display_name(f.join(name)));
+        self.file(&Input { name: &path, bytes: &bytes, folder: source.folder }, depth + 1)
     }
 
     fn shape<'t>(
         &mut self,
-        source: &Source,
+        source: &Input,
         line: usize,
-        words: &mut Peekable<impl Iterator<Item = (usize, Word<'t>)>>,
+        words: &mut Peekable<impl Iterator<Item = (usize, PbrtWord<'t>)>>,
     ) -> Result<(), FormatError> {
-        let Some((_, Word::Text(kind))) = words.next() else {
+        let Some((_, PbrtWord::Text(kind))) = words.next() else {
             return Err(source.at_line(line, "the shape's kind in quotes", "Shape"));
         };
         let (mut points, mut indices) = (Vec::new(), Vec::new());
-        while let Some(&(at, Word::Text(declared))) = words.peek() {
+        while let Some(&(at, PbrtWord::Text(declared))) = words.peek() {
             words.next();
             let values = parameter(source, at, words)?;
             let mut parts = declared.split_whitespace();
@@ -166,25 +166,25 @@ impl Scene {
 
 /// The values of a parameter: one number or text, or a bracket of them; texts count for nothing.
 fn parameter<'t>(
-    source: &Source,
+    source: &Input,
     line: usize,
-    words: &mut Peekable<impl Iterator<Item = (usize, Word<'t>)>>,
+    words: &mut Peekable<impl Iterator<Item = (usize, PbrtWord<'t>)>>,
 ) -> Result<Vec<f64>, FormatError> {
     let mut values = Vec::new();
     match words.next() {
-        Some((_, Word::Number(x))) => values.push(x),
-        Some((_, Word::Text(_) | Word::Name("true" | "false"))) => {}
-        Some((_, Word::Open)) => loop {
+        Some((_, PbrtWord::Number(x))) => values.push(x),
+        Some((_, PbrtWord::Text(_) | PbrtWord::Name("true" | "false"))) => {}
+        Some((_, PbrtWord::Open)) => loop {
             match words.next() {
-                Some((_, Word::Number(x))) => values.push(x),
-                Some((_, Word::Close)) => break,
-                Some((_, Word::Text(_) | Word::Name("true" | "false" | ","))) => {}
-                Some((_, Word::Name(name))) if is_no_value(name) => values.push(f64::NAN),
-                Some((at, other)) => return Err(source.at_line(at, "a number or ]", &other.shown())),
+                Some((_, PbrtWord::Number(x))) => values.push(x),
+                Some((_, PbrtWord::Close)) => break,
+                Some((_, PbrtWord::Text(_) | PbrtWord::Name("true" | "false" | ","))) => {}
+                Some((_, PbrtWord::Name(name))) if is_no_value(name) => values.push(f64::NAN),
+                Some((at, other)) => return Err(source.at_line(at, "a number or ]", &other.describe())),
                 None => return Err(source.at_line(line, "] after the parameter's values", "")),
             }
         },
-        Some((at, other)) => return Err(source.at_line(at, "a parameter's value", &other.shown())),
+        Some((at, other)) => return Err(source.at_line(at, "a parameter's value", &other.describe())),
         None => return Err(source.at_line(line, "a parameter's value", "")),
     }
     Ok(values)
@@ -192,24 +192,24 @@ fn parameter<'t>(
 
 /// Exactly `n` numbers of a directive, with or without brackets.
 fn numbers<'t>(
-    source: &Source,
+    source: &Input,
     line: usize,
     directive: &str,
-    words: &mut Peekable<impl Iterator<Item = (usize, Word<'t>)>>,
+    words: &mut Peekable<impl Iterator<Item = (usize, PbrtWord<'t>)>>,
     n: usize,
 ) -> Result<Vec<f64>, FormatError> {
-    let bracket = words.next_if(|(_, w)| *w == Word::Open).is_some();
+    let bracket = words.next_if(|(_, w)| *w == PbrtWord::Open).is_some();
     let mut values = Vec::with_capacity(n);
     while values.len() < n {
         match words.next() {
-            Some((_, Word::Number(x))) => values.push(x),
+            Some((_, PbrtWord::Number(x))) => values.push(x),
             Some((at, w)) => {
-                return Err(source.at_line(at, format!("{n} numbers after {directive}"), &w.shown()));
+                return Err(source.at_line(at, format!("{n} numbers after {directive}"), &w.describe()));
             }
             None => return Err(source.at_line(line, format!("{n} numbers after {directive}"), "")),
         }
     }
-    if bracket && words.next_if(|(_, w)| *w == Word::Close).is_none() {
+    if bracket && words.next_if(|(_, w)| *w == PbrtWord::Close).is_none() {
         return Err(source.at_line(line, format!("] after the {n} numbers of {directive}"), "none"));
     }
     Ok(values)

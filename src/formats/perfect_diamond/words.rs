@@ -1,10 +1,10 @@
 //! The words of a pbrt scene: quoted texts, brackets, numbers, names; `#` starts a comment.
 
-use crate::formats::source::{lines, number};
+use crate::formats::input::{lines, number};
 
 /// One word of a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Word<'t> {
+pub enum PbrtWord<'t> {
     /// `"text"`, without its quotes.
     Text(&'t str),
     /// `[`
@@ -17,21 +17,21 @@ pub enum Word<'t> {
     Name(&'t str),
 }
 
-impl Word<'_> {
+impl PbrtWord<'_> {
     /// The word as an error shows it.
-    pub fn shown(&self) -> String {
+    pub fn describe(&self) -> String {
         match self {
-            Word::Text(t) => format!("\"{t}\""),
-            Word::Open => "[".into(),
-            Word::Close => "]".into(),
-            Word::Number(x) => x.to_string(),
-            Word::Name(n) => (*n).into(),
+            PbrtWord::Text(t) => format!("\"{t}\""),
+            PbrtWord::Open => "[".into(),
+            PbrtWord::Close => "]".into(),
+            PbrtWord::Number(x) => x.to_string(),
+            PbrtWord::Name(n) => (*n).into(),
         }
     }
 }
 
 /// The words with the numbers of their lines, from 1. A quote ends at the end of its line.
-pub fn words(text: &str) -> impl Iterator<Item = (usize, Word<'_>)> {
+pub fn words(text: &str) -> impl Iterator<Item = (usize, PbrtWord<'_>)> {
     lines(text).flat_map(|(at, line)| {
         let mut rest = line;
         std::iter::from_fn(move || {
@@ -40,12 +40,12 @@ pub fn words(text: &str) -> impl Iterator<Item = (usize, Word<'_>)> {
             let word = match first {
                 '[' | ']' => {
                     rest = &rest[1..];
-                    if first == '[' { Word::Open } else { Word::Close }
+                    if first == '[' { PbrtWord::Open } else { PbrtWord::Close }
                 }
                 '"' => {
                     let (text, after) = rest[1..].split_once('"').unwrap_or((&rest[1..], ""));
                     rest = after;
-                    Word::Text(text)
+                    PbrtWord::Text(text)
                 }
                 _ => {
                     let end = rest
@@ -54,7 +54,7 @@ pub fn words(text: &str) -> impl Iterator<Item = (usize, Word<'_>)> {
                         .max(first.len_utf8());
                     let (word, after) = rest.split_at(end);
                     rest = after;
-                    number(word).map_or(Word::Name(word), Word::Number)
+                    number(word).map_or(PbrtWord::Name(word), PbrtWord::Number)
                 }
             };
             Some((at, word))

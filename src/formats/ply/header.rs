@@ -1,8 +1,8 @@
 //! The header of a PLY file: its kind, and its elements with their properties.
 
 use crate::formats::error::FormatError;
-use crate::formats::source::{Source, lines};
-use crate::store::limits;
+use crate::formats::input::{Input, lines};
+use crate::storage::limits;
 
 /// How the values after the header are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum Storage {
 /// Type of a stored number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub enum Kind {
+pub enum PlyScalar {
     I8,
     U8,
     I16,
@@ -29,17 +29,17 @@ pub enum Kind {
     F64,
 }
 
-impl Kind {
-    fn named(word: &str) -> Option<Kind> {
+impl PlyScalar {
+    fn by_name(word: &str) -> Option<PlyScalar> {
         Some(match word {
-            "char" | "int8" => Kind::I8,
-            "uchar" | "uint8" => Kind::U8,
-            "short" | "int16" => Kind::I16,
-            "ushort" | "uint16" => Kind::U16,
-            "int" | "int32" => Kind::I32,
-            "uint" | "uint32" => Kind::U32,
-            "float" | "float32" => Kind::F32,
-            "double" | "float64" => Kind::F64,
+            "char" | "int8" => PlyScalar::I8,
+            "uchar" | "uint8" => PlyScalar::U8,
+            "short" | "int16" => PlyScalar::I16,
+            "ushort" | "uint16" => PlyScalar::U16,
+            "int" | "int32" => PlyScalar::I32,
+            "uint" | "uint32" => PlyScalar::U32,
+            "float" | "float32" => PlyScalar::F32,
+            "double" | "float64" => PlyScalar::F64,
             _ => return None,
         })
     }
@@ -49,9 +49,9 @@ impl Kind {
 #[derive(Debug)]
 pub struct Property {
     pub name: String,
-    pub kind: Kind,
+    pub kind: PlyScalar,
     /// Type of the length, if the property is a list.
-    pub length: Option<Kind>,
+    pub length: Option<PlyScalar>,
 }
 
 /// One element: so many rows of its properties.
@@ -78,13 +78,13 @@ pub struct Header {
 }
 
 /// Whether the file begins as a PLY file does.
-pub fn begins(source: &Source) -> bool {
+pub fn begins(source: &Input) -> bool {
     let start = source.beginning();
     start.starts_with("ply\n") || start.starts_with("ply\r")
 }
 
 /// Whether the header says that values are words.
-pub fn says_text(source: &Source) -> bool {
+pub fn says_text(source: &Input) -> bool {
     let mut said = None;
     for (_, line) in lines(&source.beginning()) {
         match line.split_whitespace().next() {
@@ -105,7 +105,7 @@ impl Header {
     /// Reads the header.
     ///
     /// - `bytes`: the file's, or those of its decoded text
-    pub fn of(source: &Source, bytes: &[u8]) -> Result<Header, FormatError> {
+    pub fn parse(source: &Input, bytes: &[u8]) -> Result<Header, FormatError> {
         let mut header =
             Header { storage: Storage::Text, elements: Vec::new(), facet_names: Vec::new(), end: 0, line: 0 };
         let mut storage = None;
@@ -135,8 +135,10 @@ impl Header {
                 }
                 ["property", ref rest @ ..] => {
                     let (length, kind, name) = match rest {
-                        ["list", length, kind, name] => (Some(Kind::named(length)), Kind::named(kind), name),
-                        [kind, name] => (None, Kind::named(kind), name),
+                        ["list", length, kind, name] => {
+                            (Some(PlyScalar::by_name(length)), PlyScalar::by_name(kind), name)
+                        }
+                        [kind, name] => (None, PlyScalar::by_name(kind), name),
                         _ => return Err(wrong("property TYPE NAME or property list TYPE TYPE NAME")),
                     };
                     let (Some(kind), false, Some(element)) =

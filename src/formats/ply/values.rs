@@ -1,14 +1,14 @@
 //! The values after a PLY header, one after the other, from words or bytes.
 
-use super::header::{Header, Kind, Storage};
+use super::header::{Header, PlyScalar, Storage};
 use crate::formats::error::{FormatError, counted};
-use crate::formats::shell::Digits;
-use crate::formats::source::{Source, is_no_value, lines, number};
-use crate::store::limits;
+use crate::formats::input::{Input, is_no_value, lines, number};
+use crate::formats::mesh_import::Digits;
+use crate::storage::limits;
 
 /// Reads value after value.
-pub struct Values<'s> {
-    source: &'s Source<'s>,
+pub struct PlyValues<'s> {
+    source: &'s Input<'s>,
     /// The file's bytes, or those of its decoded text.
     bytes: &'s [u8],
     storage: Storage,
@@ -21,16 +21,16 @@ pub struct Values<'s> {
     pub digits: Digits,
 }
 
-impl<'s> Values<'s> {
+impl<'s> PlyValues<'s> {
     /// - `bytes`: the file's, or those of its decoded text
-    pub fn new(source: &'s Source<'s>, header: &Header, bytes: &'s [u8]) -> Values<'s> {
+    pub fn new(source: &'s Input<'s>, header: &Header, bytes: &'s [u8]) -> PlyValues<'s> {
         let rest = bytes.get(header.end..).unwrap_or_default();
         let text = if header.is_text() { std::str::from_utf8(rest).unwrap_or_default() } else { "" };
         let first = header.line - 1;
         let vertices = header.elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
         let words =
             lines(text).flat_map(move |(n, line)| line.split_whitespace().map(move |w| (n + first, w)));
-        Values {
+        PlyValues {
             source,
             bytes,
             storage: header.storage,
@@ -61,7 +61,7 @@ impl<'s> Values<'s> {
     }
 
     /// The next value, of the property `name`; maybe not finite.
-    pub fn next(&mut self, kind: Kind, name: &str) -> Result<f64, FormatError> {
+    pub fn next_value(&mut self, kind: PlyScalar, name: &str) -> Result<f64, FormatError> {
         match self.storage {
             Storage::Text => {
                 let (line, word) = self.words.next().unwrap_or((self.at, ""));
@@ -74,14 +74,14 @@ impl<'s> Values<'s> {
                 number(word).or(none).ok_or_else(|| self.wrong(format!("a number for {name}"), word))
             }
             _ => match kind {
-                Kind::I8 => self.bytes::<1>(name).map(|b| i8::from_le_bytes(b).into()),
-                Kind::U8 => self.bytes::<1>(name).map(|[b]| b.into()),
-                Kind::I16 => self.bytes(name).map(|b| i16::from_le_bytes(b).into()),
-                Kind::U16 => self.bytes(name).map(|b| u16::from_le_bytes(b).into()),
-                Kind::I32 => self.bytes(name).map(|b| i32::from_le_bytes(b).into()),
-                Kind::U32 => self.bytes(name).map(|b| u32::from_le_bytes(b).into()),
-                Kind::F32 => self.bytes(name).map(|b| f32::from_le_bytes(b).into()),
-                Kind::F64 => self.bytes(name).map(f64::from_le_bytes),
+                PlyScalar::I8 => self.bytes::<1>(name).map(|b| i8::from_le_bytes(b).into()),
+                PlyScalar::U8 => self.bytes::<1>(name).map(|[b]| b.into()),
+                PlyScalar::I16 => self.bytes(name).map(|b| i16::from_le_bytes(b).into()),
+                PlyScalar::U16 => self.bytes(name).map(|b| u16::from_le_bytes(b).into()),
+                PlyScalar::I32 => self.bytes(name).map(|b| i32::from_le_bytes(b).into()),
+                PlyScalar::U32 => self.bytes(name).map(|b| u32::from_le_bytes(b).into()),
+                PlyScalar::F32 => self.bytes(name).map(|b| f32::from_le_bytes(b).into()),
+                PlyScalar::F64 => self.bytes(name).map(f64::from_le_bytes),
             },
         }
     }
@@ -101,8 +101,8 @@ impl<'s> Values<'s> {
     }
 
     /// The length of a list.
-    pub fn count(&mut self, kind: Kind, name: &str) -> Result<u64, FormatError> {
-        let count = self.next(kind, name)?;
+    pub fn count(&mut self, kind: PlyScalar, name: &str) -> Result<u64, FormatError> {
+        let count = self.next_value(kind, name)?;
         if count >= 0.0 && count.fract() == 0.0 {
             self.source.within(&limits::PLY_LIST, count as usize)?;
             Ok(count as u64)

@@ -1,9 +1,9 @@
 //! What stands above and below the drawings: title, the design file's own lines, the figures.
 
-use super::pen::{Anchor, Pen, fitted, wrapped};
-use super::rows::{self, Row};
-use crate::cut::proportions::Proportions;
-use crate::cut::{Design, Unit};
+use super::rows::{self, DiagramRow};
+use super::svg_canvas::{Anchor, SvgCanvas, fitted, wrapped};
+use crate::design::proportions::Proportions;
+use crate::design::{Design, LengthUnit};
 use glam::DVec2;
 
 /// Font sizes in mm.
@@ -21,18 +21,18 @@ const BOLD: f64 = 0.9;
 const MOST: usize = 6;
 
 /// Lines that have been set.
-pub struct Lines {
+pub struct TextLines {
     lines: Vec<(f64, bool, String)>,
 }
 
-impl Lines {
+impl TextLines {
     /// Their height in mm.
     pub fn height(&self) -> f64 {
         self.lines.iter().map(|(size, ..)| size * LEAD).sum()
     }
 
     /// Draws them with their upper left corner at `corner`.
-    pub fn draw(&self, pen: &mut Pen, corner: DVec2) {
+    pub fn draw(&self, pen: &mut SvgCanvas, corner: DVec2) {
         let mut y = corner.y;
         for (size, bold, text) in &self.lines {
             y += size * LEAD;
@@ -42,7 +42,7 @@ impl Lines {
 }
 
 /// The file's own words in at most [`MOST`] lines.
-fn said<'a>(texts: impl Iterator<Item = &'a str>, size: f64, wide: f64) -> Vec<(f64, bool, String)> {
+fn wrapped_lines<'a>(texts: impl Iterator<Item = &'a str>, size: f64, wide: f64) -> Vec<(f64, bool, String)> {
     let texts = texts.map(str::trim).filter(|t| !t.is_empty());
     let mut lines: Vec<String> = texts.flat_map(|t| wrapped(t, size, wide)).collect();
     if lines.len() > MOST {
@@ -57,21 +57,21 @@ fn said<'a>(texts: impl Iterator<Item = &'a str>, size: f64, wide: f64) -> Vec<(
 /// Title, header lines and figures.
 ///
 /// - `index`: the index of refraction that the angles are for, if it is known
-pub fn above(design: &Design, p: &Proportions, index: Option<f64>, wide: f64) -> Lines {
+pub fn above(design: &Design, p: &Proportions, index: Option<f64>, wide: f64) -> TextLines {
     let title = if design.name.trim().is_empty() { "Untitled design" } else { design.name.trim() };
     let mut lines = vec![(TITLE, true, fitted(title, TITLE, true, wide))];
     let headers = design.headers.iter().map(String::as_str).filter(|h| h.trim() != title);
-    lines.extend(said(headers, LINE, wide));
+    lines.extend(wrapped_lines(headers, LINE, wide));
     for facts in [make(design, p, index), ratios(design, p)] {
         lines.extend(
             wrapped(&facts.join(" · "), LINE, BOLD * wide).into_iter().map(|line| (LINE, true, line)),
         );
     }
-    Lines { lines }
+    TextLines { lines }
 }
 
 /// Footnotes, source, and who drew it.
-pub fn below(design: &Design, rows: &[Row], wide: f64) -> Lines {
+pub fn below(design: &Design, rows: &[DiagramRow], wide: f64) -> TextLines {
     let source = if design.source.is_empty() { String::new() } else { format!("Source: {}", design.source) };
     let mesh = if rows::is_measured(design) {
         "Angles and indices are measured on the planes of a mesh. "
@@ -82,9 +82,9 @@ pub fn below(design: &Design, rows: &[Row], wide: f64) -> Lines {
     let between = if cheater { "Cheater: some indices lie between teeth. " } else { "" };
     let drawn = format!("{mesh}{between}Drawn by cutlab {}", env!("CARGO_PKG_VERSION"));
     let own = design.footers.iter().map(String::as_str).chain([source.as_str()]);
-    let mut lines = said(own, SMALL, wide);
+    let mut lines = wrapped_lines(own, SMALL, wide);
     lines.push((SMALL, false, drawn));
-    Lines { lines }
+    TextLines { lines }
 }
 
 /// `57 + 16 girdle facets = 73`, symmetry, wheel, index of refraction.
@@ -116,7 +116,7 @@ fn ratios(design: &Design, p: &Proportions) -> Vec<String> {
     facts.push(format!("C/W = {:.3}", r.c_w));
     facts.push(format!("H/W = {:.3}", r.h_w));
     facts.push(format!("Vol/W³ = {:.3}", r.vol_w3));
-    if design.unit == Unit::Millimetre {
+    if design.unit == LengthUnit::Millimetre {
         // a faceter who asked for a size finds that one, not only the one across the corners
         let (w, flats) = (format!("W = {:.2} mm", r.w), format!("{:.2} mm", p.width));
         let differ = r.w > 1.005 * p.width;

@@ -1,13 +1,13 @@
 //! The four views of a stone: which facets each shows, and where their corners fall on the page.
 
-use crate::cut::Zone;
-use crate::solid::Polyhedron;
+use crate::design::Zone;
+use crate::geometry::Polyhedron;
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
 
 /// A direction to look from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum View {
+pub enum DiagramView {
     /// From above, the front (−y, where index 0 of most gears stands) at the foot of the page.
     Crown,
     /// From below, the stone turned over left to right, so that the front stays at the foot.
@@ -20,7 +20,7 @@ pub enum View {
 
 /// A facet as a view shows it.
 #[derive(Debug, Clone)]
-pub struct Seen {
+pub struct VisibleFacet {
     /// Number of the solid's face.
     pub face: usize,
     /// Its corners, y downward.
@@ -30,24 +30,24 @@ pub struct Seen {
 /// A facet whose normal is nearer than this to the plane of a side view is a line there: 0.06°.
 const EDGE_ON: f64 = 1e-3;
 
-impl View {
+impl DiagramView {
     /// Name under the drawing.
     pub fn name(self) -> &'static str {
         match self {
-            View::Crown => "crown",
-            View::Pavilion => "pavilion",
-            View::Side => "side",
-            View::End => "end",
+            DiagramView::Crown => "crown",
+            DiagramView::Pavilion => "pavilion",
+            DiagramView::Side => "side",
+            DiagramView::End => "end",
         }
     }
 
     /// Page coordinates in the design's unit, y downward.
     pub fn project(self, p: DVec3) -> DVec2 {
         match self {
-            View::Crown => DVec2::new(p.x, -p.y),
-            View::Pavilion => DVec2::new(-p.x, -p.y),
-            View::Side => DVec2::new(p.x, -p.z),
-            View::End => DVec2::new(p.y, -p.z),
+            DiagramView::Crown => DVec2::new(p.x, -p.y),
+            DiagramView::Pavilion => DVec2::new(-p.x, -p.y),
+            DiagramView::Side => DVec2::new(p.x, -p.z),
+            DiagramView::End => DVec2::new(p.y, -p.z),
         }
     }
 
@@ -55,18 +55,21 @@ impl View {
     /// whole, all else is hidden. Girdle facets are lines in the two plans.
     fn shows(self, n: DVec3) -> bool {
         match self {
-            View::Crown => matches!(Zone::of(n), Zone::Table | Zone::Crown),
-            View::Pavilion => matches!(Zone::of(n), Zone::Pavilion | Zone::Culet),
-            View::Side => n.y < -EDGE_ON,
-            View::End => n.x > EDGE_ON,
+            DiagramView::Crown => matches!(Zone::from_normal(n), Zone::Table | Zone::Crown),
+            DiagramView::Pavilion => matches!(Zone::from_normal(n), Zone::Pavilion | Zone::Culet),
+            DiagramView::Side => n.y < -EDGE_ON,
+            DiagramView::End => n.x > EDGE_ON,
         }
     }
 
     /// The facets of the solid that the view shows, in the order of its faces.
-    pub fn facets(self, solid: &Polyhedron) -> Vec<Seen> {
+    pub fn facets(self, solid: &Polyhedron) -> Vec<VisibleFacet> {
         (0..solid.faces.len())
             .filter(|&face| self.shows(solid.area_vector(face).normalize_or_zero()))
-            .map(|face| Seen { face, corners: solid.polygon(face).map(|p| self.project(p)).collect() })
+            .map(|face| VisibleFacet {
+                face,
+                corners: solid.polygon(face).map(|p| self.project(p)).collect(),
+            })
             .collect()
     }
 }
@@ -85,7 +88,7 @@ pub fn path<'a>(polygons: impl IntoIterator<Item = &'a [DVec2]>) -> String {
 
 /// One view as a self-contained `<svg>` element in the page's own colour, without names. All views
 /// of a stone share one scale: 200 units are its greatest extent in plan.
-pub fn svg(solid: &Polyhedron, view: View) -> String {
+pub fn svg(solid: &Polyhedron, view: DiagramView) -> String {
     const WIDTH: f64 = 200.0;
     const MARGIN: f64 = 4.0;
     let (lo, hi) = solid.bounds();

@@ -1,18 +1,18 @@
 //! The tiers as a cutter reads them: a short name for the drawings, angle, indices, what to do.
 
 use super::wheel::index_name;
-use crate::cut::design::read_alike;
-use crate::cut::proportions::SLIVER;
-use crate::cut::{Design, Gear, Tier, Zone};
-use crate::solid::Polyhedron;
-use crate::solid::polyhedron::Fate;
+use crate::design::proportions::SLIVER;
+use crate::design::tiers::same_cutting_row;
+use crate::design::{Design, Gear, Tier, Zone};
+use crate::geometry::Polyhedron;
+use crate::geometry::polyhedron::PlaneStatus;
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// One line of the table of tiers.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct DiagramRow {
     /// What stands in the drawings: P1, G1, C2, T, or the design's own name if it is short.
     pub code: String,
     /// Where its facets are, as its first one lies.
@@ -38,7 +38,7 @@ const SHORT: usize = 3;
 pub const LISTED: usize = 32;
 
 /// A facet as the rows need it: its number in the design's order, its unit normal and distance.
-struct Cut<'a> {
+struct RowFacet<'a> {
     number: usize,
     name: &'a str,
     index: Option<f64>,
@@ -49,15 +49,15 @@ struct Cut<'a> {
 /// The rows of a design, in cutting order. Tiers of a mesh, which has neither angles nor indices,
 /// are made up of facets of one angle and distance, pavilion first, and their indices measured on
 /// the wheel.
-pub fn rows(design: &Design, solid: &Polyhedron) -> Vec<Row> {
+pub fn rows(design: &Design, solid: &Polyhedron) -> Vec<DiagramRow> {
     let mut rows = Vec::new();
     let mut number = 0;
-    let alike = |a: &Tier, b: &Tier| read_alike((&a.name, a.angle_deg), (&b.name, b.angle_deg));
+    let alike = |a: &Tier, b: &Tier| same_cutting_row((&a.name, a.angle_deg), (&b.name, b.angle_deg));
     for tiers in design.tiers.chunk_by(alike) {
-        let mut cuts: Vec<Cut> = Vec::new();
+        let mut cuts: Vec<RowFacet> = Vec::new();
         for facet in tiers.iter().flat_map(|t| &t.facets) {
             let (normal, distance) = (facet.plane.normal, facet.plane.distance);
-            cuts.push(Cut { number, name: &facet.name, index: facet.index, normal, distance });
+            cuts.push(RowFacet { number, name: &facet.name, index: facet.index, normal, distance });
             number += 1;
         }
         match tiers[0].angle_deg {
@@ -87,16 +87,17 @@ fn tilt_deg(n: DVec3) -> f64 {
 }
 
 /// Facets of one angle (within 0.02°) and distance (within a part in a thousand) as rows.
-fn measured(design: &Design, solid: &Polyhedron, tiers: &[Tier], mut cuts: Vec<Cut>) -> Vec<Row> {
+fn measured(design: &Design, solid: &Polyhedron, tiers: &[Tier], mut cuts: Vec<RowFacet>) -> Vec<DiagramRow> {
     let middle = solid.volume_and_centre().1;
-    let height = |c: &Cut| c.distance - c.normal.dot(middle);
+    let height = |c: &RowFacet| c.distance - c.normal.dot(middle);
     let size = solid.bounding_sphere().1;
-    let alike = |a: &Cut, b: &Cut| {
+    let alike = |a: &RowFacet, b: &RowFacet| {
         (tilt_deg(a.normal) - tilt_deg(b.normal)).abs() < 0.02 && (height(a) - height(b)).abs() < 1e-3 * size
     };
     let mut rows = Vec::new();
     while let Some(first) = cuts.pop() {
-        let (mut same, rest): (Vec<Cut>, Vec<Cut>) = cuts.into_iter().partition(|c| alike(c, &first));
+        let (mut same, rest): (Vec<RowFacet>, Vec<RowFacet>) =
+            cuts.into_iter().partition(|c| alike(c, &first));
         cuts = rest;
         same.push(first);
         let angle = same.iter().map(|c| tilt_deg(c.normal)).sum::<f64>() / same.len() as f64;
@@ -105,22 +106,28 @@ fn measured(design: &Design, solid: &Polyhedron, tiers: &[Tier], mut cuts: Vec<C
     rows
 }
 
-fn row(design: &Design, solid: &Polyhedron, tiers: &[Tier], angle_deg: f64, cuts: &[Cut]) -> Option<Row> {
+fn row(
+    design: &Design,
+    solid: &Polyhedron,
+    tiers: &[Tier],
+    angle_deg: f64,
+    cuts: &[RowFacet],
+) -> Option<DiagramRow> {
     let gear = design.gear;
     let turns = |n: DVec3| n.x.atan2(-n.y) / TAU;
     let level = angle_deg < 0.005;
-    let index = |c: &Cut| c.index.unwrap_or(gear.offset + gear.teeth * turns(c.normal));
+    let index = |c: &RowFacet| c.index.unwrap_or(gear.offset + gear.teeth * turns(c.normal));
     let mut indices: Vec<f64> = cuts.iter().map(|c| on_wheel(index(c), gear)).collect();
     indices.sort_by(f64::total_cmp);
     let mut faces: Vec<usize> = Vec::new();
     let mut left = 0;
     let sliver = SLIVER * solid.width().powi(2);
-    for fate in cuts.iter().filter_map(|c| solid.fates.get(c.number)) {
+    for fate in cuts.iter().filter_map(|c| solid.plane_status.get(c.number)) {
         match fate {
-            Fate::Facet(face) if solid.area(*face) <= sliver => continue,
-            Fate::Facet(face) => faces.push(*face),
-            Fate::Duplicate(_) => (),
-            Fate::Redundant => continue,
+            PlaneStatus::Facet(face) if solid.area(*face) <= sliver => continue,
+            PlaneStatus::Facet(face) => faces.push(*face),
+            PlaneStatus::Duplicate(_) => (),
+            PlaneStatus::Redundant => continue,
         }
         left += 1;
     }
@@ -143,9 +150,9 @@ fn row(design: &Design, solid: &Polyhedron, tiers: &[Tier], angle_deg: f64, cuts
             if left == 0 { String::new() } else { format!("{} of {} ", cuts.len() - left, cuts.len()) };
         notes.push(format!("{some}cut away later"));
     }
-    Some(Row {
+    Some(DiagramRow {
         code: own.unwrap_or_default().into(), // until `name` has seen them all
-        zone: Zone::of(cuts.first()?.normal),
+        zone: Zone::from_normal(cuts.first()?.normal),
         angle_deg,
         indices: if level { Vec::new() } else { indices },
         count: cuts.len(),
@@ -163,7 +170,7 @@ fn on_wheel(index: f64, gear: Gear) -> f64 {
 }
 
 /// Gives every row whose name is long or missing a letter for its zone and a number.
-fn name(rows: &mut [Row]) {
+fn name(rows: &mut [DiagramRow]) {
     let short =
         |name: &str| (1..=SHORT).contains(&name.chars().count()) && !name.contains(char::is_whitespace);
     let mut taken: BTreeSet<String> = rows.iter().map(|r| r.code.clone()).filter(|c| short(c)).collect();
@@ -185,7 +192,7 @@ fn name(rows: &mut [Row]) {
     }
 }
 
-impl Row {
+impl DiagramRow {
     /// The indices as text: a list with hyphens, or a range if there are many in equal steps.
     pub fn index_text(&self, gear: Gear) -> String {
         let named = |i: &f64| index_name(*i, gear);

@@ -1,9 +1,9 @@
 //! The table of tiers, set as large as the room allows: in one column or two, wrapped, and cut short
 //! with a word on what is missing if even the smallest print is too large.
 
-use super::pen::{Anchor, Pen, fitted, width, wrapped};
-use super::rows::Row;
-use crate::cut::{Gear, Zone};
+use super::rows::DiagramRow;
+use super::svg_canvas::{Anchor, SvgCanvas, fitted, width, wrapped};
+use crate::design::{Gear, Zone};
 use glam::DVec2;
 
 /// Font sizes from the largest to the smallest that a cutter still reads, in mm (9.1 to 5.1 points).
@@ -23,7 +23,7 @@ const GUTTER: f64 = 7.0;
 const HEADS: [&str; 5] = ["Facet", "Angle", "n", "Index", "Notes"];
 
 /// A row as lines of text.
-struct Block {
+struct TableBlock {
     /// Pavilion or crown.
     side: &'static str,
     cells: [Vec<String>; 5],
@@ -32,27 +32,27 @@ struct Block {
 /// Lines that a head takes, with the space above it.
 const HEAD: usize = 2;
 
-impl Block {
+impl TableBlock {
     fn lines(&self) -> usize {
         self.cells.iter().map(Vec::len).max().unwrap_or_default()
     }
 }
 
 /// The table set at one size.
-pub struct Set {
+pub struct TypesetTable {
     size: f64,
     /// Left edges of the five columns, from the left edge of a half.
     lefts: [f64; 5],
     /// Width of a half.
     width: f64,
-    halves: Vec<Vec<Block>>,
+    halves: Vec<Vec<TableBlock>>,
     /// Tiers that had no room.
     pub left_out: usize,
 }
 
 /// Sets the table into a box of `room` mm at the largest size of at least `least` mm at which all of
 /// it fits; none if it does not.
-pub fn fit(rows: &[Row], gear: Gear, room: DVec2, least: f64) -> Option<Set> {
+pub fn fit(rows: &[DiagramRow], gear: Gear, room: DVec2, least: f64) -> Option<TypesetTable> {
     let sizes = SIZES.iter().filter(|size| **size >= least);
     let one = sizes.clone().filter(|size| **size >= EASY).map(|size| (*size, 1));
     one.chain(sizes.flat_map(|size| [1, 2].map(|halves| (*size, halves))))
@@ -61,11 +61,11 @@ pub fn fit(rows: &[Row], gear: Gear, room: DVec2, least: f64) -> Option<Set> {
 }
 
 /// As [`fit`] at the smallest size, as many rows as there is room for.
-pub fn cut_short(rows: &[Row], gear: Gear, room: DVec2) -> Option<Set> {
+pub fn cut_short(rows: &[DiagramRow], gear: Gear, room: DVec2) -> Option<TypesetTable> {
     set(rows, gear, room, SIZES[SIZES.len() - 1], 2)
 }
 
-fn set(rows: &[Row], gear: Gear, room: DVec2, size: f64, halves: usize) -> Option<Set> {
+fn set(rows: &[DiagramRow], gear: Gear, room: DVec2, size: f64, halves: usize) -> Option<TypesetTable> {
     let wide = (room.x - GUTTER * (halves - 1) as f64) / halves as f64;
     let texts: Vec<[String; 5]> = rows
         .iter()
@@ -103,18 +103,18 @@ fn set(rows: &[Row], gear: Gear, room: DVec2, size: f64, halves: usize) -> Optio
                 _ => vec![text],
             }
         });
-        Block { side, cells }
+        TableBlock { side, cells }
     });
-    let blocks: Vec<Block> = blocks.collect();
+    let blocks: Vec<TableBlock> = blocks.collect();
     let most = (room.y / (LEAD * size)).floor() as usize;
-    let (halves, left_out) = poured(blocks, halves, most.checked_sub(2)?);
-    Some(Set { size, lefts, width: wide, halves, left_out })
+    let (halves, left_out) = distribute(blocks, halves, most.checked_sub(2)?);
+    Some(TypesetTable { size, lefts, width: wide, halves, left_out })
 }
 
 /// For each row whether it is the pavilion's or the crown's. The girdle goes with what is cut before
 /// it, or after it if it is the first.
-fn sides(rows: &[Row]) -> Vec<&'static str> {
-    let side = |r: &Row| match r.zone {
+fn sides(rows: &[DiagramRow]) -> Vec<&'static str> {
+    let side = |r: &DiagramRow| match r.zone {
         Zone::Pavilion | Zone::Culet => Some("PAVILION"),
         Zone::Crown | Zone::Table => Some("CROWN"),
         Zone::Girdle => None,
@@ -130,8 +130,8 @@ fn sides(rows: &[Row]) -> Vec<&'static str> {
 
 /// Pours the blocks into halves of at most `most` lines, as even as it goes; the second figure is
 /// how many blocks had no room.
-fn poured(blocks: Vec<Block>, halves: usize, most: usize) -> (Vec<Vec<Block>>, usize) {
-    let lines: Vec<usize> = blocks.iter().map(Block::lines).collect();
+fn distribute(blocks: Vec<TableBlock>, halves: usize, most: usize) -> (Vec<Vec<TableBlock>>, usize) {
+    let lines: Vec<usize> = blocks.iter().map(TableBlock::lines).collect();
     let head = |at: usize, first: bool| {
         if first || at == 0 || blocks[at].side != blocks[at - 1].side { HEAD } else { 0 }
     };
@@ -165,9 +165,9 @@ fn poured(blocks: Vec<Block>, halves: usize, most: usize) -> (Vec<Vec<Block>>, u
     (poured, left_out)
 }
 
-impl Set {
+impl TypesetTable {
     /// Draws it with its upper left corner at `corner`.
-    pub fn draw(&self, pen: &mut Pen, corner: DVec2) {
+    pub fn draw(&self, pen: &mut SvgCanvas, corner: DVec2) {
         let (size, lead) = (self.size, self.size * LEAD);
         let mut lowest = corner.y;
         for (half, blocks) in self.halves.iter().filter(|b| !b.is_empty()).enumerate() {
@@ -203,7 +203,7 @@ impl Set {
         }
     }
 
-    fn cell(&self, pen: &mut Pen, left: f64, y: f64, column: usize, bold: bool, text: &str) {
+    fn cell(&self, pen: &mut SvgCanvas, left: f64, y: f64, column: usize, bold: bool, text: &str) {
         // angle and number stand to the right
         let right = matches!(column, 1 | 2);
         let x = if right { self.lefts[column + 1] - GAP * self.size } else { self.lefts[column] };

@@ -1,13 +1,13 @@
 //! The drawings: two plans with the wheel around them, two side views, names in the facets.
 
 use super::labels;
-use super::pen::{FACET, OUTLINE, Pen};
-use super::projection::{self, Seen, View};
-use super::rows::{LISTED, Row};
+use super::projection::{self, DiagramView, VisibleFacet};
+use super::rows::{DiagramRow, LISTED};
+use super::svg_canvas::{FACET, OUTLINE, SvgCanvas};
 use super::wheel;
-use crate::cut::{Gear, Zone};
-use crate::solid::Polyhedron;
-use crate::solid::measure::convex_hull;
+use crate::design::{Gear, Zone};
+use crate::geometry::Polyhedron;
+use crate::geometry::measure::convex_hull;
 use glam::{DVec2, DVec3};
 
 /// Size of names on the girdle in mm, and how many of a tier are named there.
@@ -18,11 +18,11 @@ const GIRDLE_NAMES: usize = 24;
 const RING: f64 = 4.6;
 
 /// A stone to draw, and how large.
-pub struct Stone<'a> {
+pub struct StoneViews<'a> {
     /// Its solid.
     pub solid: &'a Polyhedron,
     /// Its tiers.
-    pub rows: &'a [Row],
+    pub rows: &'a [DiagramRow],
     /// Its wheel.
     pub gear: Gear,
     /// Middle of its box, in the design's unit. The wheel stands about it: an index is a direction.
@@ -34,15 +34,15 @@ pub struct Stone<'a> {
 }
 
 /// A view in its place on the page.
-struct Placed {
-    view: View,
-    facets: Vec<Seen>,
+struct PlacedView {
+    view: DiagramView,
+    facets: Vec<VisibleFacet>,
     outline: Vec<DVec2>,
 }
 
-impl<'a> Stone<'a> {
+impl<'a> StoneViews<'a> {
     /// The stone with its tiers.
-    pub fn new(solid: &'a Polyhedron, rows: &'a [Row], gear: Gear) -> Stone<'a> {
+    pub fn new(solid: &'a Polyhedron, rows: &'a [DiagramRow], gear: Gear) -> StoneViews<'a> {
         let (lo, hi) = solid.bounds();
         let middle = (lo + hi) * 0.5;
         let reach = solid.outline().iter().map(|p| p.distance(middle.truncate())).fold(0.0, f64::max);
@@ -50,7 +50,7 @@ impl<'a> Stone<'a> {
         for (number, row) in rows.iter().enumerate() {
             row.faces.iter().for_each(|&face| row_of[face] = Some(number));
         }
-        Stone { solid, rows, gear, middle, reach, row_of }
+        StoneViews { solid, rows, gear, middle, reach, row_of }
     }
 
     /// Scale in mm to the design's unit at which a plan with its wheel is `side` mm wide.
@@ -59,26 +59,26 @@ impl<'a> Stone<'a> {
     }
 
     /// Extent of a side view in the design's unit.
-    pub fn extent(&self, view: View) -> DVec2 {
+    pub fn extent(&self, view: DiagramView) -> DVec2 {
         let (lo, hi) = self.solid.bounds();
         (view.project(hi) - view.project(lo)).abs()
     }
 
     /// The view with the stone's middle at `at` on the page.
-    fn placed(&self, view: View, at: DVec2, scale: f64) -> Placed {
+    fn placed(&self, view: DiagramView, at: DVec2, scale: f64) -> PlacedView {
         let place = |p: DVec2| at + (p - view.project(self.middle)) * scale;
         let mut facets = view.facets(self.solid);
         facets.iter_mut().flat_map(|f| &mut f.corners).for_each(|p| *p = place(*p));
         let outline = convex_hull(self.solid.vertices.iter().map(|v| place(view.project(*v))).collect());
-        Placed { view, facets, outline }
+        PlacedView { view, facets, outline }
     }
 
     /// A plan with its wheel, `side` mm wide, its middle at `at`; the codes of tiers that are too
     /// small for a name there are given back.
-    pub fn plan(&self, pen: &mut Pen, view: View, at: DVec2, side: f64) -> Vec<&'a str> {
+    pub fn plan(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, side: f64) -> Vec<&'a str> {
         let placed = self.placed(view, at, self.scale(side));
         let side_of = |zone| match view {
-            View::Pavilion => matches!(zone, Zone::Pavilion | Zone::Culet | Zone::Girdle),
+            DiagramView::Pavilion => matches!(zone, Zone::Pavilion | Zone::Culet | Zone::Girdle),
             _ => matches!(zone, Zone::Crown | Zone::Table | Zone::Girdle),
         };
         // a girdle of many flats would mark every tooth
@@ -93,13 +93,13 @@ impl<'a> Stone<'a> {
     }
 
     /// A side view, its middle at `at`.
-    pub fn side(&self, pen: &mut Pen, view: View, at: DVec2, scale: f64) {
+    pub fn side(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, scale: f64) {
         let placed = self.placed(view, at, scale);
         self.lines(pen, &placed);
         self.names(pen, &placed);
     }
 
-    fn lines(&self, pen: &mut Pen, placed: &Placed) {
+    fn lines(&self, pen: &mut SvgCanvas, placed: &PlacedView) {
         let name = placed.view.name();
         let facets = projection::path(placed.facets.iter().map(|f| f.corners.as_slice()));
         pen.named_lines(&format!("{name}-facets"), &facets, FACET);
@@ -107,13 +107,13 @@ impl<'a> Stone<'a> {
     }
 
     /// The codes of the tiers inside their facets; those that found no room are given back.
-    fn names(&self, pen: &mut Pen, placed: &Placed) -> Vec<&'a str> {
+    fn names(&self, pen: &mut SvgCanvas, placed: &PlacedView) -> Vec<&'a str> {
         let mut nowhere = Vec::new();
         pen.group(&format!("{}-names", placed.view.name()));
         for (number, row) in self.rows.iter().enumerate() {
             let own = placed.facets.iter().filter(|f| self.row_of[f.face] == Some(number));
             let polygons: Vec<&[DVec2]> = own.map(|f| f.corners.as_slice()).collect();
-            let plan = matches!(placed.view, View::Crown | View::Pavilion);
+            let plan = matches!(placed.view, DiagramView::Crown | DiagramView::Pavilion);
             let mut labels = labels::place(&row.code, &polygons, plan);
             if row.zone == Zone::Girdle && row.faces.len() > GIRDLE_NAMES {
                 labels.sort_by(|a, b| b.size.total_cmp(&a.size));
@@ -130,7 +130,7 @@ impl<'a> Stone<'a> {
 
     /// The codes of girdle facets outside the edges that they are in a plan. Where a name would run
     /// into another it is left out, but every tier has its first.
-    fn girdle_names(&self, pen: &mut Pen, view: View, at: DVec2, scale: f64) {
+    fn girdle_names(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, scale: f64) {
         let mut boxes: Vec<(DVec2, DVec2)> = Vec::new();
         let rows = self.rows.iter().filter(|r| r.zone == Zone::Girdle);
         let most = rows.clone().map(|r| r.faces.len()).max().unwrap_or_default();

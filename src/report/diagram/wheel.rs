@@ -1,8 +1,8 @@
 //! The index wheel around a plan: ticks, numbers, and a longer tick at every index that is cut.
 
-use super::pen::{Anchor, CAPITAL, HAIR, Pen, width};
-use super::projection::View;
-use crate::cut::Gear;
+use super::projection::DiagramView;
+use super::svg_canvas::{Anchor, CAPITAL, HAIR, SvgCanvas, width};
+use crate::design::Gear;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -36,7 +36,7 @@ pub fn index_name(index: f64, gear: Gear) -> String {
 }
 
 /// Direction of an index on the page.
-fn towards(index: f64, gear: Gear, view: View) -> DVec2 {
+fn towards(index: f64, gear: Gear, view: DiagramView) -> DVec2 {
     let (sin, cos) = (TAU * (index - gear.offset) / gear.teeth).sin_cos();
     view.project(DVec3::new(sin, -cos, 0.0))
 }
@@ -53,7 +53,7 @@ fn step(teeth: usize, radius: f64) -> usize {
 ///
 /// - `radius`: of the ring, in mm
 /// - `cut`: the indices of the tiers in this view
-pub fn draw(pen: &mut Pen, gear: Gear, view: View, centre: DVec2, radius: f64, cut: &[f64]) {
+pub fn draw(pen: &mut SvgCanvas, gear: Gear, view: DiagramView, centre: DVec2, radius: f64, cut: &[f64]) {
     let teeth = gear.teeth.abs().round() as usize;
     if !(1..=10_000).contains(&teeth) {
         return;
@@ -107,11 +107,11 @@ mod tests {
     fn the_front_is_at_the_foot_and_the_pavilion_runs_the_other_way_round() {
         let gear = Gear::default();
         let at = |i, view| towards(i, gear, view);
-        for view in [View::Crown, View::Pavilion] {
+        for view in [DiagramView::Crown, DiagramView::Pavilion] {
             assert!((at(0.0, view) - DVec2::Y).length() < 1e-12);
         }
-        assert!((at(24.0, View::Crown) - DVec2::X).length() < 1e-12);
-        assert!((at(24.0, View::Pavilion) + DVec2::X).length() < 1e-12);
+        assert!((at(24.0, DiagramView::Crown) - DVec2::X).length() < 1e-12);
+        assert!((at(24.0, DiagramView::Pavilion) + DVec2::X).length() < 1e-12);
     }
 
     #[test]

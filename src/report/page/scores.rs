@@ -1,14 +1,14 @@
 //! Scores on the page: under their heads, beside those of the reference stones.
 
 use super::{cell, escaped};
-use crate::math::stats::Estimate;
 use crate::metrics::Better;
 use crate::report::references::STONES;
+use crate::sampling::stats::Estimate;
 use std::fmt::Write;
 
 /// One score on the page.
 #[derive(Debug, Clone)]
-pub struct Score {
+pub struct PageScore {
     /// Its name in the table of scores.
     pub name: String,
     /// One line on what it means.
@@ -35,7 +35,7 @@ pub struct Section {
     /// How many of the scores are shown large.
     pub large: usize,
     /// The scores.
-    pub scores: Vec<Score>,
+    pub scores: Vec<PageScore>,
 }
 
 impl Section {
@@ -55,7 +55,7 @@ impl Section {
     }
 }
 
-impl Score {
+impl PageScore {
     /// The score's row beside the reference stones.
     pub(super) fn row(&self) -> String {
         let mut out = format!(
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn a_reason_is_said_once_under_a_head() {
-        let score = |name: &str, why: Option<&str>| Score {
+        let score = |name: &str, why: Option<&str>| PageScore {
             name: name.into(),
             about: String::new(),
             better: Better::More,

@@ -1,13 +1,13 @@
 //! Scores along one parameter: lines with their error bands.
 
-use super::frame::{Frame, HEIGHT, SMALL, WIDTH};
+use super::frame::{HEIGHT, PlotFrame, SMALL, WIDTH};
 use super::{BAND, escaped};
 use crate::report::raster::text_width;
 use std::fmt::Write;
 
 /// One line.
 #[derive(Debug, Clone)]
-pub struct Curve {
+pub struct PlotCurve {
     /// Its name in the legend; empty if it is alone.
     pub name: String,
     /// x, and value with standard error; none where there is no value: the line is broken.
@@ -39,7 +39,7 @@ pub struct Curves {
     /// Title of the axis up.
     pub y: String,
     /// The lines.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<PlotCurve>,
     /// Named ranges of x, the narrowest first; the first is shaded.
     pub spans: Vec<(String, (f64, f64))>,
     /// Named places on x.
@@ -77,14 +77,14 @@ impl Curves {
         let names = self.curves.iter().filter(|c| self.small && !c.name.is_empty()).count() as f64;
         let above = 0.09 * names / (1.0 - 0.09 * names).max(0.5) * (hi - lo);
         let ys = self.ends.1.unwrap_or((lo - room, hi + room + above));
-        let frame = Frame::new(size, self.ends.0.unwrap_or(xs), ys, 28.0);
+        let frame = PlotFrame::new(size, self.ends.0.unwrap_or(xs), ys, 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
         let mut named_span = String::new();
         if let Some((name, (from, to))) = self.spans.first() {
             let (from, to) = (from.max(frame.x.from), to.min(frame.x.to));
             if from < to {
-                let (a, b) = (frame.x.at(from), frame.x.at(to));
+                let (a, b) = (frame.x.position(from), frame.x.position(to));
                 let _ = writeln!(
                     out,
                     "<rect x=\"{a:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{h:.1}\" fill=\"#f3eddc\"/>",
@@ -110,7 +110,7 @@ impl Curves {
             }
         }
         self.dots.iter().for_each(|d| dot(&frame, *d, &mut out));
-        let named: Vec<(&Curve, &&str)> =
+        let named: Vec<(&PlotCurve, &&str)> =
             self.curves.iter().zip(COLOURS.iter().cycle()).filter(|(c, _)| !c.name.is_empty()).collect();
         for (i, (curve, colour)) in named.iter().enumerate() {
             let y = top + 18.0 + 18.0 * i as f64;
@@ -128,13 +128,13 @@ impl Curves {
     }
 
     /// Places on x that have names; those that stand at one place share it.
-    fn marks(&self, frame: &Frame, out: &mut String) {
+    fn marks(&self, frame: &PlotFrame, out: &mut String) {
         let (_, top, _, h) = frame.rectangle();
         let mut places: Vec<(f64, String)> = Vec::new();
-        let mut sorted: Vec<_> = self.marks.iter().filter(|(_, x)| frame.x.holds(*x)).collect();
+        let mut sorted: Vec<_> = self.marks.iter().filter(|(_, x)| frame.x.contains(*x)).collect();
         sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (name, x) in sorted {
-            let at = frame.x.at(*x);
+            let at = frame.x.position(*x);
             match places.last_mut() {
                 Some((last, names)) if at - *last < 0.5 => *names += &format!(", {name}"),
                 _ => places.push((at, name.clone())),
@@ -159,9 +159,9 @@ impl Curves {
 }
 
 /// An expected value with its bar.
-fn dot(frame: &Frame, d: Dot, out: &mut String) {
-    let (x, y) = (frame.x.at(d.x), frame.y.at(d.value));
-    let [low, high] = [d.value - d.tolerance, d.value + d.tolerance].map(|v| frame.y.at(v));
+fn dot(frame: &PlotFrame, d: Dot, out: &mut String) {
+    let (x, y) = (frame.x.position(d.x), frame.y.position(d.value));
+    let [low, high] = [d.value - d.tolerance, d.value + d.tolerance].map(|v| frame.y.position(v));
     let fill = if d.hollow { "#fff" } else { COLOURS[1] };
     let _ = writeln!(
         out,
@@ -173,8 +173,8 @@ fn dot(frame: &Frame, d: Dot, out: &mut String) {
 }
 
 /// One unbroken line with its band, and dots if there are few.
-fn line(frame: &Frame, run: &[(f64, f64, f64)], colour: &str, out: &mut String) {
-    let at = |x: f64, y: f64| format!("{:.2} {:.2}", frame.x.at(x), frame.y.at(y));
+fn line(frame: &PlotFrame, run: &[(f64, f64, f64)], colour: &str, out: &mut String) {
+    let at = |x: f64, y: f64| format!("{:.2} {:.2}", frame.x.position(x), frame.y.position(y));
     let joined = |points: Vec<String>| points.join("L");
     let upper = run.iter().map(|(x, v, e)| at(*x, v + BAND * e));
     let lower = run.iter().rev().map(|(x, v, e)| at(*x, v - BAND * e));
@@ -186,12 +186,12 @@ fn line(frame: &Frame, run: &[(f64, f64, f64)], colour: &str, out: &mut String) 
          <path d=\"M{middle}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-linejoin=\"round\"/></g>"
     );
     if run.len() <= 60 {
-        for (x, v, _) in run.iter().filter(|(x, v, _)| frame.x.holds(*x) && frame.y.holds(*v)) {
+        for (x, v, _) in run.iter().filter(|(x, v, _)| frame.x.contains(*x) && frame.y.contains(*v)) {
             let _ = writeln!(
                 out,
                 "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"2.6\" fill=\"{colour}\"/>",
-                frame.x.at(*x),
-                frame.y.at(*v)
+                frame.x.position(*x),
+                frame.y.position(*v)
             );
         }
     }

@@ -30,12 +30,12 @@ pub struct Scale {
 
 impl Scale {
     /// Where a number is.
-    pub fn at(&self, x: f64) -> f64 {
+    pub fn position(&self, x: f64) -> f64 {
         self.start + self.length * (x - self.from) / (self.to - self.from)
     }
 
     /// Whether a number lies on the scale.
-    pub fn holds(&self, x: f64) -> bool {
+    pub fn contains(&self, x: f64) -> bool {
         let slack = 1e-9 * (self.to - self.from);
         (self.from - slack..=self.to + slack).contains(&x)
     }
@@ -43,7 +43,7 @@ impl Scale {
 
 /// The plot's rectangle with its scales.
 #[derive(Debug, Clone, Copy)]
-pub struct Frame {
+pub struct PlotFrame {
     /// Across.
     pub x: Scale,
     /// Up.
@@ -62,14 +62,14 @@ pub fn widened((from, to): (f64, f64)) -> (f64, f64) {
     }
 }
 
-impl Frame {
+impl PlotFrame {
     /// A frame for these ranges.
     ///
     /// - `size`: width and height of the drawing; `right`: room beside the plot
-    pub fn new(size: (f64, f64), x: (f64, f64), y: (f64, f64), right: f64) -> Frame {
+    pub fn new(size: (f64, f64), x: (f64, f64), y: (f64, f64), right: f64) -> PlotFrame {
         let bottom = size.1 - BELOW;
         let ((x0, x1), (y0, y1)) = (widened(x), widened(y));
-        Frame {
+        PlotFrame {
             x: Scale { from: x0, to: x1, start: LEFT, length: size.0 - right - LEFT },
             y: Scale { from: y0, to: y1, start: bottom, length: TOP - bottom },
             size,
@@ -103,7 +103,7 @@ impl Frame {
         let (left, top, w, h) = self.rectangle();
         let bottom = top + h;
         for (number, text) in ticks(self.x.from, self.x.to, 9) {
-            let x = self.x.at(number);
+            let x = self.x.position(number);
             if grid {
                 let _ = writeln!(out, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e4e4e4\"/>");
             }
@@ -115,7 +115,7 @@ impl Frame {
             );
         }
         for (number, text) in ticks(self.y.from, self.y.to, 9) {
-            let y = self.y.at(number);
+            let y = self.y.position(number);
             if grid {
                 let _ = writeln!(out, "<path d=\"M{left} {y:.1}h{w:.1}\" stroke=\"#e4e4e4\"/>");
             }

@@ -1,10 +1,10 @@
 //! A score over two parameters: coloured bands, labelled contours, marks.
 
-use super::frame::{Frame, HEIGHT, WIDTH, step, ticks};
-use super::surface::Surface;
-use super::{Axis, Colours, Drawing, escaped};
+use super::frame::{HEIGHT, PlotFrame, WIDTH, step, ticks};
+use super::surface::ScoreSurface;
+use super::{Axis, ColourScale, ScorePlot, escaped};
+use crate::batch::table::NumericColumns;
 use crate::report::raster::text_width;
-use crate::study::table::Numbers;
 use contour::ContourBuilder;
 use std::fmt::Write;
 
@@ -19,10 +19,10 @@ const BANDS: usize = 12;
 const SHORT: f64 = 160.0;
 
 /// A box that text takes up: middle, half width, half height.
-type Taken = (f64, f64, f64, f64);
+type TakenBox = (f64, f64, f64, f64);
 
 /// The map of the drawing's metric over `x` and `y`.
-pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: bool) -> String {
+pub fn svg(drawing: &ScorePlot, x: &Axis, y: &Axis, numbers: &NumericColumns, scattered: bool) -> String {
     let (name, se) = (drawing.metric.name, format!("{}_se", drawing.metric.name));
     let points: Vec<(f64, f64, Option<f64>)> = numbers
         .column(&x.key)
@@ -31,28 +31,29 @@ pub fn svg(drawing: &Drawing, x: &Axis, y: &Axis, numbers: &Numbers, scattered: 
         .zip(numbers.column(name))
         .filter_map(|((x, y), value)| Some(((*x)?, (*y)?, *value)))
         .collect();
-    let surface = if scattered { Surface::of_scattered(&points) } else { Surface::of_grid(&points) };
+    let surface =
+        if scattered { ScoreSurface::from_scattered(&points) } else { ScoreSurface::from_grid(&points) };
     let ends = surface.as_ref().map_or(((0.0, 1.0), (0.0, 1.0)), |s| (s.x, s.y));
     let style = drawing.style;
     let across = style.range(&x.key).unwrap_or(ends.0);
     let up = style.range(&y.key).unwrap_or(ends.1);
-    let frame = Frame::new((WIDTH, HEIGHT), across, up, WIDTH - RIGHT);
+    let frame = PlotFrame::new((WIDTH, HEIGHT), across, up, WIDTH - RIGHT);
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
     let other = drawing.other_note();
     let note = format!("standard error up to {worst:.1e}{how}{other}; {}", drawing.metric.about);
     let mut out = frame.open(&drawing.title(), &note);
-    let levels = surface.as_ref().and_then(|s| Some((s, s.reach()?)));
+    let levels = surface.as_ref().and_then(|s| Some((s, s.value_range()?)));
     match levels {
         Some((surface, reach)) => {
-            let scale = Levels::of(style.range(name).unwrap_or(reach), style.colours);
+            let scale = Levels::new(style.range(name).unwrap_or(reach), style.colours);
             let contours = scale.draw(&frame, surface, &mut out);
             let covered = cover(&frame, surface, &mut out);
             if scattered {
-                let seen = |x: f64, y: f64| frame.x.holds(x) && frame.y.holds(y);
+                let seen = |x: f64, y: f64| frame.x.contains(x) && frame.y.contains(y);
                 for (x, y, _) in points.iter().filter(|p| p.2.is_some() && seen(p.0, p.1)) {
-                    let (x, y) = (frame.x.at(*x), frame.y.at(*y));
+                    let (x, y) = (frame.x.position(*x), frame.y.position(*y));
                     let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.1\" fill=\"#0008\"/>");
                 }
             }
@@ -73,11 +74,11 @@ struct Levels {
     from: f64,
     to: f64,
     at: Vec<(f64, String)>,
-    colours: Colours,
+    colours: ColourScale,
 }
 
 impl Levels {
-    fn of((from, to): (f64, f64), colours: Colours) -> Levels {
+    fn new((from, to): (f64, f64), colours: ColourScale) -> Levels {
         let (from, to) = super::frame::widened((from, to));
         let step = step(from, to, BANDS);
         Levels {
@@ -89,7 +90,7 @@ impl Levels {
     }
 
     fn colour(&self, value: f64) -> String {
-        self.colours.at((value - self.from) / (self.to - self.from))
+        self.colours.colour((value - self.from) / (self.to - self.from))
     }
 
     /// The middle of the band above level number `i`, counted from −1: below the first.
@@ -100,7 +101,12 @@ impl Levels {
     }
 
     /// Fills the bands and draws the contours; every contour's level and points, in the drawing.
-    fn draw(&self, frame: &Frame, surface: &Surface, out: &mut String) -> Vec<(usize, Vec<(f64, f64)>)> {
+    fn draw(
+        &self,
+        frame: &PlotFrame,
+        surface: &ScoreSurface,
+        out: &mut String,
+    ) -> Vec<(usize, Vec<(f64, f64)>)> {
         let (left, top, w, h) = known(frame, surface);
         let clip = match (left, top, w, h) == frame.rectangle() {
             true => "plot",
@@ -133,7 +139,7 @@ impl Levels {
             for polygon in &area.geometry().0 {
                 for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
                     let points: Vec<(f64, f64)> =
-                        ring.coords().map(|c| (frame.x.at(c.x), frame.y.at(c.y))).collect();
+                        ring.coords().map(|c| (frame.x.position(c.x), frame.y.position(c.y))).collect();
                     let text: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
                     path += &format!("M{}Z", text.join("L"));
                     lines.push((i, points));
@@ -153,9 +159,9 @@ impl Levels {
     /// Writes the level along each contour once, where it runs straight and nothing else stands.
     fn label(
         &self,
-        frame: &Frame,
+        frame: &PlotFrame,
         lines: &[(usize, Vec<(f64, f64)>)],
-        taken: &mut Vec<Taken>,
+        taken: &mut Vec<TakenBox>,
         out: &mut String,
     ) {
         let (left, top, w, h) = frame.rectangle();
@@ -177,7 +183,9 @@ impl Levels {
                 {
                     continue;
                 }
-                let (Some(a), Some(b)) = (reach(points, i, half, false), reach(points, i, half, true)) else {
+                let (Some(a), Some(b)) =
+                    (point_at_distance(points, i, half, false), point_at_distance(points, i, half, true))
+                else {
                     continue;
                 };
                 let (dx, dy) = (b.0 - a.0, b.1 - a.1);
@@ -206,7 +214,7 @@ impl Levels {
     }
 
     /// The colour scale beside the plot.
-    fn bar(&self, frame: &Frame, title: &str, out: &mut String) {
+    fn bar(&self, frame: &PlotFrame, title: &str, out: &mut String) {
         let (_, top, _, h) = frame.rectangle();
         let at = |value: f64| top + h * (1.0 - (value - self.from) / (self.to - self.from));
         let (x, w) = BAR;
@@ -243,35 +251,36 @@ impl Levels {
 }
 
 /// Left, top, width and height of what is known of the surface within the plot.
-fn known(frame: &Frame, surface: &Surface) -> (f64, f64, f64, f64) {
+fn known(frame: &PlotFrame, surface: &ScoreSurface) -> (f64, f64, f64, f64) {
     let (left, top, w, h) = frame.rectangle();
     let ends = |at: [f64; 2], from: f64, to: f64| at.map(|x| x.clamp(from, to));
-    let [x0, x1] = ends([frame.x.at(surface.x.0), frame.x.at(surface.x.1)], left, left + w);
-    let [y1, y0] = ends([frame.y.at(surface.y.0), frame.y.at(surface.y.1)], top, top + h);
+    let [x0, x1] = ends([frame.x.position(surface.x.0), frame.x.position(surface.x.1)], left, left + w);
+    let [y1, y0] = ends([frame.y.position(surface.y.0), frame.y.position(surface.y.1)], top, top + h);
     let whole = [x0 - left, y0 - top, left + w - x1, top + h - y1].iter().all(|gap| gap.abs() < 1e-6);
     if whole { (left, top, w, h) } else { (x0, y0, x1 - x0, y1 - y0) }
 }
 
 /// The point of a closed line at `distance` from point `i`, forward or backward along it.
-fn reach(points: &[(f64, f64)], i: usize, distance: f64, forward: bool) -> Option<(f64, f64)> {
+fn point_at_distance(points: &[(f64, f64)], i: usize, distance: f64, forward: bool) -> Option<(f64, f64)> {
     let from = points[i];
     (1..points.len())
         .map(|k| points[if forward { i + k } else { i + points.len() - k } % points.len()])
         .find(|p| (p.0 - from.0).hypot(p.1 - from.1) >= distance)
 }
 
-fn overlap(a: Taken, b: Taken) -> bool {
+fn overlap(a: TakenBox, b: TakenBox) -> bool {
     (a.0 - b.0).abs() < a.2 + b.2 && (a.1 - b.1).abs() < a.3 + b.3
 }
 
 /// Greys out the cells without a value; what they take up.
-fn cover(frame: &Frame, surface: &Surface, out: &mut String) -> Vec<Taken> {
+fn cover(frame: &PlotFrame, surface: &ScoreSurface, out: &mut String) -> Vec<TakenBox> {
     let mut taken = Vec::new();
     let (dx, dy) = surface.steps();
-    let (w, h) = ((frame.x.at(dx) - frame.x.at(0.0)), (frame.y.at(0.0) - frame.y.at(dy)));
+    let (w, h) =
+        ((frame.x.position(dx) - frame.x.position(0.0)), (frame.y.position(0.0) - frame.y.position(dy)));
     for (column, row) in surface.holes() {
-        let x = frame.x.at(surface.x.0 + dx * column as f64);
-        let y = frame.y.at(surface.y.0 + dy * (row + 1) as f64);
+        let x = frame.x.position(surface.x.0 + dx * column as f64);
+        let y = frame.y.position(surface.y.0 + dy * (row + 1) as f64);
         let _ = writeln!(
             out,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#eee\"/>",
@@ -284,11 +293,12 @@ fn cover(frame: &Frame, surface: &Surface, out: &mut String) -> Vec<Taken> {
 }
 
 /// The cut-grade envelopes as rectangles, named in a corner.
-fn envelopes(drawing: &Drawing, frame: &Frame, axes: &[Axis], out: &mut String) {
+fn envelopes(drawing: &ScorePlot, frame: &PlotFrame, axes: &[Axis], out: &mut String) {
     let (left, top, w, h) = frame.rectangle();
     for (name, bounds) in drawing.envelopes(axes) {
         let [(x0, x1), (y0, y1)] = bounds[..] else { continue };
-        let (x0, x1, y0, y1) = (frame.x.at(x0), frame.x.at(x1), frame.y.at(y1), frame.y.at(y0));
+        let (x0, x1, y0, y1) =
+            (frame.x.position(x0), frame.x.position(x1), frame.y.position(y1), frame.y.position(y0));
         if x1 <= left || x0 >= left + w || y1 <= top || y0 >= top + h {
             continue;
         }
@@ -311,15 +321,15 @@ fn envelopes(drawing: &Drawing, frame: &Frame, axes: &[Axis], out: &mut String) 
 }
 
 /// Stones of the library; what their names take up.
-fn marks(drawing: &Drawing, frame: &Frame, out: &mut String) -> Vec<Taken> {
+fn marks(drawing: &ScorePlot, frame: &PlotFrame, out: &mut String) -> Vec<TakenBox> {
     let (left, _, w, _) = frame.rectangle();
     let mut taken = Vec::new();
     for mark in drawing.marks() {
-        if !frame.x.holds(mark.at[0]) || !frame.y.holds(mark.at[1]) {
+        if !frame.x.contains(mark.at[0]) || !frame.y.contains(mark.at[1]) {
             continue;
         }
-        let (x, y) = (frame.x.at(mark.at[0]), frame.y.at(mark.at[1]));
-        let name = mark.called();
+        let (x, y) = (frame.x.position(mark.at[0]), frame.y.position(mark.at[1]));
+        let name = mark.label();
         let width = 11.0 * text_width(&name, true);
         let to_left = x + 10.0 + width > left + w;
         let middle = if to_left { x - 9.0 - width / 2.0 } else { x + 9.0 + width / 2.0 };

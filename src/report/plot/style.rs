@@ -10,7 +10,7 @@ pub struct Style {
     /// Ends of axes, by column: of a parameter's axis, or of a score's axis or scale of colours.
     pub ranges: Vec<(String, (f64, f64))>,
     /// Colours of a map.
-    pub colours: Colours,
+    pub colours: ColourScale,
 }
 
 impl Style {
@@ -23,7 +23,7 @@ impl Style {
 /// Colours of a map, from its least to its greatest value. All but the last grow evenly lighter to every
 /// eye.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Colours {
+pub enum ColourScale {
     /// From violet over green to yellow.
     #[default]
     Viridis,
@@ -35,22 +35,22 @@ pub enum Colours {
     Greys,
 }
 
-impl Colours {
+impl ColourScale {
     /// All, with their names.
-    pub const ALL: [(&'static str, Colours); 4] = [
-        ("viridis", Colours::Viridis),
-        ("magma", Colours::Magma),
-        ("cividis", Colours::Cividis),
-        ("greys", Colours::Greys),
+    pub const ALL: [(&'static str, ColourScale); 4] = [
+        ("viridis", ColourScale::Viridis),
+        ("magma", ColourScale::Magma),
+        ("cividis", ColourScale::Cividis),
+        ("greys", ColourScale::Greys),
     ];
 
     /// The colour so far along the scale, from 0 to 1, as CSS has it.
-    pub fn at(self, along: f64) -> String {
+    pub fn colour(self, along: f64) -> String {
         let gradient: Gradient = match self {
-            Colours::Viridis => VIRIDIS,
-            Colours::Magma => MAGMA,
-            Colours::Cividis => CIVIDIS,
-            Colours::Greys => GREYS,
+            ColourScale::Viridis => VIRIDIS,
+            ColourScale::Magma => MAGMA,
+            ColourScale::Cividis => CIVIDIS,
+            ColourScale::Greys => GREYS,
         };
         format!("#{:x}", gradient.eval_continuous(along.clamp(0.0, 1.0)))
     }

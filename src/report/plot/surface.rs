@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 /// Values on a regular grid.
 #[derive(Debug, Clone)]
-pub struct Surface {
+pub struct ScoreSurface {
     /// First and last number across.
     pub x: (f64, f64),
     /// First and last number up.
@@ -20,12 +20,12 @@ pub struct Surface {
 const FINE: usize = 81;
 
 /// A point that a triangulation carries.
-struct Sample {
+struct ScatteredSample {
     at: Point2<f64>,
     value: f64,
 }
 
-impl HasPosition for Sample {
+impl HasPosition for ScatteredSample {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
@@ -33,9 +33,9 @@ impl HasPosition for Sample {
     }
 }
 
-impl Surface {
+impl ScoreSurface {
     /// The surface of points that form a grid; none if they have fewer than two columns or rows.
-    pub fn of_grid(points: &[(f64, f64, Option<f64>)]) -> Option<Surface> {
+    pub fn from_grid(points: &[(f64, f64, Option<f64>)]) -> Option<ScoreSurface> {
         let bits = |x: f64| (x * 1e9).round() as i64;
         let axis = |of: fn(&(f64, f64, Option<f64>)) -> f64| {
             let set: BTreeSet<i64> = points.iter().map(|p| bits(of(p))).collect();
@@ -50,12 +50,12 @@ impl Surface {
             values[row * xs.len() + column] = *value;
         }
         let size = (xs.len(), ys.len());
-        (size.0 > 1 && size.1 > 1).then_some(Surface { x: ends(&xs)?, y: ends(&ys)?, size, values })
+        (size.0 > 1 && size.1 > 1).then_some(ScoreSurface { x: ends(&xs)?, y: ends(&ys)?, size, values })
     }
 
     /// The surface through scattered points, by natural neighbours (R. Sibson, 1981); nothing is
     /// known outside their hull. None without three points that span it.
-    pub fn of_scattered(points: &[(f64, f64, Option<f64>)]) -> Option<Surface> {
+    pub fn from_scattered(points: &[(f64, f64, Option<f64>)]) -> Option<ScoreSurface> {
         let reach = |of: fn(&(f64, f64, Option<f64>)) -> f64| {
             let values = points.iter().map(of);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
@@ -63,10 +63,10 @@ impl Surface {
         let (x, y) = (reach(|p| p.0), reach(|p| p.1));
         // neighbourhood is judged in the plot's square, whatever the units
         let unit = |v: f64, (lo, hi): (f64, f64)| if hi > lo { (v - lo) / (hi - lo) } else { 0.0 };
-        let mut net = DelaunayTriangulation::<Sample>::new();
+        let mut net = DelaunayTriangulation::<ScatteredSample>::new();
         for (px, py, value) in points {
             if let Some(value) = *value {
-                net.insert(Sample { at: Point2::new(unit(*px, x), unit(*py, y)), value }).ok()?;
+                net.insert(ScatteredSample { at: Point2::new(unit(*px, x), unit(*py, y)), value }).ok()?;
             }
         }
         if net.num_inner_faces() == 0 {
@@ -80,7 +80,7 @@ impl Surface {
                 neighbours.interpolate(|vertex| vertex.data().value, at)
             })
             .collect();
-        Some(Surface { x, y, size: (FINE, FINE), values })
+        Some(ScoreSurface { x, y, size: (FINE, FINE), values })
     }
 
     /// Distance between columns and between rows.
@@ -90,13 +90,13 @@ impl Surface {
     }
 
     /// Least and greatest value.
-    pub fn reach(&self) -> Option<(f64, f64)> {
+    pub fn value_range(&self) -> Option<(f64, f64)> {
         let known = || self.values.iter().flatten().copied();
         Some((known().reduce(f64::min)?, known().reduce(f64::max)?))
     }
 
     /// All values, the unknown ones taken from the nearest known in their row, else `fallback`: what
-    /// is drawn there is covered ([`Surface::holes`]).
+    /// is drawn there is covered ([`ScoreSurface::holes`]).
     pub fn filled(&self, fallback: f64) -> Vec<f64> {
         let columns = self.size.0;
         (0..self.values.len())
@@ -136,7 +136,7 @@ mod tests {
             .map(|i| (f64::from(i * 37 % 60) / 6.0, f64::from(i) / 600.0))
             .map(|(x, y)| (x, y, Some(plane(x, y))))
             .collect();
-        let surface = Surface::of_scattered(&points).expect("spans a plane");
+        let surface = ScoreSurface::from_scattered(&points).expect("spans a plane");
         let (dx, dy) = surface.steps();
         let mut known = 0;
         for (i, value) in surface.values.iter().enumerate() {
@@ -155,10 +155,10 @@ mod tests {
         let points: Vec<_> = (0..12)
             .map(|i| (f64::from(i / 4), 0.1 * f64::from(i % 4), (i != 5).then_some(f64::from(i))))
             .collect();
-        let surface = Surface::of_grid(&points).expect("a grid");
-        assert_eq!((surface.size, surface.reach()), ((3, 4), Some((0.0, 11.0))));
+        let surface = ScoreSurface::from_grid(&points).expect("a grid");
+        assert_eq!((surface.size, surface.value_range()), ((3, 4), Some((0.0, 11.0))));
         assert_eq!((surface.values[1], surface.values[3 + 1]), (Some(4.0), None));
         assert_eq!(surface.holes(), [(0, 0), (1, 0), (0, 1), (1, 1)]);
-        assert!(Surface::of_grid(&points[..4]).is_none());
+        assert!(ScoreSurface::from_grid(&points[..4]).is_none());
     }
 }

@@ -1,20 +1,20 @@
 //! The disc light: it shines from one side, as the cosine within a cone.
 
-use super::square::glimpse_of_area;
-use super::{Emitter, Glimpse, Kind, Start};
-use crate::math::sample;
-use crate::scene::Aim;
+use super::square::sample_area;
+use super::{EmissionSample, Emitter, LightSample, LightType};
+use crate::sampling::warps;
+use crate::scene::PhotonGuide;
 use glam::{Mat3, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
 
 /// `at`, `to`, `radius`.
-pub static KIND: Kind = Kind {
+pub static KIND: LightType = LightType {
     name: "disc",
     about: "a disc that shines from one side: at, to, radius",
     read: |entry, place| {
         let radius = entry.radius(place)?;
-        Ok(Arc::new(Disc::facing(entry.at(place)?, entry.to(place)?, radius, 90.0)))
+        Ok(Arc::new(Disc::facing(entry.position(place)?, entry.to(place)?, radius, 90.0)))
     },
 };
 
@@ -47,12 +47,12 @@ impl Disc {
     }
 
     fn place(&self, u: [f32; 2]) -> Vec3 {
-        self.centre + sample::about(self.normal, (sample::disc(u) * self.radius).extend(0.0))
+        self.centre + warps::to_world(self.normal, (warps::uniform_disc(u) * self.radius).extend(0.0))
     }
 }
 
 impl Emitter for Disc {
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
         let toward = -self.normal.dot(direction);
         let t = -self.normal.dot(self.centre - origin) / toward;
         let within = (origin + direction * t).distance_squared(self.centre) <= self.radius * self.radius;
@@ -60,19 +60,19 @@ impl Emitter for Disc {
         (t > 0.0 && within).then_some((t, (toward > 0.0).then_some(colour)))
     }
 
-    fn seen_from(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<Glimpse> {
-        let glimpse = glimpse_of_area(point, self.place(u), self.normal, self.area())?;
-        self.shines(-self.normal.dot(glimpse.direction)).then_some(glimpse)
+    fn sample_li(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
+        let light_sample = sample_area(point, self.place(u), self.normal, self.area())?;
+        self.shines(-self.normal.dot(light_sample.direction)).then_some(light_sample)
     }
 
-    fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {
+    fn sample_le(&self, aim: &PhotonGuide, [s, t, pick, u, v]: [f32; 5]) -> Option<EmissionSample> {
         let point = self.place([s, t]);
         let (direction, weight) = aim.direction(point, self.normal, self.sin2, pick, [u, v])?;
-        Some(Start { point, direction, power: Vec3::splat(PI * self.area() * self.sin2 * weight) })
+        Some(EmissionSample { point, direction, power: Vec3::splat(PI * self.area() * self.sin2 * weight) })
     }
 
-    fn reach(&self, aim: &Aim) -> f32 {
-        self.area() * aim.seen_from(self.centre, self.normal).min(PI * self.sin2)
+    fn importance(&self, aim: &PhotonGuide) -> f32 {
+        self.area() * aim.pdf(self.centre, self.normal).min(PI * self.sin2)
     }
 
     /// π sin² × area.

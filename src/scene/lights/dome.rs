@@ -1,16 +1,16 @@
 //! The dome: light from all directions, far away. Uniform, a gem viewer's zones, or a panorama.
 
-use super::{Emitter, Glimpse, Kind, Start};
-use crate::math::sample;
-use crate::optics::viewers::Viewer;
-use crate::scene::Aim;
+use super::{EmissionSample, Emitter, LightSample, LightType};
+use crate::color::viewers::Viewer;
+use crate::sampling::warps;
+use crate::scene::PhotonGuide;
 use crate::scene::panorama::Panorama;
 use glam::{Mat3, Vec3};
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Nothing, `viewer` or `panorama`.
-pub static KIND: Kind = Kind {
+pub static KIND: LightType = LightType {
     name: "dome",
     about: "light from everywhere: uniform, or viewer = NAME, or panorama = FILE (.hdr, .exr)",
     read: |entry, place| {
@@ -60,7 +60,7 @@ impl Dome {
     /// A direction to the sky and its colour over the density.
     fn draw(&self, u: [f32; 2]) -> (Vec3, Vec3) {
         if let Sky::Panorama(panorama) = &self.sky {
-            let (d, colour) = panorama.draw(u);
+            let (d, colour) = panorama.sample(u);
             return (self.world_from_sky * d, colour);
         }
         let (z, phi) = (1.0 - 2.0 * u[0], TAU * u[1]);
@@ -71,29 +71,33 @@ impl Dome {
 }
 
 impl Emitter for Dome {
-    fn hit(&self, _: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
+    fn intersect(&self, _: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
         Some((f32::INFINITY, Some(self.colour(direction))))
     }
 
-    fn seen_from(&self, _: Vec3, normal: Vec3, u: [f32; 2]) -> Option<Glimpse> {
+    fn sample_li(&self, _: Vec3, normal: Vec3, u: [f32; 2]) -> Option<LightSample> {
         let (direction, radiance) = match &self.sky {
             Sky::Panorama(_) => self.draw(u),
             _ => {
-                let direction = sample::about(normal, sample::cosine_hemisphere(u));
-                let density = sample::cosine_hemisphere_pdf(direction.dot(normal).max(1e-6));
+                let direction = warps::to_world(normal, warps::cosine_hemisphere(u));
+                let density = warps::cosine_hemisphere_pdf(direction.dot(normal).max(1e-6));
                 (direction, self.colour(direction) / density)
             }
         };
-        (direction.dot(normal) > 0.0).then_some(Glimpse { direction, distance: f32::INFINITY, radiance })
+        (direction.dot(normal) > 0.0).then_some(LightSample {
+            direction,
+            distance: f32::INFINITY,
+            radiance_over_pdf: radiance,
+        })
     }
 
-    fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {
+    fn sample_le(&self, aim: &PhotonGuide, [s, t, pick, u, v]: [f32; 5]) -> Option<EmissionSample> {
         let (from, colour) = self.draw([s, t]);
         let (point, area) = aim.beam(-from, pick, [u, v]);
-        Some(Start { point, direction: -from, power: colour * area })
+        Some(EmissionSample { point, direction: -from, power: colour * area })
     }
 
-    fn reach(&self, aim: &Aim) -> f32 {
+    fn importance(&self, aim: &PhotonGuide) -> f32 {
         let mean = match &self.sky {
             Sky::Panorama(panorama) => panorama.mean(),
             _ => 1.0,

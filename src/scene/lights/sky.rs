@@ -1,17 +1,17 @@
 //! The sky of a clear day without its sun, and below the horizon a ground in the light of both.
 
-use super::Kind;
+use super::LightType;
 use super::dome::Dome;
-use crate::optics::colour;
-use crate::optics::daylight::{ClearSky, SUN_RADIUS_DEG};
-use crate::optics::rgb;
+use crate::color::cie;
+use crate::color::daylight::{ClearSky, SUN_RADIUS_DEG};
+use crate::color::rgb_upsampling;
 use crate::scene::panorama::Panorama;
 use glam::{Mat3, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
 
 /// `sun-elevation`, `sun-azimuth`, `turbidity`.
-pub static KIND: Kind = Kind {
+pub static KIND: LightType = LightType {
     name: "sky",
     about: "the clear sky around a sun at sun-elevation, sun-azimuth (degrees), turbidity 2 to 10; radiance 1 counts in kcd/m²",
     read: |entry, _| Ok(Arc::new(Dome::showing(panorama(&entry.clear_sky()?), Mat3::IDENTITY))),
@@ -23,9 +23,9 @@ const SIZE: (usize, usize) = (1024, 512);
 /// What the ground below the horizon gives back: grass, earth, paving.
 const GROUND: f32 = 0.2;
 
-/// Parts of [`rgb::basis`] that look like an XYZ colour where the light's own spectrum looks white.
+/// Parts of [`rgb_upsampling::basis`] that look like an XYZ colour where the light's own spectrum looks white.
 pub(super) fn parts(xyz: Vec3) -> Vec3 {
-    rgb::mixture(colour::srgb_matrix() * xyz)
+    rgb_upsampling::upsample(cie::srgb_matrix() * xyz)
 }
 
 /// The sky as a table from which directions are drawn.
@@ -48,8 +48,8 @@ fn panorama(sky: &ClearSky) -> Panorama {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::points::Points;
-    use crate::math::random::Purpose;
+    use crate::sampling::kronecker::KroneckerPoints;
+    use crate::sampling::random::Purpose;
     use crate::scene::lights::Emitter;
 
     /// [D] Irradiance by drawn directions is that by a quadrature of the model, on flat and tilted
@@ -69,14 +69,14 @@ mod tests {
                 let from_ground = Vec3::new(d.x, d.y, -d.z);
                 let cosines = [d, from_ground].map(|d| d.dot(normal).max(0.0));
                 let parts = parts(sky.sky(d)) * cosines[0]
-                    + dome.hit(Vec3::ZERO, -Vec3::Z).and_then(|h| h.1).expect("all round") * cosines[1];
+                    + dome.intersect(Vec3::ZERO, -Vec3::Z).and_then(|h| h.1).expect("all round") * cosines[1];
                 expected += f64::from(parts.y) * 2.0 * f64::from(PI) / f64::from(n * n);
             }
             let n = 200_000;
-            let places = Points::<2>::new(1, Purpose::Test, 0, 0..n);
+            let places = KroneckerPoints::<2>::new(1, Purpose::Test, 0, 0..n);
             let seen: f64 = places
-                .filter_map(|u| dome.seen_from(Vec3::ZERO, normal, u.map(|x| x as f32)))
-                .map(|g| f64::from(g.radiance.y * g.direction.dot(normal)) / n as f64)
+                .filter_map(|u| dome.sample_li(Vec3::ZERO, normal, u.map(|x| x as f32)))
+                .map(|g| f64::from(g.radiance_over_pdf.y * g.direction.dot(normal)) / n as f64)
                 .sum();
             assert!((seen / expected - 1.0).abs() < 5e-3, "{normal}: {seen} {expected}");
         }

@@ -1,20 +1,20 @@
 //! The square light: it shines from one side.
 
-use super::{Emitter, Glimpse, Kind, Start};
-use crate::math::sample;
-use crate::scene::Aim;
-use crate::scene::surface::parallelogram_hit;
+use super::{EmissionSample, Emitter, LightSample, LightType};
+use crate::sampling::warps;
+use crate::scene::PhotonGuide;
+use crate::scene::surface::intersect_parallelogram;
 use glam::{Mat3, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
 
 /// `at`, `to`, `side`: a square around `at` that shines toward `to`.
-pub static KIND: Kind = Kind {
+pub static KIND: LightType = LightType {
     name: "square",
     about: "a square that shines from one side: at, to, side",
     read: |entry, place| {
         let side = entry.side(place)?;
-        Ok(Arc::new(Square::facing(entry.at(place)?, entry.to(place)?, side)))
+        Ok(Arc::new(Square::facing(entry.position(place)?, entry.to(place)?, side)))
     },
 };
 
@@ -32,7 +32,7 @@ pub struct Square {
 impl Square {
     /// A square around `centre` that shines toward `target`.
     pub fn facing(centre: Vec3, target: Vec3, side: f32) -> Square {
-        let (u, v) = sample::frame((target - centre).normalize());
+        let (u, v) = warps::orthonormal_basis((target - centre).normalize());
         Square { corner: centre - (u + v) * (0.5 * side), u: u * side, v: v * side }
     }
 
@@ -59,23 +59,23 @@ impl Square {
 }
 
 impl Emitter for Square {
-    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
-        let (t, front) = parallelogram_hit(self.corner, self.u, self.v, origin, direction)?;
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)> {
+        let (t, front) = intersect_parallelogram(self.corner, self.u, self.v, origin, direction)?;
         Some((t, front.then_some(Vec3::ONE)))
     }
 
-    fn seen_from(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<Glimpse> {
-        glimpse_of_area(point, self.point(u), self.normal(), self.area())
+    fn sample_li(&self, point: Vec3, _: Vec3, u: [f32; 2]) -> Option<LightSample> {
+        sample_area(point, self.point(u), self.normal(), self.area())
     }
 
-    fn leave(&self, aim: &Aim, [s, t, pick, u, v]: [f32; 5]) -> Option<Start> {
+    fn sample_le(&self, aim: &PhotonGuide, [s, t, pick, u, v]: [f32; 5]) -> Option<EmissionSample> {
         let point = self.point([s, t]);
         let (direction, weight) = aim.direction(point, self.normal(), 1.0, pick, [u, v])?;
-        Some(Start { point, direction, power: Vec3::splat(PI * self.area() * weight) })
+        Some(EmissionSample { point, direction, power: Vec3::splat(PI * self.area() * weight) })
     }
 
-    fn reach(&self, aim: &Aim) -> f32 {
-        self.area() * aim.seen_from(self.point([0.5, 0.5]), self.normal())
+    fn importance(&self, aim: &PhotonGuide) -> f32 {
+        self.area() * aim.pdf(self.point([0.5, 0.5]), self.normal())
     }
 
     /// π × area.
@@ -90,13 +90,13 @@ impl Emitter for Square {
 }
 
 /// A place of a flat light seen from a point; none from behind.
-pub(super) fn glimpse_of_area(point: Vec3, place: Vec3, normal: Vec3, area: f32) -> Option<Glimpse> {
+pub(super) fn sample_area(point: Vec3, place: Vec3, normal: Vec3, area: f32) -> Option<LightSample> {
     let to = place - point;
     let distance2 = to.length_squared();
     let direction = to / distance2.sqrt();
     let cos = -normal.dot(direction);
     let radiance = Vec3::splat(area * cos / distance2);
-    (cos > 0.0).then(|| Glimpse { direction, distance: distance2.sqrt(), radiance })
+    (cos > 0.0).then(|| LightSample { direction, distance: distance2.sqrt(), radiance_over_pdf: radiance })
 }
 
 #[cfg(test)]
@@ -107,9 +107,9 @@ mod tests {
     fn it_shines_where_it_faces() {
         let down = Square::facing_down(Vec3::new(0.0, 0.0, 3.0), 2.0);
         assert_eq!(down.normal(), -Vec3::Z);
-        assert_eq!(down.hit(Vec3::ZERO, Vec3::Z), Some((3.0, Some(Vec3::ONE))));
-        assert_eq!(down.hit(Vec3::Z * 4.0, -Vec3::Z), Some((1.0, None)));
-        assert_eq!(down.hit(Vec3::new(1.5, 0.0, 0.0), Vec3::Z), None);
+        assert_eq!(down.intersect(Vec3::ZERO, Vec3::Z), Some((3.0, Some(Vec3::ONE))));
+        assert_eq!(down.intersect(Vec3::Z * 4.0, -Vec3::Z), Some((1.0, None)));
+        assert_eq!(down.intersect(Vec3::new(1.5, 0.0, 0.0), Vec3::Z), None);
         let aimed = Square::facing(Vec3::new(3.0, 0.0, 4.0), Vec3::ZERO, 1.0);
         assert!((aimed.normal() - Vec3::new(-0.6, 0.0, -0.8)).length() < 1e-6);
         assert!((aimed.point([0.5, 0.5]) - Vec3::new(3.0, 0.0, 4.0)).length() < 1e-6);

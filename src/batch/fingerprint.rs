@@ -1,0 +1,89 @@
+//! Fingerprint of a table: a hash of everything that it depends on.
+
+use crate::formats;
+use crate::storage::text;
+use crate::storage::{limits, stdin};
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Identifier of the sources that this program was built from: the same for every build of them, on
+/// any machine; another for any other, also of the same version.
+pub const BUILD: &str = env!("CUTLAB_BUILD");
+
+/// A digest of everything that a table depends on: program, settings, inputs' contents.
+/// Two tables with one identity have the same bytes.
+#[derive(Clone)]
+pub struct Fingerprint(Sha256);
+
+/// A digest of what a file holds, of one that may include others also of what it comes to with them;
+/// none if it cannot be read. Checked in `tests/score_batches.rs`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FileDigest(Option<[u8; 32]>);
+
+impl FileDigest {
+    /// What the file at `path` holds now.
+    pub fn of_file(path: &Path) -> FileDigest {
+        let mut content = Vec::new();
+        let read = File::open(path).and_then(|f| f.take(limits::FILE.max() + 1).read_to_end(&mut content));
+        if read.is_ok() && formats::may_include(&text::display_name(path), &content) {
+            content.extend(format!("{:?}", formats::read(path)).bytes());
+        }
+        FileDigest(read.is_ok().then(|| Sha256::digest(&content).into()))
+    }
+
+    /// What standard input holds.
+    pub fn of_standard_input() -> FileDigest {
+        FileDigest(stdin::bytes().ok().and_then(Result::ok).map(|bytes| Sha256::digest(&bytes).into()))
+    }
+
+    /// Whether the file could be read.
+    pub fn is_readable(self) -> bool {
+        self.0.is_some()
+    }
+}
+
+impl Fingerprint {
+    /// The identity of what `command`, with all its settings spelled out, makes with this build.
+    pub fn of_command(command: &str) -> Fingerprint {
+        Fingerprint::with_build(command, BUILD)
+    }
+
+    fn with_build(command: &str, build: &str) -> Fingerprint {
+        let mut identity = Fingerprint(Sha256::new());
+        identity.add(env!("CARGO_PKG_VERSION"));
+        identity.add(build);
+        identity.add(command);
+        identity
+    }
+
+    /// Adds an input that is no file, or a file's name.
+    pub fn add(&mut self, text: impl AsRef<[u8]>) {
+        self.0.update((text.as_ref().len() as u64).to_le_bytes());
+        self.0.update(text);
+    }
+
+    /// Adds what a file holds.
+    pub fn add_file(&mut self, held: &FileDigest) {
+        self.0.update(held.0.unwrap_or_default());
+    }
+
+    /// Thirty-two hexadecimal digits.
+    pub fn hex(self) -> String {
+        self.0.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_builds_never_share_an_identity() {
+        assert!(BUILD.len() == 12 && BUILD.bytes().all(|b| b.is_ascii_hexdigit()), "{BUILD}");
+        let of = |build| Fingerprint::with_build("cutlab score", build).hex();
+        assert_eq!(of(BUILD), Fingerprint::of_command("cutlab score").hex());
+        assert_ne!(of(BUILD), of("0123456789ab"));
+    }
+}

@@ -1,0 +1,191 @@
+//! Sidecar of a table: the file beside it that says what its columns mean and how it was made.
+//!
+//! The companion of `NAME.csv` is `NAME.csv.meta.json`, its own; versions before it shared
+//! `NAME.meta.json` among the tables of one name, which is still read.
+
+use super::fingerprint::BUILD;
+use super::shard::Shard;
+use super::table::TableFormat;
+use super::table_job::TableSummary;
+use crate::scoring::score::ScoreSettings;
+use crate::storage::{limits, text};
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// What a companion's name has after its table's.
+const ENDING: &str = ".meta.json";
+
+/// What stands in `NAME.csv.meta.json` beside the table `NAME.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TableMeta {
+    /// Always `cutlab`.
+    pub program: String,
+    /// Its version.
+    pub version: String,
+    /// Its build ([`super::fingerprint::BUILD`]); empty in companions older than that.
+    #[serde(default)]
+    pub build: String,
+    /// The command with every setting spelled out, without output and shard.
+    pub command: String,
+    /// Seed of the random streams: the same for every row.
+    pub seed: u64,
+    /// Digest of build, command and inputs: parts of one table have it in common.
+    pub study: String,
+    /// The table's columns.
+    pub columns: Vec<String>,
+    /// What its scores can be drawn against; none for a table of stones as they are.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub layout: Option<TableLayout>,
+    /// Rows of the whole table.
+    pub total: u64,
+    /// The part of it that this table is; none for the whole.
+    pub shard: Option<Shard>,
+    /// Rows, failures and sample counts of this table.
+    #[serde(flatten)]
+    pub summary: TableSummary,
+    /// CRC-32 of this table's bytes, hexadecimal.
+    pub crc32: String,
+    /// What the scores mean.
+    pub metrics: Vec<Definition>,
+}
+
+/// What the scores of a table can be drawn against.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TableLayout {
+    /// The stone that is varied, for titles; empty if the table has several.
+    pub stone: String,
+    /// Columns along the axes: one for curves, two for a map.
+    pub axes: Vec<String>,
+    /// Columns that tell the curves of one plot apart.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<String>,
+    /// Whether the points are spread over the axes and form no grid.
+    #[serde(default)]
+    pub scattered: bool,
+    /// Whether the stone is of diamond at every point.
+    #[serde(default)]
+    pub is_diamond: bool,
+}
+
+/// One metric of the table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Definition {
+    /// Its name: the column; `NAME_se` is its standard error.
+    pub name: String,
+    /// One line for people.
+    pub about: String,
+    /// Its unit; empty for a fraction.
+    pub unit: String,
+    /// What an error asked for is measured against.
+    pub scale: f64,
+    /// Half-angle in degrees of the observer's dark cone as used, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub observer: Option<f64>,
+    /// The estimator that it reads.
+    pub experiment: String,
+    /// Illumination, observer, polarisation, wavelengths, what counts, normalisation.
+    pub definition: String,
+    /// Where the definition is from.
+    pub source: String,
+}
+
+impl TableMeta {
+    /// The companion of a whole table of a plan's scores, without rows, layout and checksum.
+    ///
+    /// - `study`: digest of build, command and inputs
+    pub fn new(plan: &ScoreSettings, command: String, study: String, columns: Vec<String>) -> TableMeta {
+        TableMeta {
+            program: "cutlab".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            build: BUILD.into(),
+            command,
+            seed: plan.seed,
+            study,
+            columns,
+            layout: None,
+            total: 0,
+            shard: None,
+            summary: TableSummary::default(),
+            crc32: String::new(),
+            metrics: TableMeta::definitions(plan),
+        }
+    }
+
+    /// Where the companion of `table` is written.
+    pub fn path_for(table: &Path) -> PathBuf {
+        let mut name = table.as_os_str().to_owned();
+        name.push(ENDING);
+        name.into()
+    }
+
+    /// Where the companion of `table` is read: as [`TableMeta::path_for`], or where versions before it put
+    /// it if there alone is one.
+    pub fn find_for(table: &Path) -> PathBuf {
+        let (own, old) = (TableMeta::path_for(table), table.with_extension("meta.json"));
+        if own.symlink_metadata().is_err() && old.symlink_metadata().is_ok() { old } else { own }
+    }
+
+    /// Whether a file has a companion's name.
+    pub fn is_companion(path: &Path) -> bool {
+        path.file_name().is_some_and(|name| name.as_encoded_bytes().ends_with(ENDING.as_bytes()))
+    }
+
+    /// Whether a file is a table that has its companion.
+    pub fn exists_for(table: &Path) -> bool {
+        TableFormat::from_path(table).is_ok()
+            && table.extension().is_some()
+            && TableMeta::find_for(table).is_file()
+    }
+
+    /// Whether the file at `table` is the table, or the part of it, that `command` made, with nothing
+    /// changed since.
+    pub fn belongs_to(table: &Path, command: &str, shard: Option<Shard>) -> bool {
+        let sum = || limits::regular(table).and_then(checksum).ok();
+        TableMeta::read(&TableMeta::find_for(table)).is_ok_and(|meta| {
+            meta.command == command && meta.shard == shard && sum().is_some_and(|sum| meta.crc32 == sum)
+        })
+    }
+
+    /// The companion in the file at `path`.
+    pub fn read(path: &Path) -> std::io::Result<TableMeta> {
+        let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
+        Ok(serde_json::from_str(&text::decode(&bytes))?)
+    }
+
+    /// The definitions of a plan's metrics.
+    pub fn definitions(plan: &ScoreSettings) -> Vec<Definition> {
+        plan.metrics
+            .iter()
+            .map(|m| Definition {
+                name: m.name.into(),
+                about: m.about.into(),
+                unit: m.unit.into(),
+                scale: m.scale,
+                observer: m.observer.map(|own| plan.observer.unwrap_or(own)),
+                experiment: m.read_from.estimator().into(),
+                definition: m.definition.into(),
+                source: m.source.into(),
+            })
+            .collect()
+    }
+
+    /// As the bytes of the companion.
+    pub fn bytes(&self) -> Result<Vec<u8>, serde_json::Error> {
+        let mut bytes = serde_json::to_vec_pretty(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+}
+
+/// CRC-32 of a file's bytes, as companions have it.
+pub fn checksum(mut file: File) -> std::io::Result<String> {
+    let (mut sum, mut piece) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut piece)? {
+            0 => return Ok(format!("{:08x}", sum.finalize())),
+            n => sum.update(&piece[..n]),
+        }
+    }
+}

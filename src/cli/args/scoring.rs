@@ -1,0 +1,287 @@
+//! Arguments of every command that scores: metrics, accuracy, light, material.
+
+use super::{inputs, orientation, stone, values};
+use crate::batch::fingerprint::{FileDigest, Fingerprint};
+use crate::batch::table_job::RowStatus;
+use crate::cli::console::Console;
+use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::shell_quote::quoted;
+use crate::materials::Material;
+use crate::metrics::{METRICS, Metric};
+use crate::optics::dispersion::{VISIBLE_UM, lines};
+use crate::parse;
+use crate::parse::{NumberError, NumberUnit};
+use crate::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, StoneShape, Target, Tilt, score};
+use crate::stone_spec::STANDARD_INPUT;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+#[derive(Debug, Clone, clap::Args)]
+pub struct ScoringArgs {
+    /// Scores to compute, all if not given (see `cutlab list metrics`)
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = metric)]
+    pub metrics: Vec<&'static Metric>,
+    /// Trace until every standard error is below this times the metric's scale: 1 for fractions and
+    /// degrees, 100 for percentages
+    #[arg(long, value_name = "E", value_parser = error)]
+    error: Option<f64>,
+    /// Take what beams can give from beams instead of photons; no effect on stones that absorb or are
+    /// not convex
+    #[arg(long)]
+    exact: bool,
+    /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each
+    /// its own]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = half_angle)]
+    observer: Option<f64>,
+    /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
+    pub seed: u64,
+    #[command(flatten)]
+    pub substance: stone::MaterialArgs,
+    /// Girdle width in millimetres; the scores depend on it if the material absorbs
+    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
+    pub size: Option<f64>,
+}
+
+impl ScoringArgs {
+    /// The same with another index in place of material and index.
+    pub fn with_index(mut self, ri: f64) -> ScoringArgs {
+        self.substance = stone::MaterialArgs { material: None, ri: Some(ri) };
+        self
+    }
+
+    /// The same with another size.
+    pub fn with_size(mut self, mm: f64) -> ScoringArgs {
+        self.size = Some(mm);
+        self
+    }
+
+    /// Whether beams were asked for.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
+    /// What of the material asked for is a guess: its index, or the size of stones that have none.
+    /// Commands say it once nothing is refused any more.
+    ///
+    /// - `sized`: whether all stones have a size
+    pub fn notes(&self, sized: bool) -> Vec<String> {
+        let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
+        let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
+        let (from, to) = match (coloured, six) {
+            (true, _) => VISIBLE_UM,
+            (false, true) => (lines::G, lines::B),
+            (false, false) => (lines::D, lines::D),
+        };
+        let range = self.substance.range_note(from, to);
+        let high = self.substance.ri.filter(|n| *n > HIGH_INDEX).map(|n| {
+            format!(
+                "note: light stays in a stone of n = {n} for thousands of facets: its scores take long, a tenth as \
+                 long with --error 0.01"
+            )
+        });
+        let size = (!sized && self.size.is_none() && coloured).then(|| {
+            let mm = stone::USUAL_SIZE;
+            format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it")
+        });
+        range.into_iter().chain(high).chain(size).collect()
+    }
+
+    /// The plan that was asked for.
+    pub fn plan(&self) -> ScoreSettings {
+        let default = ScoreSettings::default();
+        ScoreSettings {
+            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.once() },
+            target: self.error.map_or(default.target, Target::Error),
+            polarised: self.polarisation,
+            seed: self.seed,
+            exact: self.exact,
+            observer: self.observer,
+            ..default
+        }
+    }
+
+    /// The metrics asked for: one that is named again is meant once.
+    fn once(&self) -> Vec<&'static Metric> {
+        let mut metrics: Vec<&'static Metric> = Vec::new();
+        for metric in &self.metrics {
+            if !metrics.iter().any(|m| m.name == metric.name) {
+                metrics.push(metric);
+            }
+        }
+        metrics
+    }
+
+    /// The options with every setting spelled out, as they could be typed again.
+    pub fn words(&self) -> String {
+        let names: Vec<&str> = self.plan().metrics.iter().map(|m| m.name).collect();
+        let mut words = format!(" --metrics {}", names.join(","));
+        let mut option = |name: &str, value: Option<String>| {
+            if let Some(value) = value {
+                words += &format!(" --{name} {}", quoted(&value));
+            }
+        };
+        option("error", self.error.map(|e| e.to_string()));
+        option("observer", self.observer.map(|o| o.to_string()));
+        option("material", self.substance.material.map(|m| m.name.to_string()));
+        option("ri", self.substance.ri.map(|n| n.to_string()));
+        option("size", self.size.map(|mm| mm.to_string()));
+        option("polarisation", Some(if self.polarisation { "on" } else { "off" }.into()));
+        option("seed", Some(self.seed.to_string()));
+        if self.exact {
+            words += " --exact";
+        }
+        words + &orientation::words()
+    }
+
+    /// What the STONE `spec` is made of, and its shape as large as it is to be.
+    fn shape(&self, spec: &OsStr) -> Result<(Material, StoneShape), CliError> {
+        let substance = self.substance.within(spec)?;
+        let failure = match stone::open(spec) {
+            Ok(imported) => {
+                orientation::note(&stone::display_name(spec), &imported);
+                let material = substance.material_of(&imported.design);
+                let size = self.size.or(stone::usual_size(&imported.design, &material));
+                let design = stone::sized(imported.design, size)?;
+                return Ok((material, design.solid()?.into()));
+            }
+            Err(failure) => failure,
+        };
+        let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
+        let body = body.ok_or(failure)?;
+        orientation::note_body(&stone::display_name(spec), &body);
+        let material = substance.drawn_for(None);
+        let size = self.size.or((!material.is_clear()).then_some(stone::USUAL_SIZE));
+        let scale = size.map_or(1.0, |mm| mm / body.width());
+        Ok((material, StoneShape::Nonconvex(Box::new(body.scaled(scale)))))
+    }
+
+    /// Scores the STONE `spec`.
+    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &ScoreSettings) -> (ScoreRow, RowStatus) {
+        let opened = self.shape(spec);
+        let substance = self.substance.within(spec).unwrap_or(self.substance);
+        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
+        let (material, shape, code) = match opened {
+            Ok((material, shape)) => (material, Ok(shape), None),
+            Err(failure) => {
+                let of_index = || Material::from_index(substance.ri.unwrap_or(1.0));
+                let material = substance.material.cloned().unwrap_or_else(of_index);
+                (material, Err(failure.message()), Some(failure.code()))
+            }
+        };
+        let mut row = score(&ScoreInput { stone: stone::display_name(spec), material, shape, tilt }, plan);
+        if !known {
+            row.material.clear();
+        }
+        let outcome = match &row.error {
+            None => RowStatus::Ok,
+            Some(_) if row.scores.iter().any(Option::is_some) => RowStatus::TargetMissed,
+            Some(_) if code == Some(ExitStatus::Io) => RowStatus::IoError,
+            Some(_) => RowStatus::Failed,
+        };
+        (row, outcome)
+    }
+}
+
+/// No material has a higher index; beyond it a score takes up to a hundred times as long as a diamond's.
+const HIGH_INDEX: f64 = 4.0;
+
+/// Says what is to be said of a row's scores, once for all rows of which it is.
+pub fn tell(stone: &str, row: &ScoreRow, console: &Console) {
+    if let Some(note) = row.note {
+        once(&format!("{stone}: {note}"), note, console);
+    }
+}
+
+/// Says something of one stone, once for all of which the same is to be said.
+///
+/// - `key`: what is the same
+pub fn once(said: &str, key: &str, console: &Console) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let first = TOLD.lock().is_ok_and(|mut told| told.insert(key.to_owned()));
+    if first {
+        console.note(&format!("note: {said} (not said of others)"));
+    }
+}
+
+/// What a table is a function of.
+pub struct InputFiles {
+    /// In one word.
+    pub identity: String,
+    /// The stones that are files, with what they held when the table was begun.
+    files: BTreeMap<OsString, (PathBuf, FileDigest)>,
+}
+
+impl InputFiles {
+    /// Those of a table of these stones.
+    ///
+    /// - `command`: with every setting spelled out
+    pub fn new<'a>(command: &str, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
+        let (mut identity, mut files) = (Fingerprint::of_command(command), BTreeMap::new());
+        for stone in stones {
+            identity.add(stone.as_encoded_bytes());
+            if stone == STANDARD_INPUT {
+                identity.add_file(&FileDigest::of_standard_input());
+            }
+            if let Some(file) = inputs::file_of(stone) {
+                let held = FileDigest::of_file(&file);
+                identity.add_file(&held);
+                files.insert(stone.to_owned(), (file, held));
+            }
+        }
+        InputFiles { identity: identity.hex(), files }
+    }
+
+    /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
+    /// one of this table.
+    pub fn checked(&self, stone: &OsStr, scored: (ScoreRow, RowStatus)) -> (ScoreRow, RowStatus) {
+        let (mut row, outcome) = scored;
+        let Some((file, held)) = self.files.get(stone) else { return (row, outcome) };
+        let now = FileDigest::of_file(file);
+        let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
+        if now == *held || read_in_time {
+            return (row, outcome);
+        }
+        let (what, outcome) = match now.is_readable() {
+            true => ("was replaced", RowStatus::Failed),
+            false => ("has vanished", RowStatus::IoError),
+        };
+        row.scores.fill(None);
+        row.samples.clear();
+        row.error = Some(format!("the file {what} since the table was begun: start again"));
+        (row, outcome)
+    }
+}
+
+/// Value parser of `--metrics`.
+pub fn metric(name: &str) -> Result<&'static Metric, String> {
+    Metric::by_name(name).ok_or_else(|| {
+        let near = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
+        let name = name.trim();
+        format!("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(near))
+    })
+}
+
+/// Tables have nine decimals.
+const LEAST_ERROR: f64 = 1e-9;
+
+/// Value parser of `--error`.
+fn error(text: &str) -> Result<f64, String> {
+    match parse::parse_number(text, NumberUnit::None) {
+        Ok(e) if (LEAST_ERROR..=1e3).contains(&e) => Ok(e),
+        Ok(_) | Err(NumberError::NotANumber | NumberError::Infinite) => {
+            Err(format!("a standard error is a number from {LEAST_ERROR} to 1000"))
+        }
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Value parser of `--observer`.
+fn half_angle(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
+}

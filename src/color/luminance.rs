@@ -1,0 +1,70 @@
+//! Luminance: wavelengths by what they bring to the eye in daylight.
+
+use super::cie;
+use super::illuminants::Illuminant;
+use std::sync::LazyLock;
+
+/// ȳ × D65 at the wavelengths of the table, and its integral up to each as a share of the whole.
+struct LuminanceDensity {
+    density: Vec<f64>,
+    upto: Vec<f64>,
+}
+
+static DAYLIGHT: LazyLock<LuminanceDensity> = LazyLock::new(|| {
+    let light = Illuminant::daylight();
+    let density: Vec<f64> =
+        cie::nodes().map(|nm| f64::from(cie::matching(nm).y) * f64::from(light.power(nm))).collect();
+    let mut upto = vec![0.0];
+    for pair in density.windows(2) {
+        upto.push(upto[upto.len() - 1] + 0.5 * (pair[0] + pair[1]));
+    }
+    let total = upto[upto.len() - 1];
+    upto.iter_mut().for_each(|share| *share /= total);
+    LuminanceDensity { density, upto }
+});
+
+/// The wavelength in µm below which daylight has a share of its luminance: with uniform shares,
+/// wavelengths are drawn in proportion to ȳ (CIE 1931) × D65.
+///
+/// - `share`: 0 to 1
+///
+/// The product is linear between 380, 385 … 730 nm; light beyond is left out (1e-4 of it). Checked
+/// below.
+pub fn wavelength_um(share: f64) -> f64 {
+    let LuminanceDensity { density, upto } = &*DAYLIGHT;
+    let i = upto.partition_point(|s| *s <= share).clamp(1, upto.len() - 1) - 1;
+    let within = ((share - upto[i]) / (upto[i + 1] - upto[i])).clamp(0.0, 1.0);
+    // the root of the integral of a linear density
+    let (a, b) = (density[i], density[i + 1]);
+    let root = (a * a + within * (b * b - a * a)).max(0.0).sqrt();
+    let along = within * (a + b) / (a + root).max(f64::MIN_POSITIVE);
+    let (first, last) = (f64::from(cie::RANGE_NM.0), f64::from(cie::RANGE_NM.1));
+    let step = (last - first) / (density.len() - 1) as f64;
+    (first + step * (i as f64 + along)) / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Light through a red filter (above 600 nm) and a green one, against sums over the table.
+    #[test]
+    fn wavelengths_drawn_by_luminance_give_the_luminance_behind_a_filter() {
+        let light = Illuminant::daylight();
+        for pass in [
+            |um: f64| 1.0 / (1.0 + (-(um - 0.6) / 0.01).exp()),
+            |um: f64| (-((um - 0.53) / 0.03).powi(2)).exp(),
+        ] {
+            let n = 20_000;
+            let drawn = (0..n).map(|i| pass(wavelength_um((f64::from(i) + 0.5) / f64::from(n)))).sum::<f64>()
+                / f64::from(n);
+            let table = f64::from(light.xyz(|nm| pass(f64::from(nm) / 1000.0) as f32).y);
+            assert!((drawn / table - 1.0).abs() < 2e-3, "{drawn} {table}");
+        }
+        assert!((wavelength_um(0.0) - 0.38).abs() < 1e-12 && (wavelength_um(1.0) - 0.73).abs() < 1e-12);
+        assert!(
+            (0..1000)
+                .all(|i| wavelength_um(f64::from(i) / 1000.0) < wavelength_um(f64::from(i + 1) / 1000.0))
+        );
+    }
+}

@@ -1,0 +1,18 @@
+//! Designs: tiers of facets, parametric families, the library, proportions.
+
+pub mod design_file;
+pub mod families;
+pub mod gia_envelopes;
+mod hull;
+pub mod library;
+pub mod measured_tiers;
+pub mod meet_points;
+pub mod orientation;
+pub mod proportions;
+pub mod round_brilliant_measures;
+pub mod scaling;
+pub mod symmetry;
+pub mod tiers;
+
+pub use families::CutError;
+pub use tiers::{Design, Facet, Gear, LengthUnit, Tier, USUAL_WIDTH_MM, Zone};

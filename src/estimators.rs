@@ -1,0 +1,43 @@
+//! Estimators that the metrics read, each traced once a stone.
+//!
+//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of
+//! the stone, traced backward; [`FaceterView`] the same by the rules of faceters; [`Contrast`] and
+//! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`PointLight`]: a
+//! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex. An
+//! estimator adds up small sums in independent batches
+//! ([`BatchedEstimate`]); a metric is a function of such sums, and the spread of the batches is its error.
+//! The viewer, and light with him, looks from a [`ViewFrame`].
+
+pub mod batches;
+pub mod beam_tallies;
+pub mod beam_view;
+pub mod colour_separation;
+pub mod contrast;
+mod entry_sampling;
+pub mod faceter_view;
+pub mod fire;
+pub mod hemisphere;
+pub mod horizon;
+pub mod nonconvex;
+pub mod pixel_cells;
+pub mod point_light;
+pub mod quadrature;
+mod same_path;
+pub mod scintillation;
+mod trace_optics;
+pub mod view;
+pub mod view_frame;
+mod wavelengths;
+pub mod weighted_exits;
+
+pub use batches::{BATCHES, BatchedEstimate, Estimator};
+pub use contrast::Contrast;
+pub use faceter_view::FaceterView;
+pub use hemisphere::Hemisphere;
+pub use point_light::PointLight;
+pub use quadrature::Quadrature;
+pub use scintillation::Scintillation;
+pub use trace_optics::{EstimatorError, STOP_POWER, TraceOptics};
+use trace_optics::{LineOptics, check_index};
+pub use view::View;
+pub use view_frame::ViewFrame;

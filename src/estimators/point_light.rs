@@ -1,0 +1,257 @@
+//! Point light: light from a point at infinity behind the viewer, in the six lines B C D e F G.
+
+use super::batches::Estimator;
+use super::entry_sampling::{self, Silhouette};
+use super::horizon::is_up;
+use super::same_path::SamePath;
+use super::{EstimatorError, LineOptics, TraceOptics, ViewFrame};
+use crate::optics::dispersion::lines;
+use crate::sampling::histogram::Histogram;
+use crate::sampling::kronecker::KroneckerPoints;
+use crate::sampling::random::Purpose;
+use crate::sampling::statistic::Statistic;
+use crate::sampling::stats::Accumulate;
+use crate::trace::lane_scheduler::{self, RayClient};
+use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
+use glam::DVec3;
+use std::ops::Range;
+
+/// A path is followed while it holds this share of the light that fell on its point.
+const STOP_POWER: f32 = 1e-6;
+
+/// Threshold of visibility: exiting irradiance as a share of the beam's (GIA 2001: 10⁻³).
+pub const THRESHOLD: f32 = 1e-3;
+
+/// Lanes of a ray: the sixteenth of a packet rests.
+const LINES: usize = 3;
+
+/// Lines that are paired on one path, D first.
+const PAIRED: [f64; LINES] = [lines::D, lines::B, lines::G];
+
+/// The other three of the six.
+const UNPAIRED: [f64; LINES] = [lines::C, lines::E, lines::F];
+
+/// Width of the classes that the median separation is taken from, in degrees.
+pub const CLASS_DEG: f64 = 0.05;
+
+/// A beam from the viewer's side on one stone: points uniform over the outline, unpolarised outside.
+///
+/// The exiting beam is m = (cos t / cos i) at entry × (cos out / cos in) at exit times as wide as
+/// the entering one; its irradiance is power / m. Crown exits above the horizon count.
+#[derive(Debug, Clone)]
+pub struct PointLight<'a> {
+    stone: &'a ConvexStone,
+    view_frame: ViewFrame,
+    polarised: bool,
+    optics: [[LineOptics; LINES]; 2],
+    outline: Silhouette,
+    crown: Vec<f32>,
+    needs: PointLightNeeds,
+}
+
+/// What of a [`PointLightTally`] is wanted; the rest need not be right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PointLightNeeds {
+    /// Exits of all six lines, rather than of those that are compared.
+    pub lit: bool,
+    /// Exits too faint to be seen, which count for the separation of the colours.
+    pub faint: bool,
+}
+
+impl PointLightNeeds {
+    /// Everything.
+    pub const ALL: PointLightNeeds = PointLightNeeds { lit: true, faint: true };
+
+    /// What a score reads of a tally.
+    pub fn from_statistic(reading: &Statistic<PointLightTally>) -> PointLightNeeds {
+        let seen = PointLightTally { points: 1.0, lit: 1.0, streak_deg: 1.0, ..PointLightTally::default() };
+        let unlit = PointLightTally { lit: 2.0, ..seen.clone() };
+        let mut faint = PointLightTally { power_angle_deg: 1.0, paired_power: 1.0, ..seen.clone() };
+        faint.power_by_angle.insert(1.0, 1.0);
+        let differs =
+            |other: &PointLightTally| reading.value(other).to_bits() != reading.value(&seen).to_bits();
+        PointLightNeeds { lit: differs(&unlit), faint: differs(&faint) }
+    }
+
+    /// What either needs.
+    pub fn and(self, other: PointLightNeeds) -> PointLightNeeds {
+        PointLightNeeds { lit: self.lit || other.lit, faint: self.faint || other.faint }
+    }
+}
+
+/// Sums of a batch; every ray has power 1 in every line.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PointLightTally {
+    /// Points of the outline.
+    pub points: f64,
+    /// Σ m cos² over visible exits, mean over the six lines.
+    pub lit: f64,
+    /// Σ m cos² × angle between B and G in degrees, over visible exits at D whose B and G have
+    /// come the same way and leave too.
+    pub streak_deg: f64,
+    /// Σ power × angle between B and G in degrees, over crown exits at D whose B and G have come
+    /// the same way and leave too.
+    pub power_angle_deg: f64,
+    /// Σ power over the same exits.
+    pub paired_power: f64,
+    /// The same power by angle, in classes of [`CLASS_DEG`].
+    pub power_by_angle: Histogram,
+}
+
+impl Accumulate for PointLightTally {
+    fn accumulate(&mut self, other: &PointLightTally) {
+        self.points += other.points;
+        self.lit += other.lit;
+        self.streak_deg += other.streak_deg;
+        self.power_angle_deg += other.power_angle_deg;
+        self.paired_power += other.paired_power;
+        Accumulate::accumulate(&mut self.power_by_angle, &other.power_by_angle);
+    }
+}
+
+impl<'a> PointLight<'a> {
+    /// Lights a face-up stone; a material without dispersion gives no angles.
+    pub fn new(stone: &'a ConvexStone, medium: &TraceOptics) -> Result<Self, EstimatorError> {
+        Self::in_frame(stone, medium, ViewFrame::FACE_UP)
+    }
+
+    /// Lights a stone from the viewer's side.
+    pub fn in_frame(
+        stone: &'a ConvexStone,
+        medium: &TraceOptics,
+        view_frame: ViewFrame,
+    ) -> Result<Self, EstimatorError> {
+        let mut optics = [[LineOptics::default(); LINES]; 2];
+        for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
+            for (optics, um) in into.iter_mut().zip(lines) {
+                *optics = medium.optics(stone.unit, um)?;
+            }
+        }
+        let (outline, crown) = (Silhouette::new(stone, view_frame)?, entry_sampling::crown_flags(stone));
+        let polarised = medium.polarised;
+        Ok(Self { stone, view_frame, polarised, optics, outline, crown, needs: PointLightNeeds::ALL })
+    }
+
+    /// Traces no more than what is needed of the tally; the same points give the same sums.
+    pub fn for_needs(self, needs: PointLightNeeds) -> Self {
+        Self { needs, ..self }
+    }
+
+    /// The power below which a path is not followed.
+    fn stop_power(&self) -> f32 {
+        let index = self.optics.iter().flatten().map(|o| o.index).fold(1.0, f32::max);
+        if self.needs.faint { STOP_POWER } else { least_seen(index.into()) as f32 }
+    }
+}
+
+/// Light inside a stone with less than this share of what fell in leaves no exit that can be seen.
+///
+/// Of light that arrives at a facet with power p no beam denser than 4 n p leaves: T/m is largest for
+/// light polarised along the plane of incidence, at the critical angle, and no entering beam is
+/// narrower inside than outside.
+pub(super) fn least_seen(index: f64) -> f64 {
+    f64::from(THRESHOLD) / (4.0 * index)
+}
+
+/// Angle between two directions, in degrees; exact for small angles.
+pub(super) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+}
+
+/// The rays of a run of points in three of the lines.
+struct PointLightClient<'a> {
+    estimator: &'a PointLight<'a>,
+    points: KroneckerPoints<2>,
+    tally: &'a mut PointLightTally,
+    optics: [LineOptics; LINES],
+    /// Whether the lines are those that are compared.
+    paired: bool,
+    /// cos t / cos i at entry.
+    widening: Lanes,
+    together: SamePath<LINES>,
+}
+
+impl RayClient for PointLightClient<'_> {
+    const WIDTH: usize = LINES;
+
+    fn polarised(&self) -> bool {
+        self.estimator.polarised
+    }
+
+    fn absorbing(&self) -> bool {
+        self.optics.iter().any(LineOptics::absorbs)
+    }
+
+    fn stops_by_emitted_power(&self) -> bool {
+        self.absorbing()
+    }
+
+    fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
+        let Some(u) = self.points.next() else { return false };
+        let PointLight { stone, outline, view_frame, .. } = self.estimator;
+        let (facet, point) = outline.sample(u);
+        let toward = -view_frame.axis.as_vec3();
+        for (lane, optics) in (lane..).zip(self.optics) {
+            let entry = stone.refract_into(facet, toward, optics.index);
+            packet.load_refracted(lane, point, &entry, optics.index);
+            packet.absorption[lane] = optics.absorption;
+            self.widening[lane] = entry.cos_inside / entry.cos_outside;
+        }
+        if self.paired {
+            self.together.begin(lane);
+            self.tally.points += 1.0;
+        }
+        true
+    }
+
+    /// Lines that have parted are not compared any more.
+    fn is_done(&self, lane: usize) -> bool {
+        !self.estimator.needs.lit && !self.together.is_same(lane)
+    }
+
+    fn interact(&mut self, m: &Interaction, _: &Packet) {
+        let axis = self.estimator.view_frame.axis.as_vec3();
+        let (mut seen, mut height) = ([0.0; LANES], [0.0; LANES]);
+        for (l, (seen, height)) in seen.iter_mut().zip(&mut height).enumerate() {
+            let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
+            *height = z;
+            let width = self.widening[l] * m.cos_outside[l] / m.cos_inside[l].max(f32::MIN_POSITIVE);
+            let visible = m.power[l] > THRESHOLD * width && is_up(z);
+            let weight = width * z * z * self.estimator.crown[m.facet[l] as usize];
+            *seen = if visible { weight } else { 0.0 };
+        }
+        let six = lines::SIX.len() as f64;
+        self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
+        for d in SamePath::<LINES>::lanes() {
+            let up = is_up(height[d]) && self.estimator.crown[m.facet[d] as usize] > 0.0;
+            if self.together.leave(m, d) && up {
+                let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
+                let power = f64::from(m.power[d]);
+                self.tally.streak_deg += f64::from(seen[d]) * angle;
+                self.tally.power_angle_deg += power * angle;
+                self.tally.paired_power += power;
+                self.tally.power_by_angle.insert(angle / CLASS_DEG, power);
+            }
+        }
+    }
+}
+
+impl Estimator for PointLight<'_> {
+    type Tally = PointLightTally;
+
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut PointLightTally) {
+        let passes = [(self.optics[0], true), (self.optics[1], false)];
+        for (optics, paired) in passes.into_iter().filter(|(_, paired)| *paired || self.needs.lit) {
+            let mut shine = PointLightClient {
+                estimator: self,
+                points: KroneckerPoints::new(seed, Purpose::Beam, batch, points.clone()),
+                tally: &mut *tally,
+                optics,
+                paired,
+                widening: [0.0; LANES],
+                together: SamePath::NONE,
+            };
+            lane_scheduler::trace_all(self.stone, self.stop_power(), &mut shine);
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Optics of a stone as estimators trace it, and why one cannot be lit.
+
+use crate::materials::Material;
+
+/// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
+/// the point counts: as many as a picture's.
+pub(super) const LINES_PER_RAY: usize = 8;
+
+/// A ray with less than this share of its light is given up, unless less is asked for. Smaller costs
+/// time; larger shows: of a round brilliant's light 3e-5 are given up in all. In a stone that absorbs
+/// the share is of what has come out ([`crate::trace::lane_scheduler::RayClient::stops_by_emitted_power`]).
+pub const STOP_POWER: f32 = 1e-4;
+
+/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is
+/// in millimetres: its size shows.
+#[derive(Debug, Clone, Copy)]
+pub struct TraceOptics<'a> {
+    /// The material.
+    pub material: &'a Material,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at
+    /// each (scalar Fresnel).
+    pub polarised: bool,
+}
+
+/// A stone's optics at one wavelength.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct LineOptics {
+    pub(super) index: f32,
+    /// Absorption coefficient per trace unit.
+    pub(super) absorption: f32,
+}
+
+impl LineOptics {
+    pub(super) fn absorbs(&self) -> bool {
+        self.absorption > 0.0
+    }
+}
+
+impl TraceOptics<'_> {
+    /// Wavelengths in which each point of a view is traced: one for a clear stone.
+    pub fn wavelengths_per_point(&self) -> u64 {
+        if self.material.is_clear() { 1 } else { LINES_PER_RAY as u64 }
+    }
+
+    /// Optics of a stone with a trace unit of `unit` at `um` (µm); refuses indices at which the
+    /// formulas mean nothing.
+    pub(super) fn optics(&self, unit: f64, um: f64) -> Result<LineOptics, EstimatorError> {
+        let index = check_index(self.material.index(um))?;
+        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(um) * unit) as f32 })
+    }
+}
+
+/// A stone or material that cannot be lit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EstimatorError {
+    /// No facet faces up.
+    #[error("no facet faces up: no light enters from above")]
+    NoCrown,
+    /// An index of refraction that no stone has.
+    #[error("index of refraction {0} is not a number from 1 to 10")]
+    Index(f64),
+}
+
+/// Refuses indices at which the formulas mean nothing.
+pub(super) fn check_index(n: f64) -> Result<f32, EstimatorError> {
+    if (1.0..=10.0).contains(&n) { Ok(n as f32) } else { Err(EstimatorError::Index(n)) }
+}

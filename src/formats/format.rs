@@ -1,0 +1,64 @@
+//! A format: its name and extensions, how its files are known, read and written.
+
+use super::error::FormatError;
+use super::input::Input;
+use super::mesh_export::MeshExport;
+use crate::design::Design;
+use crate::storage::limits;
+use crate::storage::text;
+use std::path::Path;
+
+/// Makes a file's bytes.
+#[derive(Debug, Clone, Copy)]
+pub enum Writer {
+    /// Of a design's planes, tiers and texts; sentences about what had no room go to the list.
+    Design(fn(&Design, &mut Vec<String>) -> Result<Vec<u8>, FormatError>),
+    /// Of a surface, whose planes need not bound it.
+    Mesh(fn(&MeshExport) -> Result<Vec<u8>, FormatError>),
+}
+
+/// A file format.
+pub struct Format {
+    /// Its name, as in `--to NAME` and in reports.
+    pub name: &'static str,
+    /// File extensions in lower case, the usual one first.
+    pub extensions: &'static [&'static str],
+    /// One line of help.
+    pub about: &'static str,
+    /// How surely a file is of this format, 0 (not at all) to 100 (a magic number).
+    pub sniff: fn(&Input) -> u8,
+    /// Reads a design.
+    pub read: fn(&Input) -> Result<Parsed, FormatError>,
+    /// Writes a design, if the format can be written.
+    pub write: Option<Writer>,
+}
+
+/// A design as a reader found it, and what it had to overlook.
+#[derive(Debug)]
+pub struct Parsed {
+    /// The design.
+    pub design: Design,
+    /// One line each.
+    pub warnings: Vec<String>,
+}
+
+/// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
+/// bounded by the bytes it was given and by the other [`limits`].
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, FormatError> {
+    within_limit(path, limits::FILE.read_regular(path))
+}
+
+/// What [`limits::Limit::read`] gives.
+pub(super) type ReadOutcome = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
+
+pub(super) fn within_limit(path: &Path, bytes: ReadOutcome) -> Result<Vec<u8>, FormatError> {
+    let file = || text::display_name(path);
+    let bytes = bytes.map_err(|cause| FormatError::Read { file: file(), cause })?;
+    bytes.map_err(|cause| FormatError::TooLarge { file: file(), cause })
+}
+
+impl std::fmt::Debug for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}

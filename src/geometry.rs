@@ -1,0 +1,16 @@
+//! Convex solids: planes, their intersection, triangles, measures; closed meshes that are not convex.
+
+mod clip_scale;
+pub mod closed_mesh;
+pub mod facet_recovery;
+mod half_space_clipper;
+pub mod measure;
+pub mod plane;
+pub mod polygon;
+pub mod polyhedron;
+pub mod triangulation;
+mod welded_surface;
+
+pub use closed_mesh::ClosedMesh;
+pub use plane::Plane;
+pub use polyhedron::{Polyhedron, SolidError};

@@ -1,0 +1,164 @@
+//! The catalogue of materials: one a file where a law was measured, and a table of gems known by their
+//! figures at the D line.
+
+mod beryl;
+mod calcite;
+mod cape_diamond;
+mod chrysoberyl;
+mod corundum;
+mod cubic_zirconia;
+mod diamond;
+mod diamond_rgb;
+mod emerald;
+mod fluorite;
+mod fused_silica;
+mod gems;
+mod material;
+mod moissanite;
+mod n_bk7;
+mod quartz;
+mod ruby;
+mod rutile;
+mod sapphire;
+mod spinel;
+mod strontium_titanate;
+mod topaz;
+mod tourmaline;
+pub mod weight;
+mod yag;
+mod zircon;
+
+use crate::optics::dispersion::Dispersion;
+use crate::parse;
+pub use material::Material;
+
+/// Those that are a file each, by name.
+const FILES: [&Material; 25] = [
+    &diamond::DIAMOND,
+    &cape_diamond::CAPE_DIAMOND,
+    &diamond_rgb::DIAMOND_RGB,
+    &corundum::CORUNDUM,
+    &ruby::RUBY,
+    &sapphire::SAPPHIRE,
+    &beryl::BERYL,
+    &emerald::EMERALD,
+    &quartz::QUARTZ,
+    &quartz::AMETHYST,
+    &quartz::CITRINE,
+    &topaz::TOPAZ,
+    &tourmaline::TOURMALINE,
+    &zircon::ZIRCON,
+    &chrysoberyl::CHRYSOBERYL,
+    &spinel::SPINEL,
+    &fluorite::FLUORITE,
+    &calcite::CALCITE,
+    &moissanite::MOISSANITE,
+    &cubic_zirconia::CUBIC_ZIRCONIA,
+    &yag::YAG,
+    &strontium_titanate::STRONTIUM_TITANATE,
+    &rutile::RUTILE,
+    &n_bk7::N_BK7,
+    &fused_silica::FUSED_SILICA,
+];
+
+const COUNT: usize = FILES.len() + gems::COUNT;
+
+/// Every material.
+pub static MATERIALS: &[&Material] = &ALL;
+
+static ALL: [&Material; COUNT] = {
+    let mut all = [FILES[0]; COUNT];
+    let mut i = 0;
+    while i < COUNT {
+        all[i] = if i < FILES.len() { FILES[i] } else { &gems::GEMS[i - FILES.len()] };
+        i += 1;
+    }
+    all
+};
+
+/// Refractive indices at the D line that differ by less than this are taken for one material's: designs
+/// state them to two decimals, and a stone's own varies by about as much.
+pub const NEAR: f64 = 0.01;
+
+impl Material {
+    /// The material called `name`, or none.
+    pub fn by_name(name: &str) -> Option<&'static Material> {
+        MATERIALS.iter().copied().find(|m| parse::is_name(&m.name, name))
+    }
+
+    /// The index of a material of which nothing else is known ([`Material::from_index`]).
+    pub fn bare_index(&self) -> Option<f64> {
+        let Dispersion::Constant(n) = self.dispersion else { return None };
+        (*self == Material::from_index(n)).then_some(n)
+    }
+
+    /// The known materials whose index at the D line is `n`, or near enough to be meant by it ([`NEAR`]), the
+    /// nearest first.
+    pub fn near(n: f64) -> Vec<&'static Material> {
+        let off = |m: &Material| (m.index_d() - n).abs();
+        let mut known: Vec<&Material> = MATERIALS.iter().copied().filter(|m| off(m) <= NEAR).collect();
+        known.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        known
+    }
+
+    /// Why there are no colours where a material without dispersion is lit, and what can be done about it.
+    pub fn no_dispersion(&self) -> String {
+        let Some(n) = self.bare_index() else {
+            return format!("no dispersion is known of {}", self.name);
+        };
+        let near = Material::near(n).into_iter().filter(|m| m.is_dispersive());
+        let names: Vec<&str> = near.map(|m| m.name.as_ref()).collect();
+        let names = if names.is_empty() { "no material is known".into() } else { names.join(", ") };
+        format!("no dispersion is known of a bare index: --material NAME gives one (n = {n}: {names})")
+    }
+
+    /// The material of a stone of which at most an index is known: that index alone, or diamond.
+    pub fn drawn_for(index: Option<f64>) -> Material {
+        index.map_or_else(|| MATERIALS[0].clone(), Material::from_index)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::dispersion::lines;
+
+    #[test]
+    fn every_material_has_a_source_and_falls_with_wavelength_over_its_range() {
+        for m in MATERIALS {
+            assert!(!m.source.is_empty() && !m.about.is_empty(), "{}", m.name);
+            let (from, to) = (m.valid_um.0.max(0.38), m.valid_um.1.min(0.73));
+            for law in [Some(m.dispersion), m.extraordinary].into_iter().flatten() {
+                let n: Vec<f64> =
+                    (0..=100).map(|i| law.index(from + (to - from) * f64::from(i) / 100.0)).collect();
+                assert!(n.iter().all(|n| *n > 1.0), "{}", m.name);
+                assert!(n.windows(2).all(|w| w[1] <= w[0]), "{}", m.name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_absorption_says_what_it_is_and_lets_some_light_pass() {
+        let mut coloured = 0;
+        for (m, a) in MATERIALS.iter().filter_map(|m| Some((m, m.absorption?))) {
+            coloured += 1;
+            assert!(!m.is_clear() && !a.source.is_empty() && !a.about.is_empty(), "{}", m.name);
+            let spectrum: Vec<f64> = (380..=730).map(|nm| a.per_mm(f64::from(nm) / 1000.0)).collect();
+            assert!(spectrum.iter().all(|a| (0.0..5.0).contains(a)), "{}", m.name);
+            let (least, most) = spectrum.iter().fold((f64::MAX, 0f64), |(l, m), a| (l.min(*a), m.max(*a)));
+            assert!(least < 0.2 * most, "{}: {least} {most}", m.name);
+        }
+        assert!(coloured >= 4);
+    }
+
+    #[test]
+    fn a_guess_is_called_one() {
+        let said = |name: &str, from, to| Material::by_name(name).and_then(|m| m.extrapolated(from, to));
+        let note = said("strontium-titanate", 0.38, 0.73);
+        assert_eq!(note.as_deref(), Some("index of strontium-titanate extrapolated below 430 nm"));
+        assert_eq!(said("strontium-titanate", lines::G, lines::B), None);
+        let note = said("topaz", 0.38, 0.73);
+        assert_eq!(note.as_deref(), Some("index of topaz extrapolated below 431 nm and above 687 nm"));
+        assert_eq!(said("diamond", 0.38, 0.73), None);
+    }
+}

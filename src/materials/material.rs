@@ -1,0 +1,85 @@
+//! A material: dispersion, absorption, density, and where the figures are from.
+
+use crate::optics::absorption::Absorption;
+use crate::optics::dispersion::{Dispersion, lines};
+use std::borrow::Cow;
+
+/// What a stone is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// The name on the command line.
+    pub name: Cow<'static, str>,
+    /// One line for people.
+    pub about: &'static str,
+    /// Where the figures are from.
+    pub source: &'static str,
+    /// Index against wavelength; for a uniaxial crystal the ordinary ray, with which light is
+    /// traced.
+    pub dispersion: Dispersion,
+    /// Index of the extraordinary ray across the axis of a uniaxial crystal, if it is known. Light
+    /// is not traced with it yet.
+    pub extraordinary: Option<Dispersion>,
+    /// Wavelengths for which the law was measured, µm.
+    pub valid_um: (f64, f64),
+    /// Mass per volume, g/cm³; none for a bare index.
+    pub specific_gravity: Option<f64>,
+    /// What it absorbs; none if it is clear.
+    pub absorption: Option<Absorption>,
+}
+
+impl Material {
+    /// A material known by one index alone, without dispersion, colour or weight.
+    pub fn from_index(n: f64) -> Material {
+        Material {
+            name: format!("n={n}").into(),
+            about: "one refractive index, no dispersion",
+            source: "given",
+            dispersion: Dispersion::Constant(n),
+            extraordinary: None,
+            valid_um: (0.0, f64::INFINITY),
+            specific_gravity: None,
+            absorption: None,
+        }
+    }
+
+    /// Refractive index at `um` (µm).
+    pub fn index(&self, um: f64) -> f64 {
+        self.dispersion.index(um)
+    }
+
+    /// The index at the sodium D line, by which stones are known.
+    pub fn index_d(&self) -> f64 {
+        self.index(lines::D)
+    }
+
+    /// Whether the index changes with wavelength.
+    pub fn is_dispersive(&self) -> bool {
+        self.index(lines::B) != self.index(lines::G)
+    }
+
+    /// What is said of wavelengths (µm) at which the index is a guess; none if `from`..=`to` lies
+    /// within what was measured.
+    pub fn extrapolated(&self, from: f64, to: f64) -> Option<String> {
+        let (least, greatest) = self.valid_um;
+        let nm = |um: f64| format!("{:.0} nm", 1000.0 * um);
+        let below = (from < least).then(|| format!("below {}", nm(least)));
+        let above = (to > greatest).then(|| format!("above {}", nm(greatest)));
+        let places: Vec<String> = below.into_iter().chain(above).collect();
+        (!places.is_empty()).then(|| format!("index of {} extrapolated {}", self.name, places.join(" and ")))
+    }
+
+    /// Whether it absorbs nothing.
+    pub fn is_clear(&self) -> bool {
+        self.absorption.is_none()
+    }
+
+    /// Absorption coefficient at `um` (µm), natural logarithm, 1/mm.
+    pub fn absorption_per_mm(&self, um: f64) -> f64 {
+        self.absorption.map_or(0.0, |a| a.per_mm(um))
+    }
+
+    /// Mass in carats of `volume_mm3`, if the material's weight is known.
+    pub fn carats(&self, volume_mm3: f64) -> Option<f64> {
+        self.specific_gravity.map(|sg| volume_mm3 * sg / 200.0)
+    }
+}

@@ -1,0 +1,218 @@
+//! Everything about one stone: the files of `cutlab report`.
+
+use super::page::{Page, Section};
+use super::references::References;
+use super::{chart, diagram, sections, tilt_curves, viewer_images};
+use crate::batch::table;
+use crate::batch::table::TableError;
+use crate::design::proportions::{self, Proportions};
+use crate::design::{CutError, Design, families};
+use crate::formats::{self, FormatError};
+use crate::geometry::SolidError;
+use crate::integrators::{self, PhotonMaps, Tone, image_io};
+use crate::materials::Material;
+use crate::materials::weight::Weight;
+use crate::photons::{self, PhotonSets};
+use crate::scene::{SceneError, SceneOverrides, preset};
+use crate::scoring::score::{ScoreInput, ScoreSettings, score};
+use crate::storage::atomic_write::{self, WriteError};
+use crate::trace::ConvexStone;
+use std::path::Path;
+
+/// Pixels across and down of the picture on the table, and camera rays a pixel.
+const PICTURE: (u32, u32, u32) = (640, 480, 16);
+
+/// Photons of each map, and how many an estimate gathers: the original project's numbers.
+const PHOTONS: (usize, usize) = (100_000, 500);
+
+/// Pixels across and down of the pictures through scopes.
+const SCOPE_SIDE: u32 = 480;
+
+/// What to report on.
+#[derive(Debug, Clone)]
+pub struct ReportRequest {
+    /// The stone as it was asked for: its name in the table of scores.
+    pub stone: String,
+    /// The design, in millimetres.
+    pub design: Design,
+    /// What it is made of.
+    pub material: Material,
+    /// Seed of the random streams.
+    pub seed: u64,
+    /// The command as typed, for the page.
+    pub command: String,
+}
+
+/// A report that could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The planes bound no stone.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// The planes bound no stone.
+    #[error(transparent)]
+    Cut(#[from] CutError),
+    /// The stone could not be put into a file format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// A picture could not be encoded.
+    #[error(transparent)]
+    Picture(#[from] image_io::EncodeError),
+    /// The scene cannot be set up.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The table could not be made.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// The stone cannot be lit.
+    #[error("{0}")]
+    Scores(String),
+}
+
+/// A finished report, in memory.
+#[derive(Debug)]
+pub struct StoneReport {
+    /// File names with their bytes; the page last.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// The scores under their heads.
+    pub sections: Vec<Section>,
+    /// Proportions of the stone.
+    pub proportions: Proportions,
+}
+
+/// Steps that [`make`] reports.
+pub const STEPS: usize = 6;
+
+/// Makes the report.
+///
+/// - `step`: called with what comes next, [`STEPS`] times
+///
+/// The same request gives the same bytes on any number of threads. Checked in `tests/report.rs`
+/// and `tests/cli.rs`.
+pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<StoneReport, ReportError> {
+    let design = &request.design;
+    let solid = design.solid()?;
+    let proportions = proportions::measure(&solid);
+    let (made_up_of, _) = families::facet_summary(design)?;
+    let stone = ConvexStone::new(solid.clone());
+
+    step("scoring");
+    let plan = ScoreSettings { seed: request.seed, ..ScoreSettings::default() };
+    let subject = ScoreInput {
+        stone: request.stone.clone(),
+        material: request.material.clone(),
+        shape: Ok(solid.clone().into()),
+        tilt: None,
+    };
+    let row = score(&subject, &plan);
+    if let Some(why) = &row.error {
+        return Err(ReportError::Scores(why.clone()));
+    }
+    step("reference stones");
+    let references = References::within(&request.material, solid.width(), &plan)?;
+    let sections = sections::sections(&plan.metrics, &row, &references);
+
+    step("scopes");
+    let index = request.material.index_d() as f32;
+    let mut pictures = viewer_images::pictures(&stone, index, &viewer_images::VIEWER_IMAGES, SCOPE_SIDE)?;
+    pictures.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
+
+    let tilts = tilt_curves::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
+
+    let picture = table_picture(request, step)?;
+    let diagram = diagram::draw(design, design.refractive_index)?;
+    let map = chart::draw(&proportions, &request.material)?;
+
+    let mut files = vec![
+        ("stone.obj", formats::encode(design, "obj")?),
+        ("stone.toml", formats::encode(design, "toml")?),
+        ("table.png", picture.clone()),
+        ("diagram.svg", diagram.clone().into_bytes()),
+        ("scores.csv", table::csv(&plan.metrics, std::slice::from_ref(&row))?),
+    ];
+    files.extend(pictures.iter().map(|p| (p.scope.file, p.png.clone())));
+    let names: Vec<String> = files.iter().map(|(name, _)| name.to_string()).collect();
+    let material = &request.material;
+    let weighed = Weight::new(material);
+    let weight = match (weighed.carats(proportions.volume), weighed.name()) {
+        (Some(ct), Some(name)) if name != material.name => format!("{ct:.3} ct in {name}"),
+        (Some(ct), _) => format!("{ct:.3} ct"),
+        _ => "weight not known".into(),
+    };
+    let page = Page {
+        name: if design.name.is_empty() { &request.stone } else { &design.name },
+        made_up_of: &made_up_of,
+        source: &design.source,
+        material: format!("{}, n {:.4} (D line)", material.name, material.index_d()),
+        weight: format!("{:.2} mm · {weight}", proportions.width),
+        weight_note: weighed.note(),
+        proportions: &proportions,
+        picture: Some((
+            &picture,
+            format!(
+                "Lying on a grey table: {},000 photons in each of two maps, the {} nearest gathered, {} rays a pixel",
+                PHOTONS.0 / 1000,
+                PHOTONS.1,
+                PICTURE.2
+            ),
+        )),
+        scopes: &pictures,
+        diagram: &diagram,
+        sections: &sections,
+        tilts: &tilts,
+        map,
+        references: &references.material,
+        traced: format!("Light traced by photons, seed {}.", request.seed),
+        command: request.command.clone(),
+        files: &names,
+    }
+    .html();
+    files.push(("index.html", page.into_bytes()));
+    Ok(StoneReport { files, sections, proportions })
+}
+
+/// The photon-mapped picture of the stone on the grey table, as PNG.
+pub(super) fn table_picture(
+    request: &ReportRequest,
+    step: &dyn Fn(&'static str),
+) -> Result<Vec<u8>, ReportError> {
+    let (width, height, rays) = PICTURE;
+    let (photons, nearest) = PHOTONS;
+    let Some(table) = preset("table") else {
+        return Err(ReportError::Scores("the scene 'table' is not in the catalogue".into()));
+    };
+    step("photon maps");
+    let cast = SceneOverrides {
+        designs: vec![request.design.clone()],
+        material: Some(request.material.clone()),
+        ..SceneOverrides::default()
+    };
+    let scene = table?.build(&cast, width as f32 / height as f32)?;
+    let seed = request.seed;
+    let shots = PhotonSets::emit(&scene, &photons::PhotonSettings { photons, nearest, seed });
+    let maps = PhotonMaps::new(&scene, shots, nearest);
+    step("picture");
+    let tone = Tone { stops: scene.camera.stops, ..Tone::default() };
+    let settings =
+        integrators::RenderSettings { width, height, samples_per_pixel: rays, round: 0, tone, seed };
+    let film = integrators::render(&scene, &scene.camera, &maps, &settings, &|| ());
+    Ok(image_io::png(&image_io::display_rgb(&film, None, &tone), width, height, image_io::Bits::Eight, None)?)
+}
+
+/// The names of all files of a report, the page last.
+pub fn files() -> Vec<&'static str> {
+    let fixed = ["stone.obj", "stone.toml", "table.png", "diagram.svg", "scores.csv"];
+    fixed
+        .into_iter()
+        .chain(viewer_images::VIEWER_IMAGES.iter().map(|scope| scope.file))
+        .chain(["index.html"])
+        .collect()
+}
+
+impl StoneReport {
+    /// Writes every file into `folder`, which is made; the page last, so that it never shows what
+    /// is not there.
+    pub fn write(&self, folder: &Path) -> Result<(), WriteError> {
+        self.files.iter().try_for_each(|(name, bytes)| atomic_write::write(&folder.join(name), bytes))
+    }
+}

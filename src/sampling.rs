@@ -1,0 +1,8 @@
+//! Sampling: random streams, quasi-random sequences, warps, statistics with their errors.
+
+pub mod histogram;
+pub mod kronecker;
+pub mod random;
+pub mod statistic;
+pub mod stats;
+pub mod warps;

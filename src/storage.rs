@@ -1,0 +1,11 @@
+//! Files on disk: atomic writes, locks, journals, checkpoints, and limits on what is read.
+
+pub mod atomic_write;
+pub mod checkpoint;
+pub mod journal;
+pub mod limits;
+pub mod lock;
+pub mod output_path;
+pub mod stdin;
+pub mod terminal;
+pub mod text;

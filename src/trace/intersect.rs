@@ -1,0 +1,296 @@
+//! Intersection: the facet that a ray inside meets next, and the first facet of a ray from
+//! outside.
+//!
+//! Plain Rust over arrays as wide as a register; the compiler turns each inner loop into one vector
+//! instruction once `dispatch.rs` has named the instruction set. `FUSED` says whether a fused
+//! multiply-add is an instruction (a library call otherwise).
+
+// the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
+#![allow(clippy::needless_range_loop)]
+
+use super::girdle::{GirdleFacets, PlaneBlock16};
+use super::packet::{LANES, Lanes, NO_FACET, NextFacets, Packet};
+use super::stone::{ConvexStone, FacetHit, InclinedFacet};
+use glam::Vec3;
+
+/// Least height above a plane that a point inside is given: a point that rounding put outside
+/// meets that plane at once, if it heads for it.
+const MIN_SLACK: f32 = 1e-9;
+
+#[inline(always)]
+pub(super) fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// `W` rays of a packet.
+struct RayLanes<const W: usize> {
+    /// Positions with their signs turned: heights are then three multiply-adds.
+    neg_origin: [[f32; W]; 3],
+    d: [[f32; W]; 3],
+}
+
+impl<const W: usize> RayLanes<W> {
+    /// The rays of the lanes from `lane` on.
+    #[inline(always)]
+    fn new(p: &Packet, lane: usize) -> Self {
+        let mut rays = RayLanes { neg_origin: [[0.0; W]; 3], d: [[0.0; W]; 3] };
+        for (axis, (x, d)) in [(&p.x, &p.dx), (&p.y, &p.dy), (&p.z, &p.dz)].into_iter().enumerate() {
+            for l in 0..W {
+                rays.neg_origin[axis][l] = -x[lane + l];
+                rays.d[axis][l] = d[lane + l];
+            }
+        }
+        rays
+    }
+}
+
+/// The nearest facet among those tried, its distance as a fraction slack / cos_num, `W` times.
+///
+/// Passed and returned by value: the optimiser then keeps it in registers, where a conditional
+/// store into an array costs a round trip through memory at every plane (three times the time).
+#[derive(Clone, Copy)]
+struct NearestFacet<const W: usize> {
+    cos_num: [f32; W],
+    slack: [f32; W],
+    facet: [u32; W],
+}
+
+impl<const W: usize> NearestFacet<W> {
+    const NONE: NearestFacet<W> = NearestFacet { cos_num: [0.0; W], slack: [1.0; W], facet: [NO_FACET; W] };
+
+    /// The better of `self` and one more plane for every ray; a tie leaves the earlier one.
+    #[inline(always)]
+    fn or_plane<const FUSED: bool>(self, rays: &RayLanes<W>, row: &InclinedFacet) -> NearestFacet<W> {
+        let [nx, ny, nz, d] = row.plane;
+        let (mut cos_num, mut slack) = ([0.0; W], [0.0; W]);
+        for l in 0..W {
+            let [dx, dy, dz] = [rays.d[0][l], rays.d[1][l], rays.d[2][l]];
+            let [x, y, z] = [rays.neg_origin[0][l], rays.neg_origin[1][l], rays.neg_origin[2][l]];
+            cos_num[l] = mul_add::<FUSED>(nx, dx, mul_add::<FUSED>(ny, dy, nz * dz));
+            let above = mul_add::<FUSED>(nx, x, mul_add::<FUSED>(ny, y, mul_add::<FUSED>(nz, z, d)));
+            slack[l] = above.max(MIN_SLACK);
+        }
+        self.nearer(NearestFacet { cos_num: cos_num, slack: slack, facet: [row.facet; W] })
+    }
+
+    /// The better of two; a tie leaves `self`.
+    #[inline(always)]
+    fn nearer(self, other: NearestFacet<W>) -> NearestFacet<W> {
+        let mut wins = [false; W];
+        for l in 0..W {
+            wins[l] = other.cos_num[l] * self.slack[l] > self.cos_num[l] * other.slack[l];
+        }
+        let mut best = NearestFacet::NONE;
+        for l in 0..W {
+            best.cos_num[l] = if wins[l] { other.cos_num[l] } else { self.cos_num[l] };
+            best.slack[l] = if wins[l] { other.slack[l] } else { self.slack[l] };
+            best.facet[l] = if wins[l] { other.facet[l] } else { self.facet[l] };
+        }
+        best
+    }
+
+    /// The best of all rows, for every ray.
+    ///
+    /// `B` independent accumulators hide the latency of the comparison: each waits for the one before
+    /// it, and the machine has work for several such chains at once.
+    #[inline(always)]
+    fn among<const FUSED: bool, const B: usize>(
+        rays: &RayLanes<W>,
+        rows: &[InclinedFacet],
+    ) -> NearestFacet<W> {
+        let mut best = [NearestFacet::NONE; B];
+        let rounds = rows.chunks_exact(B);
+        let rest = rounds.remainder();
+        for rows in rounds {
+            for b in 0..B {
+                best[b] = best[b].or_plane::<FUSED>(rays, &rows[b]);
+            }
+        }
+        let mut all = best[0];
+        for other in &best[1..] {
+            all = all.nearer(*other);
+        }
+        for row in rest {
+            all = all.or_plane::<FUSED>(rays, row);
+        }
+        all
+    }
+}
+
+/// The facet that each lane meets next.
+///
+/// It is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop has no
+/// division and no mask: a facet that the ray leaves has a negative numerator and never wins. All
+/// rays together try the sloping facets; a ray that would pass the cylinder inside the girdle's
+/// girdle facets tries those at its azimuth, on its own: one in forty in a round brilliant.
+///
+/// - `W`: lanes that fill a register; `B`: running bests that fit into the registers
+#[inline(always)]
+pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
+    stone: &ConvexStone,
+    p: &Packet,
+    out: &mut NextFacets,
+) {
+    for lane in (0..LANES).step_by(W) {
+        let rays = RayLanes::<W>::new(p, lane);
+        let best = NearestFacet::among::<FUSED, B>(&rays, &stone.inclined_facets);
+        let (mut ends, mut end2) = ([[0.0; 2]; W], [0.0; W]);
+        for l in 0..W {
+            // a ray that has met nothing has no end: the quotient is infinite, or no number
+            let t = best.slack[l] / best.cos_num[l];
+            let (x, y) = (t * rays.d[0][l] - rays.neg_origin[0][l], t * rays.d[1][l] - rays.neg_origin[1][l]);
+            out.distance[lane + l] = t;
+            out.facet[lane + l] = best.facet[l];
+            ends[l] = [x, y];
+            end2[l] = x * x + y * y;
+        }
+        let Some(girdle) = &stone.girdle else { continue };
+        let mut within = [false; W];
+        for l in 0..W {
+            within[l] = end2[l] < girdle.radius2;
+        }
+        if within == [true; W] {
+            continue;
+        }
+        for l in 0..W {
+            if within[l] {
+                continue;
+            }
+            let (distance, flat) = nearest_girdle_facet::<FUSED>(girdle, p, lane + l, ends[l]);
+            if distance < out.distance[lane + l] || best.facet[l] == NO_FACET {
+                (out.distance[lane + l], out.facet[lane + l]) = (distance, flat);
+            }
+        }
+    }
+}
+
+/// The girdle facet that one ray meets first and its distance, sought from the azimuth of its end outward.
+///
+/// The girdle facets are the sides of a convex polygon, so that (nᵢ·d)/(dᵢ − nᵢ·x) is unimodal in i: a girdle
+/// facet that is met before both its neighbours is met before all.
+#[inline(always)]
+fn nearest_girdle_facet<const FUSED: bool>(
+    girdle: &GirdleFacets,
+    p: &Packet,
+    lane: usize,
+    end: [f32; 2],
+) -> (f32, u32) {
+    let count = girdle.blocks.len();
+    let mut at = girdle.facing(end[0], end[1]);
+    let (mut distance, mut which) = nearest_in_block::<FUSED>(&girdle.blocks[at], p, lane);
+    for step in 1..count {
+        let beside = match which {
+            _ if distance == f32::INFINITY => at + step,
+            0 => at + count - 1,
+            last if last == girdle.blocks[at].last => at + 1,
+            _ => break,
+        };
+        let (other, flat) = nearest_in_block::<FUSED>(&girdle.blocks[beside % count], p, lane);
+        if other < distance {
+            (distance, which, at) = (other, flat, beside % count);
+        } else if distance < f32::INFINITY {
+            break;
+        }
+    }
+    let met = distance < f32::INFINITY;
+    (distance, if met { girdle.blocks[at].facet[which as usize % LANES] } else { NO_FACET })
+}
+
+/// The distance to the nearest of sixteen girdle facets, and which it is; infinite if the ray turns away from
+/// all.
+#[inline(always)]
+fn nearest_in_block<const FUSED: bool>(flats: &PlaneBlock16, p: &Packet, lane: usize) -> (f32, u32) {
+    let (x, y, dx, dy) = (-p.x[lane], -p.y[lane], p.dx[lane], p.dy[lane]);
+    let mut keys = [0; LANES];
+    for l in 0..LANES {
+        let cos_num = mul_add::<FUSED>(flats.nx[l], dx, flats.ny[l] * dy);
+        let slack = mul_add::<FUSED>(flats.nx[l], x, mul_add::<FUSED>(flats.ny[l], y, flats.d[l]));
+        keys[l] = (slack.max(MIN_SLACK) / cos_num).to_bits();
+    }
+    let (key, which) = least(&keys, &std::array::from_fn(|l| l as u32));
+    // less than 0 or no number: it turns away
+    let distance = f32::from_bits(key);
+    (if distance >= 0.0 { distance } else { f32::INFINITY }, which)
+}
+
+/// The least key and what stands beside it; of equal keys the least of that.
+///
+/// Numbers that are not negative sort as their bits do, and the least of whole numbers is found in
+/// any order: the compiler may halve.
+#[inline(always)]
+fn least(keys: &[u32; LANES], beside: &[u32; LANES]) -> (u32, u32) {
+    let mut least = u64::MAX;
+    for l in 0..LANES {
+        least = least.min((u64::from(keys[l]) << 32) | u64::from(beside[l]));
+    }
+    ((least >> 32) as u32, least as u32)
+}
+
+/// Ways into half-spaces and out of them, sixteen planes side by side.
+struct RayInterval {
+    /// The latest way in, and its facet.
+    enter: Lanes,
+    facet: [u32; LANES],
+    /// The earliest way out.
+    leave: Lanes,
+}
+
+impl RayInterval {
+    #[inline(always)]
+    fn clip<const FUSED: bool>(mut self, planes: &[PlaneBlock16], o: Vec3, dir: Vec3) -> RayInterval {
+        for planes in planes {
+            for l in 0..LANES {
+                let [nx, ny, nz] = [planes.nx[l], planes.ny[l], planes.nz[l]];
+                // 0.0 + 0 × -1 is 0.0: a ray along a plane never has -0.0 here
+                let cos_num = mul_add::<FUSED>(nz, dir.z, 0.0);
+                let cos_num = mul_add::<FUSED>(nx, dir.x, mul_add::<FUSED>(ny, dir.y, cos_num));
+                let slack = mul_add::<FUSED>(nz, -o.z, planes.d[l]);
+                let slack = mul_add::<FUSED>(nx, -o.x, mul_add::<FUSED>(ny, -o.y, slack));
+                // along a plane and outside it: left since ever
+                let t = slack / cos_num;
+                let leaves = cos_num >= 0.0;
+                let later = !leaves && t > self.enter[l];
+                let sooner = leaves && t < self.leave[l];
+                self.enter[l] = if later { t } else { self.enter[l] };
+                self.facet[l] = if later { planes.facet[l] } else { self.facet[l] };
+                self.leave[l] = if sooner { t } else { self.leave[l] };
+            }
+        }
+        self
+    }
+
+    /// The latest way in, if it is ahead and before every way out.
+    #[inline(always)]
+    fn hit(&self) -> Option<FacetHit> {
+        let mut keys = [0; LANES];
+        for l in 0..LANES {
+            keys[l] = !self.enter[l].to_bits();
+        }
+        let (key, facet) = least(&keys, &self.facet);
+        let distance = f32::from_bits(!key);
+        let mut inside = distance > 0.0;
+        for l in 0..LANES {
+            inside &= distance < self.leave[l];
+        }
+        inside.then_some(FacetHit { facet: facet as usize, distance })
+    }
+}
+
+/// First facet that a ray from outside meets: the latest entry into a half-space, if it comes
+/// before the earliest way out of one. Where that entry lies within the girdle, the girdle facets have nothing
+/// to say.
+#[inline(always)]
+pub(super) fn intersect_outside<const FUSED: bool>(
+    stone: &ConvexStone,
+    o: Vec3,
+    dir: Vec3,
+) -> Option<FacetHit> {
+    let none = RayInterval { enter: [0.0; LANES], facet: [NO_FACET; LANES], leave: [f32::INFINITY; LANES] };
+    let slopes = none.clip::<FUSED>(&stone.inclined_blocks, o, dir);
+    let hit = slopes.hit();
+    let Some(girdle) = &stone.girdle else { return hit };
+    match hit {
+        Some(hit) if girdle.encloses(o + hit.distance * dir) => Some(hit),
+        _ => slopes.clip::<FUSED>(&girdle.blocks, o, dir).hit(),
+    }
+}

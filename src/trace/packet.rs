@@ -1,0 +1,227 @@
+//! A packet: sixteen rays traced together, and what they leave at an interaction with a facet.
+
+use super::stone::Refraction;
+use glam::Vec3;
+
+/// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
+pub const LANES: usize = 16;
+
+/// One number per lane.
+pub type Lanes = [f32; LANES];
+
+/// Rays inside a stone, one a lane, in the stone's frame (see [`super::ConvexStone`]).
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Packet {
+    /// Positions.
+    pub x: Lanes,
+    /// Positions.
+    pub y: Lanes,
+    /// Positions.
+    pub z: Lanes,
+    /// Unit directions.
+    pub dx: Lanes,
+    /// Unit directions.
+    pub dy: Lanes,
+    /// Unit directions.
+    pub dz: Lanes,
+    /// Power still inside; 0 for a lane at rest.
+    pub power: Lanes,
+    /// Index of refraction of the stone at the lane's wavelength.
+    pub index: Lanes,
+    /// Path length since entry, in units of the stone's frame.
+    pub path: Lanes,
+    /// Whether the stone absorbs; if not, `absorption` counts for nothing.
+    pub absorbing: bool,
+    /// Absorption coefficient of the stone at the lane's wavelength, natural logarithm, per unit of
+    /// the stone's frame.
+    pub absorption: Lanes,
+    /// Whether the tracer follows polarisation; if not, light is taken as unpolarised at every facet.
+    pub polarised: bool,
+    /// Stokes vector besides the power, about the axis (see [`crate::optics::stokes`]).
+    pub q: Lanes,
+    /// Stokes vector.
+    pub u: Lanes,
+    /// Stokes vector.
+    pub v: Lanes,
+    /// Axis of the Stokes vector: unit, across the ray.
+    pub ax: Lanes,
+    /// Axis of the Stokes vector.
+    pub ay: Lanes,
+    /// Axis of the Stokes vector.
+    pub az: Lanes,
+}
+
+impl Default for Packet {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            x: zero,
+            y: zero,
+            z: zero,
+            dx: zero,
+            dy: zero,
+            dz: [1.0; LANES],
+            power: zero,
+            index: [1.5; LANES],
+            path: zero,
+            absorbing: false,
+            absorption: zero,
+            polarised: false,
+            q: zero,
+            u: zero,
+            v: zero,
+            ax: [1.0; LANES],
+            ay: zero,
+            az: zero,
+        }
+    }
+}
+
+impl Packet {
+    /// An empty packet that follows polarisation, or not.
+    pub fn new(polarised: bool) -> Packet {
+        Packet { polarised, ..Packet::default() }
+    }
+
+    /// Sets a lane on its way with light that was unpolarised outside.
+    ///
+    /// - `point`: in the stone's frame; `entry`: its refraction there; `index`: of the stone at the
+    ///   lane's wavelength. The power is what enters of 1.
+    pub fn load_refracted(&mut self, lane: usize, point: Vec3, entry: &Refraction, index: f32) {
+        self.load(lane, point, entry.direction, 1.0 - entry.reflectance, index);
+        self.q[lane] = entry.polarisation;
+        (self.ax[lane], self.ay[lane], self.az[lane]) = entry.axis.into();
+    }
+
+    /// Sets a lane on its way, without absorption: give the lane its `absorption` afterwards.
+    ///
+    /// - `point`, `direction` (unit): in the stone's frame, just inside
+    /// - `power`: any unit; `index`: of the stone at the lane's wavelength
+    pub fn load(&mut self, lane: usize, point: Vec3, direction: Vec3, power: f32, index: f32) {
+        (self.x[lane], self.y[lane], self.z[lane]) = point.into();
+        (self.dx[lane], self.dy[lane], self.dz[lane]) = direction.into();
+        self.power[lane] = power;
+        self.index[lane] = index;
+        self.absorption[lane] = 0.0;
+        self.path[lane] = 0.0;
+        (self.q[lane], self.u[lane], self.v[lane]) = (0.0, 0.0, 0.0);
+        (self.ax[lane], self.ay[lane], self.az[lane]) = direction.any_orthonormal_vector().into();
+    }
+
+    /// Position of a lane: the point of its last interaction.
+    pub fn point(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    /// Direction of a lane.
+    pub fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
+    }
+
+    /// Puts lanes below `power` to rest and returns the power they held.
+    pub(super) fn stop_below(&mut self, power: f32) -> f32 {
+        let mut lost = 0.0;
+        for p in &mut self.power {
+            let stops = *p < power;
+            lost += if stops { *p } else { 0.0 };
+            *p = if stops { 0.0 } else { *p };
+        }
+        lost
+    }
+
+    /// Whether every lane is at rest.
+    pub(super) fn is_spent(&self) -> bool {
+        self.power.iter().all(|p| *p <= 0.0)
+    }
+}
+
+/// The facet number of a lane that meets none: its direction is not a number.
+pub const NO_FACET: u32 = u32::MAX;
+
+/// What a packet meets next, one a lane (see [`super::ConvexStone::next_facets`]).
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct NextFacets {
+    /// The facet, or [`NO_FACET`].
+    pub facet: [u32; LANES],
+    /// The distance to it, in units of the stone's frame; of no meaning if there is none.
+    pub distance: Lanes,
+}
+
+impl Default for NextFacets {
+    fn default() -> Self {
+        Self { facet: [NO_FACET; LANES], distance: [0.0; LANES] }
+    }
+}
+
+/// What a packet leaves at one interaction with facets, one a lane.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Interaction {
+    /// The facet that each lane met.
+    pub facet: [u32; LANES],
+    /// Power that left the stone there; 0 at total reflection.
+    pub power: Lanes,
+    /// Power that the stone took on the way there; 0 in a packet that is not absorbing.
+    pub absorbed: Lanes,
+    /// Unit direction outside.
+    pub dx: Lanes,
+    /// Unit direction outside.
+    pub dy: Lanes,
+    /// Unit direction outside.
+    pub dz: Lanes,
+    /// Cosine inside, between ray and facet normal.
+    pub cos_inside: Lanes,
+    /// Cosine outside; 0 at total reflection.
+    pub cos_outside: Lanes,
+    /// Power of lanes that met no facet at all (a direction that is not a number).
+    pub lost: f32,
+}
+
+impl Default for Interaction {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            facet: [0; LANES],
+            power: zero,
+            absorbed: zero,
+            dx: zero,
+            dy: zero,
+            dz: zero,
+            cos_inside: zero,
+            cos_outside: zero,
+            lost: 0.0,
+        }
+    }
+}
+
+/// Light that leaves the stone.
+#[derive(Debug, Clone, Copy)]
+pub struct RayExit {
+    /// Facet through which it leaves.
+    pub facet: u32,
+    /// Where, in the stone's frame.
+    pub point: Vec3,
+    /// Where to, unit.
+    pub direction: Vec3,
+    /// How much.
+    pub power: f32,
+}
+
+impl Interaction {
+    /// Unit direction outside of what a lane leaves.
+    pub fn direction(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
+    }
+
+    /// What a lane left outside; none at total reflection or at rest.
+    pub fn exit(&self, packet: &Packet, lane: usize) -> Option<RayExit> {
+        (self.power[lane] > 0.0).then(|| RayExit {
+            facet: self.facet[lane],
+            point: packet.point(lane),
+            direction: self.direction(lane),
+            power: self.power[lane],
+        })
+    }
+}
