@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
         let whole = keep(self.command, 0) && keep(self.command, 1);
         let mut number = 0;
         for _ in 0..ROUNDS {
-            let rows = self.spelt(&open);
+            let rows = self.spelt(&open, report);
             let kept: Vec<Row> = rows
                 .into_iter()
                 .filter(|_| {
@@ -134,14 +134,14 @@ impl<'a> Search<'a> {
     }
 
     /// Rows that the definition of the command line allows.
-    fn spelt(&mut self, open: &HashSet<(Choice, Choice)>) -> Vec<Row> {
+    fn spelt(&mut self, open: &HashSet<(Choice, Choice)>, report: &mut Report) -> Vec<Row> {
         loop {
             let open = open.iter().copied().filter(|p| !self.refused.has(p)).collect();
             let rows = covering::rows(&self.factors, &open, &self.refused);
             let mut learned = false;
             for row in &rows {
                 if !self.refused.refuses(row) && self.is_misspelt(row) {
-                    learned |= self.learn(row, &|s, row| s.is_misspelt(row), &mut Report::default());
+                    learned |= self.learn(row, &|s, row| s.is_misspelt(row), report);
                 }
             }
             if !learned {
@@ -238,13 +238,12 @@ impl<'a> Search<'a> {
         let together = |more: &[Choice]| [needs, more].concat();
         match &wanted[..] {
             [] => {
-                let rescue = if let [one] = needs { self.company(*one, refuses) } else { None };
-                match (rescue, needs) {
-                    (Some(company), _) => {
-                        let at_rest: Vec<Choice> = company.iter().map(|f| (*f, 0)).collect();
-                        self.refused.all_of(together(&at_rest))
+                let [one] = needs else { return self.refused.all_of(needs.to_vec()) };
+                match self.company(*one, refuses) {
+                    Some(pairs) => {
+                        pairs.into_iter().map(|c| self.refused.pair(*one, c)).fold(false, |a, b| a | b)
                     }
-                    (None, [one]) => {
+                    None => {
                         let line = self.case(row).line();
                         report.failed(self.command, &format!("a value that is always refused: {line}"), "");
                         let others = resting.iter();
@@ -252,7 +251,6 @@ impl<'a> Search<'a> {
                             others.flat_map(|&f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
                         pairs.map(|other| self.refused.pair(*one, other)).fold(false, |a, b| a | b)
                     }
-                    _ => self.refused.all_of(needs.to_vec()),
                 }
             }
             [(other, bad)] => {
@@ -266,19 +264,21 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The options without which a choice is refused, by a row that went well; none if it never does.
-    fn company(&self, one: Choice, refuses: &dyn Fn(&Self, &[usize]) -> bool) -> Option<Vec<usize>> {
-        let with_one = |row: &Row| {
-            let mut row = row.clone();
-            row[one.0] = one.1;
+    /// The choices beside which one is refused, by a row that went well and all that it needs of it; none if
+    /// it never does.
+    fn company(&self, one: Choice, refuses: &dyn Fn(&Self, &[usize]) -> bool) -> Option<Vec<Choice>> {
+        let with = |row: &[usize], choice: Choice| {
+            let mut row = row.to_vec();
+            row[choice.0] = choice.1;
             row
         };
         let has_one = |row: &&Row| row[one.0] == one.1;
         let rows = self.good.iter().filter(has_one).chain(self.good.iter().filter(|r| !has_one(r)));
-        let row = rows.map(with_one).find(|row| !refuses(self, row))?;
+        let row = rows.map(|row| with(row, one)).find(|row| !refuses(self, row))?;
         let row = self.smallest_beside(one.0, &row, &|s, row| !refuses(s, row));
-        let company: Vec<usize> = (0..row.len()).filter(|f| *f != one.0 && row[*f] != 0).collect();
-        (!company.is_empty()).then_some(company)
+        let needed = (0..row.len()).filter(|f| *f != one.0 && row[*f] != 0);
+        let choices = needed.flat_map(|f| (0..self.factors[f].levels.len()).map(move |l| (f, l)));
+        Some(choices.filter(|choice| refuses(self, &with(&row, *choice))).collect())
     }
 
     /// Counts a fault under the smallest set of choices that has it.
