@@ -74,7 +74,7 @@ impl ScorePlot<'_> {
                 .map(|(name, b)| (name, b[0]))
                 .collect(),
             marks: self.marks().into_iter().map(|m| (m.label(), m.at[0])).collect(),
-            ends: (self.style.range(&x.key), self.style.range(self.metric.name)),
+            ends: [self.style.range(&x.key), self.style.range(self.metric.name)],
             dots: Vec::new(),
             small: false,
         }

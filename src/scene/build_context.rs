@@ -30,7 +30,7 @@ pub struct SceneOverrides {
     pub panorama: Option<PathBuf>,
     /// Whether the scene may name files outside its own folder.
     pub allow_outside: bool,
-    /// Whether the camera leaves the background out: [`Scene::cut_out`].
+    /// Whether the camera leaves the background out: [`super::Scene::cut_out`].
     pub cut_out: bool,
 }
 

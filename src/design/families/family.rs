@@ -26,7 +26,7 @@ pub struct Family {
     pub about: &'static str,
     /// Its parameters.
     pub parameters: &'static [Parameter],
-    /// What a grading report states in place of some of them (see [`heights`]); without defaults.
+    /// What a grading report states in place of some of them (see [`super::heights`]); without defaults.
     pub heights: &'static [Parameter],
     /// The parameter by which the number of facets is set, and its step.
     pub total: Option<(&'static str, usize)>,

@@ -44,8 +44,8 @@ pub struct Curves {
     pub spans: Vec<(String, (f64, f64))>,
     /// Named places on x.
     pub marks: Vec<(String, f64)>,
-    /// Ends of the axes, where they are not those of what is shown.
-    pub ends: (Option<(f64, f64)>, Option<(f64, f64)>),
+    /// Ends of the axes x and y, where they are not those of what is shown.
+    pub ends: [Option<(f64, f64)>; 2],
     /// Values that were expected, over the lines.
     pub dots: Vec<Dot>,
     /// Whether it is to be shown small: the drawing has less room, its text stays.
@@ -76,8 +76,8 @@ impl Curves {
         // a small drawing has no corner that is surely free of lines: names stand above them
         let names = self.curves.iter().filter(|c| self.small && !c.name.is_empty()).count() as f64;
         let above = 0.09 * names / (1.0 - 0.09 * names).max(0.5) * (hi - lo);
-        let ys = self.ends.1.unwrap_or((lo - room, hi + room + above));
-        let frame = PlotFrame::new(size, self.ends.0.unwrap_or(xs), ys, 28.0);
+        let ys = self.ends[1].unwrap_or((lo - room, hi + room + above));
+        let frame = PlotFrame::new(size, self.ends[0].unwrap_or(xs), ys, 28.0);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
         let mut named_span = String::new();
