@@ -291,11 +291,11 @@ fn every_command_takes_a_stone_from_standard_input() {
 fn a_size_that_is_varied_is_not_noted_as_missing() {
     let bench = Bench::new();
     let sweep = |vary: &str| {
-        let words = ["sweep", "classic", "--vary", vary, "--material", "ruby", "--metrics", "spread"];
+        let words = ["sweep", "oval", "--vary", vary, "--material", "ruby", "--metrics", "spread"];
         String::from_utf8_lossy(&bench.run(&words).stderr).into_owned()
     };
     assert!(!sweep("size=5:6:1").contains("wide"), "{}", sweep("size=5:6:1"));
-    assert!(sweep("length-to-width=1:1.2:0.2").contains("6.5 mm wide"));
+    assert!(sweep("crown-angle=34:35:1").contains("6.5 mm wide"));
 }
 
 #[test]

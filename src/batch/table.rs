@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
 use std::path::Path;
 
-/// A number of a table: a fraction or degrees to 1e-9, far below any error.
+/// A number of a table: a fraction or degrees to 1e-9, far below any error. A zero has no sign.
 fn rounded(x: f64) -> f64 {
-    (x * 1e9).round() / 1e9
+    (x * 1e9).round() / 1e9 + 0.0
 }
 
 /// How a table is written.
@@ -364,4 +364,17 @@ pub fn csv(metrics: &[&Metric], rows: &[ScoreRow]) -> Result<Vec<u8>, TableError
     }
     out.extend_from_slice(TableFormat::Csv.tail(rows.len() as u64));
     Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_zero_has_no_sign() {
+        for x in [-0.0, -1e-12] {
+            let TableCell::Number(shown) = TableCell::number(x) else { panic!("{x} is a number") };
+            assert!(shown == 0.0 && shown.is_sign_positive(), "{x}: {shown}");
+        }
+    }
 }

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// same as (A + B) + BC/(λ² − C) + D λ².
 pub static CHRYSOBERYL: Material = Material {
     name: Cow::Borrowed("chrysoberyl"),
-    about: "chrysoberyl, middle index of a gem's 1.746, 1.748 and 1.756 (the greatest of synthetic crystals)",
+    about: "chrysoberyl; the middle one of a gem's three indices, 1.746, 1.748 and 1.756",
     source: "Walling et al. 1980, Loiko & Major 2016, as BeAl2O4/Walling-beta in refractiveindex.info (CC0)",
     dispersion: Dispersion::Resonance { a: 1.58829 + 1.42711, b: 1.42711 * 0.01113, c: 0.01113, d: -0.01696 },
     extraordinary: None,

@@ -200,10 +200,7 @@ fn pipes_in_the_places_of_its_own_files_are_not_waited_for() {
     // what an import would write over is left alone
     let stone = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/octahedron.obj");
     fs::copy(stone, folder.path().join("stone.obj")).expect("copied");
-    for target in ["pipe", "huge"] {
-        let target = target.to_owned() + ".stl";
-        std::os::unix::fs::symlink(target.trim_end_matches(".stl"), folder.path().join(&target))
-            .expect("linked");
-        ends_in_one_line(folder.path(), &format!("import stone.obj -o {target}"), "exists");
-    }
+    // (a pipe is a stream, into which an import writes: tests/streams.rs)
+    std::os::unix::fs::symlink("huge", folder.path().join("huge.stl")).expect("linked");
+    ends_in_one_line(folder.path(), "import stone.obj -o huge.stl", "exists");
 }
