@@ -11,7 +11,7 @@ use super::outputs::{Outputs, record};
 use super::shell_quote;
 use crate::batch::fingerprint::BUILD;
 use crate::design::LengthUnit;
-use crate::optics::dispersion::VISIBLE_UM;
+use crate::optics::dispersion::VISIBLE_NM;
 use crate::report::page::{Section, estimate_html};
 use crate::report::stone_report::{self, STEPS, StoneReport};
 use crate::report::{self, ReportError, ReportRequest};
@@ -74,7 +74,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     for folder in &folders {
         claim(folder, &mut outputs)?;
     }
-    let range = args.substance.range_note(VISIBLE_UM.0, VISIBLE_UM.1);
+    let range = args.substance.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {

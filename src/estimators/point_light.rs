@@ -123,8 +123,8 @@ impl<'a> PointLight<'a> {
     ) -> Result<Self, EstimatorError> {
         let mut optics = [[LineOptics::default(); LINES]; 2];
         for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
-            for (optics, um) in into.iter_mut().zip(lines) {
-                *optics = medium.optics(stone.unit, um)?;
+            for (optics, nm) in into.iter_mut().zip(lines) {
+                *optics = medium.optics(stone.unit, nm)?;
             }
         }
         let (outline, crown) = (Silhouette::new(stone, view_frame)?, entry_sampling::crown_flags(stone));

@@ -42,11 +42,11 @@ impl TraceOptics<'_> {
         if self.material.is_clear() { 1 } else { LINES_PER_RAY as u64 }
     }
 
-    /// Optics of a stone with a trace unit of `unit` at `um` (µm); refuses indices at which the
+    /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices at which the
     /// formulas mean nothing.
-    pub(super) fn optics(&self, unit: f64, um: f64) -> Result<LineOptics, EstimatorError> {
-        let index = check_index(self.material.index(um))?;
-        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(um) * unit) as f32 })
+    pub(super) fn optics(&self, unit: f64, nm: f64) -> Result<LineOptics, EstimatorError> {
+        let index = check_index(self.material.index(nm))?;
+        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32 })
     }
 }
 
