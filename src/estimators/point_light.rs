@@ -192,9 +192,7 @@ impl RayClient for PointLightClient<'_> {
         let (facet, point) = outline.sample(u);
         let toward = -view_frame.axis.as_vec3();
         for (lane, optics) in (lane..).zip(self.optics) {
-            let entry = stone.refract_into(facet, toward, optics.index);
-            packet.load_refracted(lane, point, &entry, optics.index);
-            packet.absorption[lane] = optics.absorption;
+            let entry = optics.enter(packet, lane, stone, facet, point, toward);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         if self.paired {

@@ -1,6 +1,8 @@
 //! Optics of a stone as estimators trace it, and why one cannot be lit.
 
 use crate::materials::Material;
+use crate::trace::{ConvexStone, Packet, Refraction};
+use glam::Vec3;
 
 /// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
 /// the point counts: as many as a picture's.
@@ -33,6 +35,24 @@ pub(super) struct LineOptics {
 impl LineOptics {
     pub(super) fn absorbs(&self) -> bool {
         self.absorption > 0.0
+    }
+
+    /// Sets a lane on its way with what enters of unpolarised light of power 1; returns its refraction.
+    ///
+    /// - `facet`, `point` on it, `direction` (unit, from outside): where and whence, trace frame
+    pub(super) fn enter(
+        self,
+        packet: &mut Packet,
+        lane: usize,
+        stone: &ConvexStone,
+        facet: usize,
+        point: Vec3,
+        direction: Vec3,
+    ) -> Refraction {
+        let entry = stone.refract_into(facet, direction, self.index);
+        packet.load_refracted(lane, point, &entry, self.index);
+        packet.absorption[lane] = self.absorption;
+        entry
     }
 }
 
