@@ -89,6 +89,26 @@ fn photons_in_place_of_beams_are_told() {
     assert_eq!(score(&subject, &plan(&["light_return"], 256)).note, None);
 }
 
+/// Rays that look straight into a cube all go the same way, so nothing but the light that they give up is
+/// between photons and beams: the viewer's own share holds it in its error too.
+#[test]
+fn what_is_given_up_counts_for_every_share_of_a_view() {
+    let names: Vec<&str> = METRICS
+        .iter()
+        .map(|m| m.name)
+        .filter(|n| n.starts_with("aset_") || n.starts_with("ideal_"))
+        .collect();
+    let subject = subject("cube", &named("cube"), diamond());
+    let random = plan(&names, 1 << 13);
+    let exact = ScoreSettings { exact: true, ..random.clone() };
+    let [a, b] = [random, exact].map(|plan| score(&subject, &plan).scores);
+    for ((name, a), b) in names.iter().zip(a).zip(b) {
+        let (a, b) = (a.expect("applies"), b.expect("applies"));
+        let off = (a.value - b.value).abs();
+        assert!(off <= 4.2 * a.error.hypot(b.error) + 1e-7, "{name}: {a:?} {b:?}");
+    }
+}
+
 /// Corners and faces of a cube with a pit in its top.
 const CUBE_WITH_A_DENT: ([[f64; 3]; 9], [&str; 9]) = (
     [

@@ -259,9 +259,9 @@ impl MaterialArgs {
 /// Girdle width of a stone of which nobody says how large it is, in millimetres.
 pub const USUAL_SIZE: f64 = USUAL_WIDTH_MM;
 
-/// [`USUAL_SIZE`] for a design without unit in a material whose colour depends on the size.
-pub fn usual_size(design: &Design, material: &Material) -> Option<f64> {
-    (design.unit == LengthUnit::Free && !material.is_clear()).then_some(USUAL_SIZE)
+/// [`USUAL_SIZE`] for a stone without unit in a material whose colour depends on the size.
+pub fn usual_size(unit: LengthUnit, material: &Material) -> Option<f64> {
+    (unit == LengthUnit::Free && !material.is_clear()).then_some(USUAL_SIZE)
 }
 
 /// The stone's design as large as its colour needs to know: with `--size` applied, or as it is, or
@@ -272,7 +272,7 @@ pub fn sized_for_colour(
     material: &Material,
     console: &Console,
 ) -> Result<Design, CliError> {
-    let usual = usual_size(&design, material).filter(|_| size.is_none());
+    let usual = usual_size(design.unit, material).filter(|_| size.is_none());
     if let Some(mm) = usual {
         console.note(&format!(
             "note: {} has no size, which its colour depends on: taken as {mm} mm wide; --size MM sets it",

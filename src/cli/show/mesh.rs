@@ -1,6 +1,9 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
+use super::measured::unit_name;
 use crate::cli::exit_code::{CliError, MeshFacts};
+use crate::design::LengthUnit;
+use crate::formats;
 use crate::storage::terminal::in_line;
 use serde::Serialize;
 
@@ -15,8 +18,13 @@ pub struct MeshSheet {
     parts: usize,
     closed: bool,
     convex: bool,
-    /// In the file's own unit cubed.
+    /// In the file's unit cubed.
     volume: f64,
+    /// The file's unit: `m`, or `file` where it has none.
+    unit: &'static str,
+    /// Length of the file's unit in millimetres, or 1.
+    #[serde(skip)]
+    unit_mm: f64,
     /// Smallest and largest coordinates.
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
@@ -26,7 +34,9 @@ pub struct MeshSheet {
 impl MeshSheet {
     /// What is known of the file; none if it is no closed mesh.
     pub fn new(file: &str, failure: &CliError) -> Option<MeshSheet> {
-        let MeshFacts { format, closed, body: Some(mesh), .. } = failure.shape()? else { return None };
+        let MeshFacts { format, closed, body: Some(mesh), unit, .. } = failure.shape()? else { return None };
+        let in_mm = *unit == LengthUnit::Millimetre;
+        let unit_mm = formats::unit_mm(format).filter(|_| in_mm).unwrap_or(1.0);
         let (low, high) = mesh.bounds();
         Some(MeshSheet {
             file: file.into(),
@@ -36,8 +46,10 @@ impl MeshSheet {
             parts: mesh.shells,
             closed: *closed,
             convex: false,
-            volume: mesh.volume,
-            bounds: [low.to_array(), high.to_array()],
+            volume: mesh.volume / unit_mm.powi(3),
+            unit: unit_name(*unit, format),
+            unit_mm,
+            bounds: [low, high].map(|corner| (corner / unit_mm).to_array()),
             reason: failure.message(),
         })
     }
@@ -45,10 +57,12 @@ impl MeshSheet {
     /// Lines for people.
     pub fn text(&self) -> String {
         let [low, high] = self.bounds;
-        let side = |a: usize| format!("{:.6}", high[a] - low[a]);
+        let (k, is_free) = (self.unit_mm, self.unit == "file");
+        let side = |a: usize| format!("{:.6}", k * (high[a] - low[a]));
+        let (unit, of_volume) = if is_free { ("", " in the file's own unit") } else { (" mm", " mm³") };
         format!(
-            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
-             file's own unit\n  closed          yes\n  convex          no\n  note            {}\n",
+            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}{unit}\n  volume          \
+             {:.6}{of_volume}\n  closed          yes\n  convex          no\n  note            {}\n",
             in_line(&self.file),
             self.format,
             self.facets,
@@ -57,7 +71,7 @@ impl MeshSheet {
             side(0),
             side(1),
             side(2),
-            self.volume,
+            k.powi(3) * self.volume,
             self.reason
         )
     }
