@@ -8,6 +8,7 @@ use bench::{Bench, text};
 #[test]
 fn numbers_are_refused_with_what_is_needed() {
     let bench = Bench::new();
+    bench.good(&["generate", "-q", "cube", "-o", "plain.obj"]);
     for (line, said) in [
         ("show cube --carat -1", "a weight is a number of carats"),
         ("show cube --size -3", "a girdle width is a number of millimetres"),
@@ -32,6 +33,9 @@ fn numbers_are_refused_with_what_is_needed() {
         ("report cube -o x --error 0.1", "unexpected argument '--error'"),
         ("generate cube -o - -o -", "standard output is given for two outputs"),
         ("list cuts nosuch", "all: cutlab list cuts"),
+        ("show plain.obj:ri=1,5", "write decimals with a point, as ri=1.5"),
+        ("show plain.obj:material=topaz,size=4", "a file takes material=NAME or ri=N"),
+        ("show nosuch[.asc", "there is no file 'nosuch[.asc'"),
     ] {
         let words: Vec<&str> = line.split(' ').collect();
         let complaint = bench.ends(2, &words).1;

@@ -43,8 +43,19 @@ impl StoneSpec {
         };
         let Some((name, items)) = parted(argument) else { return Ok(spec) };
         let (own, rest): (Vec<&str>, Vec<&str>) = items.split(',').partition(is_own);
-        if own.is_empty() || (!rest.is_empty() && !is_cut(&name)) {
+        if own.is_empty() {
             return Ok(spec);
+        }
+        if let (Some(found), false) = (rest.first(), is_cut(&name)) {
+            if Path::new(&name).symlink_metadata().is_err() {
+                return Ok(spec);
+            }
+            let why = match own.last().filter(|_| parse::parse_number(found, parse::NumberUnit::None).is_ok())
+            {
+                Some(item) => format!("write decimals with a point, as {item}.{}", found.trim()),
+                None => format!("a file takes {MATERIAL}=NAME or {INDEX}=N"),
+            };
+            return Err(CliError::input(format!("{}, at '{found}': {why}", display_name(argument))));
         }
         for item in &own {
             let (key, value) = item.split_once('=').unwrap_or_default();
