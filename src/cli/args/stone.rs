@@ -84,6 +84,11 @@ impl StoneSpec {
         &self.base
     }
 
+    /// What it is of, as written: `material=topaz`.
+    pub fn own(&self) -> &[String] {
+        &self.own
+    }
+
     /// Another file of the same.
     pub fn applied_to(&self, mut file: OsString) -> OsString {
         if !self.own.is_empty() {
