@@ -16,8 +16,8 @@ pub mod reference;
 mod stone;
 
 pub use dispatch::Isa;
-pub use packet::{Interaction, LANES, Lanes, NO_FACET, NextFacets, Packet, RayExit};
-pub use stone::{ConvexStone, FacetHit, Refraction};
+pub use packet::{FacetHit, Interaction, LANES, Lanes, NO_FACET, NextFacets, Packet, RayExit, Refraction};
+pub use stone::ConvexStone;
 
 /// After so many bounces whatever power a lane still holds is given up as lost. A guard against
 /// rays that total reflection keeps for ever, not a quality setting: power is what stops a trace.
@@ -47,7 +47,7 @@ impl ConvexStone {
             if packet.is_spent() {
                 return lost;
             }
-            dispatch::interact(self, packet, &mut interaction);
+            kernel::interact(self, packet, &mut interaction);
             lost += interaction.lost;
             visit(&interaction, packet);
         }

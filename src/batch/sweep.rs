@@ -1,5 +1,6 @@
 //! Sweeps: the values that parameters run through, and the stone at each point.
 
+use super::table::rounded;
 use crate::design::families;
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit, format_number};
@@ -33,11 +34,6 @@ impl Steps {
     pub fn values(self) -> impl Iterator<Item = f64> {
         (0..self.count).map(move |i| self.value(i))
     }
-}
-
-/// To nine decimals.
-fn rounded(x: f64) -> f64 {
-    (x * 1e9).round() / 1e9
 }
 
 impl Steps {

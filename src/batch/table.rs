@@ -10,7 +10,7 @@ use std::io::{BufRead, Read};
 use std::path::Path;
 
 /// A number of a table: a fraction or degrees to 1e-9, far below any error. A zero has no sign.
-fn rounded(x: f64) -> f64 {
+pub(super) fn rounded(x: f64) -> f64 {
     (x * 1e9).round() / 1e9 + 0.0
 }
 

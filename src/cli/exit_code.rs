@@ -1,6 +1,5 @@
 //! Exit codes, and errors of one line.
 
-use super::args::stone;
 use crate::design::{CutError, LengthUnit};
 use crate::formats::FormatError;
 use crate::geometry::ClosedMesh;
@@ -10,6 +9,7 @@ use crate::photons::map_file::MapFileError;
 use crate::scene::SceneError;
 use crate::storage::atomic_write::WriteError;
 pub use crate::storage::terminal::printable;
+use crate::storage::text::display_name;
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -98,13 +98,13 @@ impl CliError {
 
     /// A file that is there already and was not to be replaced.
     pub fn exists(stone: &str, target: &Path) -> CliError {
-        let target = stone::display_name(target);
+        let target = display_name(target);
         CliError::new(ExitStatus::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// A file that is there already and that another command made.
     pub fn other_is_there(target: &Path) -> CliError {
-        let target = stone::display_name(target);
+        let target = display_name(target);
         CliError::new(
             ExitStatus::Io,
             format!(

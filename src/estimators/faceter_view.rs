@@ -139,10 +139,8 @@ impl RayClient for FaceterClient<'_> {
         let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
         let FaceterView { stone, light, sky, view_frame, outline, facing, table } = self.estimator;
         let (facet, point) = outline.sample(u);
-        let optics = light.line(hue);
-        let entry = stone.refract_into(facet, -view_frame.axis.as_vec3(), optics.index);
-        packet.load_refracted(lane, point, &entry, optics.index);
-        packet.absorption[lane] = optics.absorption;
+        let toward = -view_frame.axis.as_vec3();
+        let entry = light.line(hue).enter(packet, lane, stone, facet, point, toward);
         let mirrored = sky.mirrored(&entry) * facing[facet];
         let height = ObserverDome::mirror_height(&entry);
         for (power, weight) in self.power.iter_mut().zip(weights(height)) {

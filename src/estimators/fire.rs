@@ -71,7 +71,7 @@ pub fn fire(
     needs: PointLightNeeds,
     effort: &BeamEffort,
 ) -> Result<Vec<point_light::PointLightTally>, EstimatorError> {
-    let indices = LINES.map(|um| medium.material.index(um));
+    let indices = LINES.map(|nm| medium.material.index(nm));
     let compared = sums(beams, medium, view_frame, indices, effort, |directions, weight| {
         weight * angle_deg(directions[1], directions[2])
     })?;
@@ -84,8 +84,8 @@ pub fn fire(
         })
         .collect();
     if needs.lit {
-        for um in lines::SIX {
-            let index = [medium.material.index(um)];
+        for nm in lines::SIX {
+            let index = [medium.material.index(nm)];
             let lit = sums(beams, medium, view_frame, index, effort, |_, weight| weight)?;
             let six = lines::SIX.len() as f64;
             tallies.iter_mut().zip(lit).for_each(|(tally, lit)| tally.lit += lit / six);

@@ -122,10 +122,12 @@ impl<'a> CellTracer<'a> {
         Ok(CellTracer { stone, polarised: medium.polarised, light, sky, stop_power: STOP_POWER })
     }
 
-    /// Traces all groups.
+    /// Traces all groups of a run.
     ///
-    /// - `hues`: what the wavelengths of a stone that absorbs are drawn from
-    pub(super) fn trace(&self, groups: &mut impl SampleGroups, hues: Stream) {
+    /// - `seed`, `batch`, `start` (the run's first point): what the wavelengths of a stone that absorbs are
+    ///   drawn by
+    pub(super) fn trace(&self, groups: &mut impl SampleGroups, seed: u64, batch: u64, start: u64) {
+        let hues = stream(seed, Purpose::ScoreHue, batch, start);
         if self.light.absorb() {
             CellClient::<_, LINES_PER_RAY>::new(self, groups, hues).trace();
         } else {
@@ -219,9 +221,7 @@ impl<G: SampleGroups, const K: usize> RayClient for CellClient<'_, G, K> {
             self.hue = self.hues.unit64();
         }
         for (lane, optics) in (lane..).zip(light.spread::<K>(self.hue)) {
-            let entry = stone.refract_into(sight.facet, -sight.axis, optics.index);
-            packet.load_refracted(lane, sight.point, &entry, optics.index);
-            packet.absorption[lane] = optics.absorption;
+            let entry = optics.enter(packet, lane, stone, sight.facet, sight.point, -sight.axis);
             self.luminance[lane] = sky.mirrored(&entry);
             for (axis, value) in self.axis.iter_mut().zip(sight.axis.to_array()) {
                 axis[lane] = value;

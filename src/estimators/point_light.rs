@@ -123,8 +123,8 @@ impl<'a> PointLight<'a> {
     ) -> Result<Self, EstimatorError> {
         let mut optics = [[LineOptics::default(); LINES]; 2];
         for (into, lines) in optics.iter_mut().zip([PAIRED, UNPAIRED]) {
-            for (optics, um) in into.iter_mut().zip(lines) {
-                *optics = medium.optics(stone.unit, um)?;
+            for (optics, nm) in into.iter_mut().zip(lines) {
+                *optics = medium.optics(stone.unit, nm)?;
             }
         }
         let (outline, crown) = (Silhouette::new(stone, view_frame)?, entry_sampling::crown_flags(stone));
@@ -192,9 +192,7 @@ impl RayClient for PointLightClient<'_> {
         let (facet, point) = outline.sample(u);
         let toward = -view_frame.axis.as_vec3();
         for (lane, optics) in (lane..).zip(self.optics) {
-            let entry = stone.refract_into(facet, toward, optics.index);
-            packet.load_refracted(lane, point, &entry, optics.index);
-            packet.absorption[lane] = optics.absorption;
+            let entry = optics.enter(packet, lane, stone, facet, point, toward);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         if self.paired {

@@ -219,15 +219,15 @@ impl Estimator for Scintillation<'_> {
     type Tally = ScintillationTally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ScintillationTally) {
-        let hues = pixel_cells::stream(seed, Purpose::ScoreHue, batch, points.start);
+        let start = points.start;
         let mut changes = Changes {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Scintillation, batch, points.start),
+            stream: pixel_cells::stream(seed, Purpose::Scintillation, batch, start),
             points: KroneckerPoints::new(seed, Purpose::Scintillation, batch, points),
             tally,
             changes: Vec::new(),
         };
-        self.seen.trace(&mut changes, hues);
+        self.seen.trace(&mut changes, seed, batch, start);
     }
 }
 

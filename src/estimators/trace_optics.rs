@@ -1,6 +1,8 @@
 //! Optics of a stone as estimators trace it, and why one cannot be lit.
 
 use crate::materials::Material;
+use crate::trace::{ConvexStone, Packet, Refraction};
+use glam::Vec3;
 
 /// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
 /// the point counts: as many as a picture's.
@@ -34,6 +36,24 @@ impl LineOptics {
     pub(super) fn absorbs(&self) -> bool {
         self.absorption > 0.0
     }
+
+    /// Sets a lane on its way with what enters of unpolarised light of power 1; returns its refraction.
+    ///
+    /// - `facet`, `point` on it, `direction` (unit, from outside): where and whence, trace frame
+    pub(super) fn enter(
+        self,
+        packet: &mut Packet,
+        lane: usize,
+        stone: &ConvexStone,
+        facet: usize,
+        point: Vec3,
+        direction: Vec3,
+    ) -> Refraction {
+        let entry = stone.refract_into(facet, direction, self.index);
+        packet.load_refracted(lane, point, &entry, self.index);
+        packet.absorption[lane] = self.absorption;
+        entry
+    }
 }
 
 impl TraceOptics<'_> {
@@ -42,11 +62,11 @@ impl TraceOptics<'_> {
         if self.material.is_clear() { 1 } else { LINES_PER_RAY as u64 }
     }
 
-    /// Optics of a stone with a trace unit of `unit` at `um` (µm); refuses indices at which the
+    /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices at which the
     /// formulas mean nothing.
-    pub(super) fn optics(&self, unit: f64, um: f64) -> Result<LineOptics, EstimatorError> {
-        let index = check_index(self.material.index(um))?;
-        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(um) * unit) as f32 })
+    pub(super) fn optics(&self, unit: f64, nm: f64) -> Result<LineOptics, EstimatorError> {
+        let index = check_index(self.material.index(nm))?;
+        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32 })
     }
 }
 

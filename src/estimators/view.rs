@@ -261,15 +261,13 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
         let View { stone, light, view_frame, outline, lighting: surroundings, .. } = self.estimator;
-        let (facet, point) = outline.sample(u);
+        let ((facet, point), toward) = (outline.sample(u), -view_frame.axis.as_vec3());
         self.tally.rays += 1.0;
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
-            let entry = stone.refract_into(facet, -view_frame.axis.as_vec3(), optics.index);
+            let entry = optics.enter(packet, lane, stone, facet, point, toward);
             self.luminance[lane] = surroundings.dome.mirrored(&entry);
             self.been_below[lane] = 0.0;
             self.tally.reflected += f64::from(entry.reflectance) / K as f64;
-            packet.load_refracted(lane, point, &entry, optics.index);
-            packet.absorption[lane] = optics.absorption;
         }
         true
     }

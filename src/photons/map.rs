@@ -2,12 +2,12 @@
 //!
 //! A map for each side of each surface: photons of two walls, or of the two sides of one, never mix.
 
-use super::mirror_images::PlateEdges;
+use super::mirror_images::QuadEdges;
 use super::surface_cells::{self, SurfaceCell};
 use super::{BandSpectrum, PhotonSet, StoredPhoton};
 use crate::color::cie::BANDS;
 use crate::scene::intersection::SurfacePoint;
-use crate::scene::surface::{Plate, Shape};
+use crate::scene::surface::{Quad, Shape};
 use crate::scene::{Scene, Surface};
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -133,7 +133,7 @@ impl SurfaceMap {
             photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
         homes.par_sort_by_key(|(home, _)| *home); // stable
         let shares = CellPowers::new(photons, sheet.cells.len());
-        let edges = plate(surface).and_then(PlateEdges::new);
+        let edges = quad(surface).and_then(QuadEdges::new);
         homes
             .par_chunk_by(|a, b| a.0 == b.0)
             .for_each(|of_one| sheet.share_out(of_one, edges.as_ref(), &shares));
@@ -158,8 +158,8 @@ impl SurfaceMap {
 
     /// Shares out the power of photons that lie in the same cell among the cells around.
     ///
-    /// - `edges`: of the surface, if it is a plate
-    fn share_out(&self, photons: &[(u32, &StoredPhoton)], edges: Option<&PlateEdges>, shares: &CellPowers) {
+    /// - `edges`: of the surface, if it is a quad
+    fn share_out(&self, photons: &[(u32, &StoredPhoton)], edges: Option<&QuadEdges>, shares: &CellPowers) {
         let Some((home, _)) = photons.first() else { return };
         let home = *home as usize;
         let SurfaceCell { point, radius, .. } = self.cells[home];
@@ -198,18 +198,18 @@ impl SurfaceMap {
     }
 }
 
-/// The surface as a plate, if it is one.
-fn plate(surface: &Surface) -> Option<&Plate> {
+/// The surface as a quad, if it is one.
+fn quad(surface: &Surface) -> Option<&Quad> {
     match &surface.shape {
-        Shape::Plate(plate) => Some(plate),
+        Shape::Quad(quad) => Some(quad),
         Shape::Mesh(_) => None,
     }
 }
 
 /// Over how wide a disc the photons of a side are spread.
 struct GatherRadii<'a> {
-    /// The surface, if it is a plate.
-    plate: Option<&'a Plate>,
+    /// The surface, if it is a quad.
+    quad: Option<&'a Quad>,
     /// Every n-th photon in the order of emission, n the same for the whole side.
     pilots: Tree,
     /// How many of them are counted; none if each photon is spread over the whole side.
@@ -228,7 +228,7 @@ impl<'a> GatherRadii<'a> {
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
         let count = PILOTS.min(points.len() / 2);
         Some(GatherRadii {
-            plate: plate(surface),
+            quad: quad(surface),
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
             factor: (nearest as f32 / (count * every) as f32).sqrt(),
@@ -242,23 +242,23 @@ impl<'a> GatherRadii<'a> {
         let found = self.pilots.query(&at).nearest_n::<SquaredEuclidean<f32>>(counted).unsorted().execute();
         let distance = found.iter().map(|f| f.distance).fold(0.0, f32::max).sqrt();
         // at an edge a wider disc has as many photons, of which a part lies beyond
-        let share = self.plate.map_or(1.0, |plate| share_of_disc(plate, place, distance));
+        let share = self.quad.map_or(1.0, |quad| share_of_disc(quad, place, distance));
         (self.factor * distance * share.sqrt()).max(1e-6 * self.diagonal).min(self.diagonal)
     }
 }
 
-/// Share of a disc about a place of a plate that lies on the plate, by a spiral of points of equal area.
-fn share_of_disc(plate: &Plate, place: Vec3, radius: f32) -> f32 {
+/// Share of a disc about a place of a quad that lies on the quad, by a spiral of points of equal area.
+fn share_of_disc(quad: &Quad, place: Vec3, radius: f32) -> f32 {
     const POINTS: usize = 32;
-    let u = plate.u.normalize();
-    let v = plate.normal().cross(u);
+    let u = quad.u.normalize();
+    let v = quad.normal().cross(u);
     let tips = [u, -u, v, -v];
-    if tips.iter().all(|tip| plate.contains(place + *tip * radius)) {
+    if tips.iter().all(|tip| quad.contains(place + *tip * radius)) {
         return 1.0; // a disc whose four tips lie on a rectangle lies on it whole
     }
     let inside = |i: &usize| {
         let (r, phi) = (radius * ((*i as f32 + 0.5) / POINTS as f32).sqrt(), *i as f32 * 2.399_963); // golden angle
-        plate.contains(place + u * (r * phi.cos()) + v * (r * phi.sin()))
+        quad.contains(place + u * (r * phi.cos()) + v * (r * phi.sin()))
     };
     (0..POINTS).filter(inside).count().max(1) as f32 / POINTS as f32
 }

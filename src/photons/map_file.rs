@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8; 8] = b"CUTLABPM";
-/// Version of the layout; a file of another is refused.
-pub const VERSION: u32 = 3;
+/// Version of the layout and of what its checksums cover; a file of another is refused.
+pub const VERSION: u32 = 4;
 /// Bytes of one stored photon.
 const PHOTON: usize = 30;
 /// A header is a few hundred bytes; more is not one of ours.

@@ -34,7 +34,7 @@ impl Scene {
         mirrors < self.surfaces.len() && (mirrors > 0 || !self.stones.is_empty())
     }
 
-    /// Whether light can go straight from one place of a diffuse surface to another: a plate alone
+    /// Whether light can go straight from one place of a diffuse surface to another: a quad alone
     /// does not shine on itself.
     pub fn has_indirect_light(&self) -> bool {
         let mut diffuse = self.surfaces.iter().filter(|s| matches!(s.finish, Bsdf::Diffuse(_)));

@@ -5,7 +5,7 @@ pub use super::field_error::FieldError;
 pub(super) use super::field_error::field_error;
 use super::file_access::Files;
 use super::scene_mesh::SceneMesh;
-use super::surface::{Bsdf, Plate, Shape};
+use super::surface::{Bsdf, Quad, Shape};
 use super::{Camera, Lens, PlacedStone, Pose, Reflectance, Surface};
 use crate::color::illuminants::ILLUMINANTS;
 use crate::color::{Illuminant, rgb_upsampling};
@@ -371,12 +371,12 @@ impl SurfaceEntry {
                 if shorter < LEAST || u.cross(v).length() <= 1e-9 * u.length() * v.length() {
                     return Err(field_error("u", "u and v span no area"));
                 }
-                Shape::Plate(Plate { corner, u, v })
+                Shape::Quad(Quad { corner, u, v })
             }
             _ => return Err(field_error("corner", "a surface has corner, u and v, or a mesh")),
         };
-        // floors and walls are plates, a piece of jewellery is a mesh
-        let backdrop = self.backdrop.unwrap_or(matches!(shape, Shape::Plate(_)));
+        // floors and walls are quads, a piece of jewellery is a mesh
+        let backdrop = self.backdrop.unwrap_or(matches!(shape, Shape::Quad(_)));
         Ok(Surface { shape, finish, backdrop })
     }
 }

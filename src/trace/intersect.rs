@@ -2,15 +2,16 @@
 //! outside.
 //!
 //! Plain Rust over arrays as wide as a register; the compiler turns each inner loop into one vector
-//! instruction once `dispatch.rs` has named the instruction set. `FUSED` says whether a fused
-//! multiply-add is an instruction (a library call otherwise).
+//! instruction once `dispatch.rs` has named the instruction set. `FUSED`, `W` and `B` are as
+//! [`Vectorised::run`] has them.
 
 // the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
 #![allow(clippy::needless_range_loop)]
 
+use super::dispatch::Vectorised;
 use super::girdle::{GirdleFacets, PlaneBlock16};
-use super::packet::{LANES, Lanes, NO_FACET, NextFacets, Packet};
-use super::stone::{ConvexStone, FacetHit, InclinedFacet};
+use super::packet::{FacetHit, LANES, Lanes, NO_FACET, NextFacets, Packet};
+use super::stone::{ConvexStone, InclinedFacet};
 use glam::Vec3;
 
 /// Least height above a plane that a point inside is given: a point that rounding put outside
@@ -123,8 +124,6 @@ impl<const W: usize> NearestFacet<W> {
 /// division and no mask: a facet that the ray leaves has a negative numerator and never wins. All
 /// rays together try the sloping facets; a ray that would pass the cylinder inside the girdle's
 /// girdle facets tries those at its azimuth, on its own: one in forty in a round brilliant.
-///
-/// - `W`: lanes that fill a register; `B`: running bests that fit into the registers
 #[inline(always)]
 pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
     stone: &ConvexStone,
@@ -280,11 +279,7 @@ impl RayInterval {
 /// before the earliest way out of one. Where that entry lies within the girdle, the girdle facets have nothing
 /// to say.
 #[inline(always)]
-pub(super) fn intersect_outside<const FUSED: bool>(
-    stone: &ConvexStone,
-    o: Vec3,
-    dir: Vec3,
-) -> Option<FacetHit> {
+fn intersect_outside<const FUSED: bool>(stone: &ConvexStone, o: Vec3, dir: Vec3) -> Option<FacetHit> {
     let none = RayInterval { enter: [0.0; LANES], facet: [NO_FACET; LANES], leave: [f32::INFINITY; LANES] };
     let slopes = none.clip::<FUSED>(&stone.inclined_blocks, o, dir);
     let hit = slopes.hit();
@@ -292,5 +287,61 @@ pub(super) fn intersect_outside<const FUSED: bool>(
     match hit {
         Some(hit) if girdle.encloses(o + hit.distance * dir) => Some(hit),
         _ => slopes.clip::<FUSED>(&girdle.blocks, o, dir).hit(),
+    }
+}
+
+struct FindNextFacets<'a> {
+    stone: &'a ConvexStone,
+    packet: &'a Packet,
+}
+
+impl Vectorised for FindNextFacets<'_> {
+    type Output = NextFacets;
+
+    #[inline(always)]
+    fn run<const FUSED: bool, const W: usize, const B: usize>(self) -> NextFacets {
+        let mut next = NextFacets::default();
+        next_facets::<FUSED, W, B>(self.stone, self.packet, &mut next);
+        next
+    }
+}
+
+struct IntersectOutside<'a> {
+    stone: &'a ConvexStone,
+    origin: Vec3,
+    direction: Vec3,
+}
+
+impl Vectorised for IntersectOutside<'_> {
+    type Output = Option<FacetHit>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool, const W: usize, const B: usize>(self) -> Option<FacetHit> {
+        intersect_outside::<FUSED>(self.stone, self.origin, self.direction)
+    }
+}
+
+impl ConvexStone {
+    /// First interaction of a ray that starts outside.
+    ///
+    /// - `origin`, `direction` (unit): trace frame
+    ///
+    /// None if the ray misses the stone or starts behind or inside it.
+    pub fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<FacetHit> {
+        // most rays of a scene miss the sphere around the stone
+        let b = origin.dot(direction);
+        let c = origin.length_squared() - 1.0;
+        if c > 0.0 && (b > 0.0 || b * b < c) {
+            return None;
+        }
+        self.isa.run(IntersectOutside { stone: self, origin, direction })
+    }
+
+    /// The facet that every lane of a packet meets next, and how far it is: the search that tracing
+    /// does at every interaction.
+    ///
+    /// Checked in `tests/trace/intersect.rs` against brute force in `f64`.
+    pub fn next_facets(&self, packet: &Packet) -> NextFacets {
+        self.isa.run(FindNextFacets { stone: self, packet })
     }
 }

@@ -5,16 +5,44 @@
 // the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
 #![allow(clippy::needless_range_loop)]
 
+use super::dispatch::Vectorised;
 use super::intersect::{self, mul_add};
 use super::packet::{Interaction, LANES, NextFacets, Packet};
 use super::stone::ConvexStone;
 
-/// Advances every lane to its next facet, splits its power there and reflects it.
+/// One interaction of a packet, with the stone's instruction set: advances every lane to its next facet,
+/// splits its power there and reflects it.
+pub(super) fn interact(stone: &ConvexStone, packet: &mut Packet, out: &mut Interaction) {
+    stone.isa.run(Interact { stone, packet, out });
+}
+
+struct Interact<'a> {
+    stone: &'a ConvexStone,
+    packet: &'a mut Packet,
+    out: &'a mut Interaction,
+}
+
+impl Vectorised for Interact<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool, const W: usize, const B: usize>(self) {
+        let Interact { stone, packet, out } = self;
+        match (packet.polarised, packet.absorbing) {
+            (false, false) => interact_lanes::<FUSED, W, B, false, false>(stone, packet, out),
+            (false, true) => interact_lanes::<FUSED, W, B, false, true>(stone, packet, out),
+            (true, false) => interact_lanes::<FUSED, W, B, true, false>(stone, packet, out),
+            (true, true) => interact_lanes::<FUSED, W, B, true, true>(stone, packet, out),
+        }
+    }
+}
+
+/// [`interact`] for one kind of light.
 ///
-/// - `W`, `B`: as [`intersect::next_facets`] has them; `POLARISED`: whether the Stokes vector is followed;
+/// - `FUSED`, `W`, `B`: as [`Vectorised::run`] has them; `POLARISED`: whether the Stokes vector is followed;
 ///   `ABSORBING`: whether the stone takes power on the way
 #[inline(always)]
-pub(super) fn interact<
+fn interact_lanes<
     const FUSED: bool,
     const W: usize,
     const B: usize,

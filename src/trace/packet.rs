@@ -1,6 +1,5 @@
 //! A packet: sixteen rays traced together, and what they leave at an interaction with a facet.
 
-use super::stone::Refraction;
 use glam::Vec3;
 
 /// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
@@ -50,6 +49,23 @@ pub struct Packet {
     pub ay: Lanes,
     /// Axis of the Stokes vector.
     pub az: Lanes,
+}
+
+/// A ray that enters the stone.
+#[derive(Debug, Clone, Copy)]
+pub struct Refraction {
+    /// Unit direction inside.
+    pub direction: Vec3,
+    /// Share of the power reflected at the facet.
+    pub reflectance: f32,
+    /// Cosine of incidence outside.
+    pub cos_outside: f32,
+    /// Cosine of refraction inside.
+    pub cos_inside: f32,
+    /// Q of the light that enters of unpolarised light of power 1.
+    pub polarisation: f32,
+    /// Axis of Q: unit, across the plane of incidence.
+    pub axis: Vec3,
 }
 
 impl Default for Packet {
@@ -153,6 +169,15 @@ impl Default for NextFacets {
     fn default() -> Self {
         Self { facet: [NO_FACET; LANES], distance: [0.0; LANES] }
     }
+}
+
+/// Where a ray from outside first meets the stone (see [`super::ConvexStone::intersect`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FacetHit {
+    /// The facet.
+    pub facet: usize,
+    /// Distance along the ray, in trace units.
+    pub distance: f32,
 }
 
 /// What a packet leaves at one interaction with facets, one a lane.

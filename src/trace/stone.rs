@@ -1,8 +1,8 @@
 //! A convex stone prepared for tracing.
 
-use super::dispatch::{self, Isa};
+use super::dispatch::Isa;
 use super::girdle::{GirdleFacets, PlaneBlock16};
-use super::packet::{NextFacets, Packet};
+use super::packet::Refraction;
 use crate::geometry::{Plane, Polyhedron};
 use crate::optics::fresnel::FresnelCoefficients;
 use glam::{DVec3, Vec3};
@@ -37,32 +37,6 @@ pub struct ConvexStone {
 pub(super) struct InclinedFacet {
     pub plane: [f32; 4],
     pub facet: u32,
-}
-
-/// Where a ray from outside meets the stone.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FacetHit {
-    /// The facet.
-    pub facet: usize,
-    /// Distance along the ray, in trace units.
-    pub distance: f32,
-}
-
-/// A ray that enters the stone.
-#[derive(Debug, Clone, Copy)]
-pub struct Refraction {
-    /// Unit direction inside.
-    pub direction: Vec3,
-    /// Share of the power reflected at the facet.
-    pub reflectance: f32,
-    /// Cosine of incidence outside.
-    pub cos_outside: f32,
-    /// Cosine of refraction inside.
-    pub cos_inside: f32,
-    /// Q of the light that enters of unpolarised light of power 1.
-    pub polarisation: f32,
-    /// Axis of Q: unit, across the plane of incidence.
-    pub axis: Vec3,
 }
 
 impl ConvexStone {
@@ -112,29 +86,6 @@ impl ConvexStone {
     /// A point of the design's frame in the trace frame.
     pub fn point_from_design(&self, p: DVec3) -> DVec3 {
         (p - self.centre) / self.unit
-    }
-
-    /// First interaction of a ray that starts outside.
-    ///
-    /// - `origin`, `direction` (unit): trace frame
-    ///
-    /// None if the ray misses the stone or starts behind or inside it.
-    pub fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<FacetHit> {
-        // most rays of a scene miss the sphere around the stone
-        let b = origin.dot(direction);
-        let c = origin.length_squared() - 1.0;
-        if c > 0.0 && (b > 0.0 || b * b < c) {
-            return None;
-        }
-        dispatch::intersect_outside(self, origin, direction)
-    }
-
-    /// The facet that every lane of a packet meets next, and how far it is: the search that tracing
-    /// does at every interaction.
-    ///
-    /// Checked in `tests/trace/intersect.rs` against brute force in `f64`.
-    pub fn next_facets(&self, packet: &Packet) -> NextFacets {
-        dispatch::next_facets(self, packet)
     }
 
     /// Refraction of a ray into facet `facet`.

@@ -8,7 +8,7 @@ use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::cli::shell_quote::quoted;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
-use crate::optics::dispersion::{VISIBLE_UM, lines};
+use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
 use crate::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, StoneShape, Target, Tilt, score};
@@ -74,7 +74,7 @@ impl ScoringArgs {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
         let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
-            (true, _) => VISIBLE_UM,
+            (true, _) => VISIBLE_NM,
             (false, true) => (lines::G, lines::B),
             (false, false) => (lines::D, lines::D),
         };

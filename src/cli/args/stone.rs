@@ -248,7 +248,7 @@ impl MaterialArgs {
         Ok(if own.material.is_some() || own.ri.is_some() { own } else { *self })
     }
 
-    /// What to say if the index of the material asked for is a guess within `from`..=`to` (µm).
+    /// What to say if the index of the material asked for is a guess within `from`..=`to` (nm).
     pub fn range_note(&self, from: f64, to: f64) -> Option<String> {
         Some(format!("note: {}", self.material?.extrapolated(from, to)?))
     }

@@ -3,10 +3,12 @@
 // lanes in lockstep: an index is what says so, and what vectorises
 #![allow(clippy::needless_range_loop)]
 
-use super::MIN_FACING_COS;
 use super::beam_coords::BeamCoords;
 use super::facets::{EDGES_PER_GROUP, EdgeGroup, NO_NEIGHBOUR, WeldedFacets};
 use glam::DVec2;
+
+/// A facet faces along a beam if the cosine is above this; one that is seen edge-on has no area.
+pub const MIN_FACING_COS: f64 = 1e-13;
 
 /// A corner whose distance from an edge's line, times the edge's length, is below this lies on it
 /// (trace units squared). Ten times the rounding of the projection; without it, stones that are

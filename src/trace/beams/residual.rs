@@ -5,7 +5,7 @@
 //! at a random point of its footprint. A batch's photons thus stand for the whole residual without
 //! bias, and the spread of the batches is the error.
 
-use super::{BeamLight, BeamVisitor, ResidualBeam};
+use super::{BeamExit, BeamLight, BeamVisitor, ResidualBeam};
 use crate::geometry::Plane;
 use crate::optics::stokes::Stokes;
 use crate::sampling::random::{Purpose, Stream};
@@ -223,7 +223,7 @@ impl<W: ResidualClient, const K: usize> RayClient for ResidualRays<'_, W, K> {
 
 /// A residual takes what is left over and lets exits pass.
 impl<L: BeamLight, const K: usize> BeamVisitor<L, K> for ResidualPhotons<K> {
-    fn exit(&mut self, _: &super::BeamExit<L, K>) {}
+    fn exit(&mut self, _: &BeamExit<L, K>) {}
 
     fn residual(&mut self, rest: &ResidualBeam<L, K>) {
         self.add(rest);
