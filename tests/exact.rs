@@ -3,6 +3,7 @@
 mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
+use cutlab::design::library;
 use cutlab::formats;
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric, MetricSource};
@@ -98,7 +99,8 @@ fn what_is_given_up_counts_for_every_share_of_a_view() {
         .map(|m| m.name)
         .filter(|n| n.starts_with("aset_") || n.starts_with("ideal_"))
         .collect();
-    let subject = subject("cube", &named("cube"), diamond());
+    let cube = library::design("cube", &Default::default()).expect("in the library").expect("solved");
+    let subject = subject("cube", &cube, diamond());
     let random = plan(&names, 1 << 13);
     let exact = ScoreSettings { exact: true, ..random.clone() };
     let [a, b] = [random, exact].map(|plan| score(&subject, &plan).scores);

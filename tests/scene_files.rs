@@ -268,7 +268,7 @@ fn daylight_takes_a_panorama_by_option() {
 #[test]
 fn toml_is_read_whatever_ends_its_lines() {
     let bench = Bench::new();
-    let design = bench.good(&["generate", "-q", "cube", "--to", "toml", "-o", "-"]);
+    let (design, _) = bench.ends(0, &["generate", "-q", "cube", "--to", "toml", "-o", "-"]);
     for (name, ends) in [("lf", "\n"), ("crlf", "\r\n"), ("cr", "\r")] {
         std::fs::write(bench.path(&format!("{name}.toml")), ROOM.replace('\n', ends)).expect("writes");
         SceneFile::open(&bench.path(&format!("{name}.toml"))).unwrap_or_else(|e| panic!("{name}: {e}"));

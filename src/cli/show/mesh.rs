@@ -1,9 +1,7 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
-use super::measured::unit_name;
 use crate::cli::exit_code::{CliError, MeshFacts};
 use crate::design::LengthUnit;
-use crate::formats;
 use crate::storage::terminal::in_line;
 use serde::Serialize;
 
@@ -18,13 +16,10 @@ pub struct MeshSheet {
     parts: usize,
     closed: bool,
     convex: bool,
-    /// In the file's unit cubed.
+    /// In the unit cubed.
     volume: f64,
-    /// The file's unit: `m`, or `file` where it has none.
+    /// `mm`, or `file` where the file has no unit.
     unit: &'static str,
-    /// Length of the file's unit in millimetres, or 1.
-    #[serde(skip)]
-    unit_mm: f64,
     /// Smallest and largest coordinates.
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
@@ -35,8 +30,6 @@ impl MeshSheet {
     /// What is known of the file; none if it is no closed mesh.
     pub fn new(file: &str, failure: &CliError) -> Option<MeshSheet> {
         let MeshFacts { format, closed, body: Some(mesh), unit, .. } = failure.shape()? else { return None };
-        let in_mm = *unit == LengthUnit::Millimetre;
-        let unit_mm = formats::unit_mm(format).filter(|_| in_mm).unwrap_or(1.0);
         let (low, high) = mesh.bounds();
         Some(MeshSheet {
             file: file.into(),
@@ -46,10 +39,9 @@ impl MeshSheet {
             parts: mesh.shells,
             closed: *closed,
             convex: false,
-            volume: mesh.volume / unit_mm.powi(3),
-            unit: unit_name(*unit, format),
-            unit_mm,
-            bounds: [low, high].map(|corner| (corner / unit_mm).to_array()),
+            volume: mesh.volume,
+            unit: if *unit == LengthUnit::Millimetre { "mm" } else { "file" },
+            bounds: [low.to_array(), high.to_array()],
             reason: failure.message(),
         })
     }
@@ -57,9 +49,9 @@ impl MeshSheet {
     /// Lines for people.
     pub fn text(&self) -> String {
         let [low, high] = self.bounds;
-        let (k, is_free) = (self.unit_mm, self.unit == "file");
-        let side = |a: usize| format!("{:.6}", k * (high[a] - low[a]));
-        let (unit, of_volume) = if is_free { ("", " in the file's own unit") } else { (" mm", " mm³") };
+        let side = |a: usize| format!("{:.6}", high[a] - low[a]);
+        let (unit, of_volume) =
+            if self.unit == "file" { ("", " in the file's own unit") } else { (" mm", " mm³") };
         format!(
             "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}{unit}\n  volume          \
              {:.6}{of_volume}\n  closed          yes\n  convex          no\n  note            {}\n",
@@ -71,7 +63,7 @@ impl MeshSheet {
             side(0),
             side(1),
             side(2),
-            k.powi(3) * self.volume,
+            self.volume,
             self.reason
         )
     }
