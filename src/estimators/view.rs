@@ -167,7 +167,8 @@ impl Accumulate for ViewTally {
         let absorbed = absorbs.then(|| ViewTally { absorbed: self.absorbed + self.lost, ..self.clone() });
         let zenith = AsetBand::Blue as usize;
         let sky = (0..=zenith).map(|band| from(band, 1.0));
-        sky.chain([from(zenith, 0.0), from(AsetBand::Below as usize, 0.0)]).chain(absorbed).collect()
+        let viewer = ViewTally { scope_dark: self.scope_dark + self.lost, ..from(zenith, 0.0) };
+        sky.chain([viewer, from(AsetBand::Below as usize, 0.0)]).chain(absorbed).collect()
     }
 }
 

@@ -125,6 +125,12 @@ impl CameraEntry {
                 Lens::Perspective(2.0 * half.atan().to_degrees())
             }
             (None, None, width @ Some(_)) => Lens::Orthographic(place.length(positive("width", width)?)),
+            (Some(_), None, None) => {
+                return Err(field_error("field", "a field is an angle from 0 to 175 degrees"));
+            }
+            (None, Some(_), None) => {
+                return Err(field_error("field-short", "a short field is an angle from 0 to 150 degrees"));
+            }
             _ => {
                 return Err(field_error(
                     "field",
