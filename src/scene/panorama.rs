@@ -32,7 +32,7 @@ pub struct Panorama {
     checksum: u32,
 }
 
-/// A panorama is told apart by its file.
+/// Checksums of scenes take a panorama by the checksum of its file.
 impl std::fmt::Debug for Panorama {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "panorama {}×{} {:08x}", self.width, self.height, self.checksum)
@@ -76,7 +76,7 @@ impl Panorama {
         Ok(Panorama::new(width as usize, height as usize, pixels, crc32fast::hash(bytes)))
     }
 
-    /// A table of what a function says of the middle of each pixel.
+    /// A panorama of a function's values in the middle of each pixel.
     ///
     /// - `colour`: parts of [`rgb_upsampling::basis`] in a unit direction; `checksum`: what tells it from others
     pub fn painted(
