@@ -11,7 +11,7 @@ use std::io::Write;
 /// The moving part of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Turn {
-    /// The camera goes around what it looks at.
+    /// The camera goes around its target.
     #[default]
     Camera,
     /// The stones turn.

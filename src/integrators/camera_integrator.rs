@@ -81,7 +81,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Ve
 /// State shared by the camera rays of a pixel.
 struct Shared {
     stream: Stream,
-    /// Places of each light that shadow rays look at next.
+    /// Next places of each light for shadow rays.
     shadows: Vec<KroneckerPoints<2>>,
     /// The last estimate from the maps.
     seen: Option<MapEstimates>,

@@ -82,7 +82,7 @@ struct ExitRay {
     power: f32,
 }
 
-/// A ray of one wavelength on its way into another stone.
+/// A ray of one wavelength about to enter another stone.
 struct OnwardRay {
     stone: usize,
     arrival: StoneHit,

@@ -12,7 +12,7 @@ pub struct SurfaceCell {
     pub point: Vec3,
     /// Unit normal on its side.
     pub normal: Vec3,
-    /// How much of the surface it stands for.
+    /// Area of the surface that it represents.
     pub area: f32,
     /// Radius over which photons that fall on it are spread.
     pub radius: f32,
@@ -69,7 +69,7 @@ const DEEPEST: u32 = 40;
 const PARALLEL: u32 = 6;
 
 /// Divides the front of a surface until no cell is longer than `share` of the radius at its middle.
-/// Triangles of a mesh that are smaller stand for their neighbours of about the same normal.
+/// Triangles of a mesh that are smaller represent their neighbours of about the same normal.
 ///
 /// - `radius`: at a place; may not change faster than the place does, and `share` is below √2, so that
 ///   no small spot is missed
@@ -115,7 +115,7 @@ fn of_triangles(
     radius: &(impl Fn(Vec3) -> f32 + Sync),
 ) -> Vec<SurfaceCell> {
     let mut cells = Vec::new();
-    // for each direction of the normal: area that no cell stands for yet, and the last small triangle
+    // for each direction of the normal: area that no cell represents yet, and the last small triangle
     let mut small: [Option<SurfaceCell>; 6] = [None; 6];
     let mut known = (Vec3::INFINITY, 0.0);
     for [a, b, c] in triangles {

@@ -22,8 +22,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Most segments of a path from the eye to a light; none follows each to the end of its power.
     pub depth: Option<u32>,
-    /// Whether the camera leaves the background out: what it sees directly of lights, of surfaces that
-    /// are backdrops, and of nothing at all is transparent. Stones mirror and refract all of it as ever.
+    /// Whether the camera leaves the background out: what it sees directly of lights, of surfaces that are
+    /// backdrops, and of nothing at all is transparent. Stones still mirror and refract all of it.
     pub cut_out: bool,
 }
 

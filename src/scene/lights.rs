@@ -44,7 +44,7 @@ impl LightEntry {
         if light.emitter.power().is_none() {
             return Ok(light); // it is at infinity
         }
-        /// Places of the light that are looked at, a side of the square of uniforms.
+        /// Places of the light that are tested, along a side of the square of uniforms.
         const GRID: u8 = 8;
         let world = BoundingSphere { centre: place.centre, radius: 1.0 };
         let aim = PhotonGuide { targets: Vec::new(), share: 0.0, world };

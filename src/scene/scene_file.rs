@@ -281,7 +281,7 @@ pub const MOST_PIXELS: u32 = 1 << 14;
 
 /// The number of a stone that some of the camera's rays begin in.
 fn stone_around(stones: &[PlacedStone], camera: &Camera) -> Option<usize> {
-    /// Places across and down that are looked at.
+    /// Places across and down that are tested.
     const GRID: u32 = 8;
     let places = (0..=GRID).flat_map(|y| (0..=GRID).map(move |x| [x, y].map(|k| k as f32 / GRID as f32)));
     let mut begin: Vec<Vec3> = places.map(|[u, v]| camera.ray_through(u, v, [u, v]).0).collect();

@@ -39,7 +39,7 @@ impl PlacedStone {
             .iter()
             .map(|v| (turn * stone.point_from_design(*v)).z)
             .fold(f64::INFINITY, f64::min);
-        // a hair above the floor, so that no point of the floor lies inside the stone
+        // just above the floor, so that no point of the floor lies inside the stone
         const GAP: f32 = 1e-3;
         let position = floor + Vec3::Z * radius * (GAP - lowest as f32);
         PlacedStone { stone, material, polarised: true, world_from_stone: turn.as_mat3(), position, radius }

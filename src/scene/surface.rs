@@ -6,7 +6,7 @@ use crate::color::rgb_upsampling;
 use glam::{Mat3, Vec3};
 use std::sync::Arc;
 
-/// Share of light that a surface gives back, by wavelength.
+/// Spectral reflectance of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reflectance {
     /// The same at every wavelength.
@@ -39,12 +39,12 @@ impl Reflectance {
     }
 }
 
-/// What a surface does with light.
+/// Scattering of light by a surface, the same at every place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bsdf {
-    /// Scatters it evenly.
+    /// Lambertian: the same radiance in all directions.
     Diffuse(Reflectance),
-    /// Mirrors it.
+    /// A perfect mirror.
     Mirror(Reflectance),
 }
 
@@ -62,7 +62,7 @@ pub enum Shape {
 pub struct Surface {
     /// Its shape.
     pub shape: Shape,
-    /// What it does with light.
+    /// Its scattering.
     pub finish: Bsdf,
     /// Whether it is background, such as a floor or a wall: a picture that leaves its background out
     /// ([`super::Scene::cut_out`]) does not show it.

@@ -30,7 +30,7 @@ pub trait RayClient {
         false
     }
 
-    /// After so many bounces a ray is at its end whatever power it holds, which counts as given up.
+    /// Most bounces of a ray; power that it still holds then counts as given up.
     fn max_bounces(&self) -> u32 {
         u32::MAX
     }

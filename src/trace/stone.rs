@@ -51,7 +51,6 @@ impl ConvexStone {
         let planes: Vec<Plane> = (0..solid.faces.len())
             .map(|f| {
                 let normal = solid.area_vector(f).normalize();
-                // the plane itself, not the polygon's: a small facet's polygon knows it less well
                 let corner = solid.vertices[solid.faces[f].corners[0]];
                 Plane { normal, distance: normal.dot(corner - centre) / unit }
             })

@@ -50,8 +50,8 @@ pub trait BeamLight: Copy {
         true
     }
 
-    /// The power of a photon that stands for it when it is not followed: 1, as photons are drawn in
-    /// proportion to power, unless they are drawn by something else.
+    /// The power of a photon that represents it when it is not followed: 1 if photons are drawn in
+    /// proportion to power, as by default.
     fn photon_share(&self) -> f64 {
         1.0
     }

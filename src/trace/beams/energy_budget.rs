@@ -12,9 +12,9 @@ pub struct StopCriteria {
     /// Tracing stops once the beams not yet traced hold less than this share of the incident power
     /// together. The strongest go first, so that this is reached with about the fewest.
     pub residual: f64,
-    /// A beam is not followed after so many facets inside, [`MAX_FACETS`] at most.
+    /// Most facets inside over which a beam is followed; [`MAX_FACETS`] bounds it.
     pub facets: u32,
-    /// No beam is followed further once there have been so many.
+    /// Most beams; none is followed further after that.
     pub beams: u64,
 }
 

@@ -13,7 +13,7 @@ pub const WELD_DISTANCE: f64 = 1e-9;
 /// No facet beyond an edge (a facet that welding has closed up).
 pub const NO_NEIGHBOUR: u32 = u32::MAX;
 
-/// Edges that are looked at side by side: one register of AVX2.
+/// Edges that are clipped against side by side: one register of AVX2.
 pub const EDGES_PER_GROUP: usize = 4;
 
 /// A few edges of a facet, axis by axis, trace frame. Two facets have their common edge from the
