@@ -127,7 +127,7 @@ mod tests {
     fn every_material_has_a_source_and_falls_with_wavelength_over_its_range() {
         for m in MATERIALS {
             assert!(!m.source.is_empty() && !m.about.is_empty(), "{}", m.name);
-            let (from, to) = (m.valid_um.0.max(0.38), m.valid_um.1.min(0.73));
+            let (from, to) = (m.valid_nm.0.max(380.0), m.valid_nm.1.min(730.0));
             for law in [Some(m.dispersion), m.extraordinary].into_iter().flatten() {
                 let n: Vec<f64> =
                     (0..=100).map(|i| law.index(from + (to - from) * f64::from(i) / 100.0)).collect();
@@ -143,7 +143,7 @@ mod tests {
         for (m, a) in MATERIALS.iter().filter_map(|m| Some((m, m.absorption?))) {
             coloured += 1;
             assert!(!m.is_clear() && !a.source.is_empty() && !a.about.is_empty(), "{}", m.name);
-            let spectrum: Vec<f64> = (380..=730).map(|nm| a.per_mm(f64::from(nm) / 1000.0)).collect();
+            let spectrum: Vec<f64> = (380..=730).map(|nm| a.per_mm(f64::from(nm))).collect();
             assert!(spectrum.iter().all(|a| (0.0..5.0).contains(a)), "{}", m.name);
             let (least, most) = spectrum.iter().fold((f64::MAX, 0f64), |(l, m), a| (l.min(*a), m.max(*a)));
             assert!(least < 0.2 * most, "{}: {least} {most}", m.name);
@@ -154,11 +154,11 @@ mod tests {
     #[test]
     fn a_guess_is_called_one() {
         let said = |name: &str, from, to| Material::by_name(name).and_then(|m| m.extrapolated(from, to));
-        let note = said("strontium-titanate", 0.38, 0.73);
+        let note = said("strontium-titanate", 380.0, 730.0);
         assert_eq!(note.as_deref(), Some("index of strontium-titanate extrapolated below 430 nm"));
         assert_eq!(said("strontium-titanate", lines::G, lines::B), None);
-        let note = said("topaz", 0.38, 0.73);
+        let note = said("topaz", 380.0, 730.0);
         assert_eq!(note.as_deref(), Some("index of topaz extrapolated below 431 nm and above 687 nm"));
-        assert_eq!(said("diamond", 0.38, 0.73), None);
+        assert_eq!(said("diamond", 380.0, 730.0), None);
     }
 }

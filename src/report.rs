@@ -3,12 +3,14 @@
 pub mod chart;
 pub mod comparison_page;
 pub mod diagram;
+pub mod estimates;
 mod html;
 pub mod page;
 pub mod pdf;
 pub mod plot;
 pub mod raster;
 pub mod references;
+mod request;
 pub mod sections;
 pub mod stone_report;
 pub mod tilt_curves;
@@ -16,4 +18,5 @@ pub mod validation;
 pub mod viewer_images;
 pub mod virtual_facets;
 
-pub use stone_report::{ReportError, ReportRequest, StoneReport, make};
+pub use request::ReportRequest;
+pub use stone_report::{ReportError, StoneReport, make};

@@ -68,11 +68,11 @@ impl<'a> Exhaustive<'a> {
         Exhaustive { upto: upto.collect(), stone, material, crown }
     }
 
-    /// A wavelength (µm) and its weight: daylight's luminance per nm.
+    /// A wavelength (nm) and its weight: daylight's luminance per nm.
     fn hue(stream: &mut Stream) -> (f64, f64) {
         let nm = 380.0 + 350.0 * stream.unit64();
         let daylight = Illuminant::daylight().power(nm as f32);
-        (nm / 1000.0, f64::from(cie::matching(nm as f32).y) * f64::from(daylight))
+        (nm, f64::from(cie::matching(nm as f32).y) * f64::from(daylight))
     }
 
     /// Lets light of power 1 into a facet and follows it; nothing is seen of what is mirrored.
@@ -81,10 +81,10 @@ impl<'a> Exhaustive<'a> {
         facet: usize,
         point: DVec3,
         direction: DVec3,
-        um: f64,
+        nm: f64,
         visit: impl FnMut(&ScalarInteraction),
     ) {
-        let (n, normal) = (self.material.index(um), self.stone.planes[facet].normal);
+        let (n, normal) = (self.material.index(nm), self.stone.planes[facet].normal);
         let cos = -direction.dot(normal);
         let facing = FresnelCoefficients::new(cos, n);
         let ray = ScalarRay {
@@ -92,7 +92,7 @@ impl<'a> Exhaustive<'a> {
             direction: (direction / n + normal * (cos / n - facing.cos_t)).normalize(),
             power: 1.0 - facing.unpolarised_reflectance(),
             index: n,
-            absorption: self.material.absorption_per_mm(um) * self.stone.unit,
+            absorption: self.material.absorption_per_mm(nm) * self.stone.unit,
             stokes: None,
         };
         trace(&self.stone.planes, ray, NOTHING, visit);
@@ -109,12 +109,12 @@ impl<'a> Exhaustive<'a> {
         let u = normal.any_orthonormal_vector();
         let (r, turn) = (stream.unit64().sqrt(), std::f64::consts::TAU * stream.unit64());
         let sky = u * (r * turn.cos()) + normal.cross(u) * (r * turn.sin()) + normal * (1.0 - r * r).sqrt();
-        let (um, weight) = Self::hue(stream);
+        let (nm, weight) = Self::hue(stream);
         if sky.z <= 0.0 {
             return ([0.0; 2], 0.0);
         }
         let mut sums = [0.0; 2];
-        self.follow(facet, point, -sky, um, |m| {
+        self.follow(facet, point, -sky, nm, |m| {
             if m.direction.z > 1e-5 && self.stone.planes[m.facet].normal.z > 1e-6 {
                 sums[0] += weight * m.power;
                 sums[1] += weight * m.power * m.direction.z.powi(2);
@@ -126,7 +126,7 @@ impl<'a> Exhaustive<'a> {
     /// What a line of sight sees from 45 to 75° above the horizon: sum and weight.
     fn view(&self, stream: &mut Stream) -> (f64, f64) {
         let xy = DVec2::new(stream.unit64(), stream.unit64()) * 2.0 - 1.0;
-        let (um, weight) = Self::hue(stream);
+        let (nm, weight) = Self::hue(stream);
         let (mut from, mut to) = ((usize::MAX, f64::INFINITY), f64::NEG_INFINITY);
         for (i, plane) in self.stone.planes.iter().enumerate() {
             let (slope, rest) = (plane.normal.z, plane.distance - plane.normal.truncate().dot(xy));
@@ -141,7 +141,7 @@ impl<'a> Exhaustive<'a> {
             return (0.0, 0.0);
         }
         let mut sum = 0.0;
-        self.follow(from.0, xy.extend(from.1), DVec3::NEG_Z, um, |m| {
+        self.follow(from.0, xy.extend(from.1), DVec3::NEG_Z, nm, |m| {
             let red = 45f64.to_radians().sin()..75f64.to_radians().sin();
             sum += if red.contains(&m.direction.z) { weight * m.power } else { 0.0 };
         });

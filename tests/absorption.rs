@@ -129,12 +129,8 @@ fn cube(side: f64) -> Polyhedron {
 
 /// A material that absorbs `per_mm` at the D line.
 fn grey(per_mm: f64) -> Material {
-    let band = Band {
-        name: "grey",
-        centre_nm: 1000.0 * lines::D,
-        half_widths_per_cm: (1e9, 1e9),
-        peak_per_mm: per_mm,
-    };
+    let band =
+        Band { name: "grey", centre_nm: lines::D, half_widths_per_cm: (1e9, 1e9), peak_per_mm: per_mm };
     let absorption = Absorption { bands: Box::leak(Box::new([band])), about: "a test's", source: "given" };
     Material { absorption: Some(absorption), ..Material::from_index(INDEX.into()) }
 }

@@ -5,10 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Circles that are still there, each by its first file, with the number of its files. One that goes, or
-/// shrinks, goes or shrinks here; a new one is a mistake.
-const KNOWN: &[(&str, usize)] = &[("cli/args/orientation", 4), ("report/page", 5), ("trace", 11)];
-
 type Module = Vec<String>;
 
 #[derive(Default)]
@@ -217,10 +213,8 @@ impl House {
 #[test]
 fn no_two_files_import_each_other() {
     let circles = House::read().circles();
-    let found: BTreeSet<(&str, usize)> = circles.iter().map(|c| (c[0].as_str(), c.len())).collect();
-    let known: BTreeSet<(&str, usize)> = KNOWN.iter().copied().collect();
     let text: Vec<String> = circles.iter().map(|c| format!("{} files: {}", c.len(), c.join(", "))).collect();
-    assert!(found == known, "{} circles:\n{}", circles.len(), text.join("\n"));
+    assert!(circles.is_empty(), "{} circles:\n{}", circles.len(), text.join("\n"));
 }
 
 #[test]

@@ -138,7 +138,7 @@ fn a_colour_chart_comes_out_as_published() {
 fn gems_have_their_colours() {
     let colour = |name: &str, mm: f32| {
         let material = Material::by_name(name).expect("in the catalogue");
-        light("D65").linear_srgb(|nm| (-mm * material.absorption_per_mm(f64::from(nm) / 1000.0) as f32).exp())
+        light("D65").linear_srgb(|nm| (-mm * material.absorption_per_mm(f64::from(nm)) as f32).exp())
     };
     let ruby = colour("ruby", 5.0);
     assert!(ruby.x > 2.0 * ruby.y.max(ruby.z), "{ruby}");

@@ -117,7 +117,7 @@ fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
     let mut sum = 0.0;
     for (surface, shape) in scene.surfaces.iter().map(|s| &s.shape).enumerate() {
         let patches: Vec<(Vec3, Vec3, Vec3, bool)> = match shape {
-            Shape::Plate(p) => vec![(p.corner, p.u, p.v, false)],
+            Shape::Quad(p) => vec![(p.corner, p.u, p.v, false)],
             Shape::Mesh(m) => m.triangles().map(|[a, b, c]| (a, b - a, c - a, true)).collect(),
         };
         for (corner, u, v, triangle) in patches {

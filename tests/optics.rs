@@ -9,7 +9,7 @@ use glam::Vec3;
 #[test]
 fn diamond_at_eight_fraunhofer_lines() {
     let diamond = Material::by_name("diamond").expect("in the catalogue");
-    for (um, n) in [
+    for (nm, n) in [
         (lines::B, 2.40728),
         (lines::C, 2.40990),
         (lines::D, 2.41726),
@@ -19,7 +19,7 @@ fn diamond_at_eight_fraunhofer_lines() {
         (lines::G, 2.45173),
         (lines::H, 2.46205),
     ] {
-        assert!((diamond.index(um) - n).abs() <= 2e-5, "{um} µm: {}", diamond.index(um));
+        assert!((diamond.index(nm) - n).abs() <= 2e-5, "{nm} nm: {}", diamond.index(nm));
     }
 }
 
@@ -152,7 +152,7 @@ fn coloured_gems_without_a_spectrum_say_so() {
 #[test]
 fn the_three_colours_of_the_original_project() {
     let rgb = Material::by_name("diamond-rgb").expect("in the catalogue");
-    assert_eq!([0.65, 0.55, 0.45].map(|um| rgb.index(um)), [2.40, 2.43, 2.46]);
+    assert_eq!([650.0, 550.0, 450.0].map(|nm| rgb.index(nm)), [2.40, 2.43, 2.46]);
 }
 
 #[test]

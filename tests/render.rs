@@ -10,7 +10,7 @@ use cutlab::sampling::random::{Purpose, Stream};
 use cutlab::sampling::warps;
 use cutlab::scene::intersection::{Intersection, Past, SurfacePoint};
 use cutlab::scene::lights::square::Square;
-use cutlab::scene::surface::{Plate, Shape};
+use cutlab::scene::surface::{Quad, Shape};
 use cutlab::scene::{Bsdf, Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -27,26 +27,26 @@ fn scene(name: &str, cut: &str, material: &str) -> Scene {
     preset(name).expect("in the catalogue").expect("is sound").build(&cast, 1.0).expect("is set up")
 }
 
-fn plate(surface: &Surface) -> Plate {
+fn quad(surface: &Surface) -> Quad {
     match surface.shape {
-        Shape::Plate(plate) => plate,
+        Shape::Quad(quad) => quad,
         Shape::Mesh(_) => unreachable!("the room has flat walls"),
     }
 }
 
-/// A place on the front of a plate, at shares of its edges.
+/// A place on the front of a quad, at shares of its edges.
 fn on(surfaces: &[Surface], surface: usize, [s, t]: [f32; 2]) -> SurfacePoint {
-    let plate = plate(&surfaces[surface]);
-    let point = plate.corner + plate.u * s + plate.v * t;
-    SurfacePoint { surface, point, normal: plate.normal(), front: true }
+    let quad = quad(&surfaces[surface]);
+    let point = quad.corner + quad.u * s + quad.v * t;
+    SurfacePoint { surface, point, normal: quad.normal(), front: true }
 }
 
 /// The Cornell room with its front closed, all walls of one grey, and a small light.
 fn closed_room(grey: f32) -> Scene {
     let mut room = scene("cornell", "octahedron", "diamond");
-    let floor = plate(&room.surfaces[0]);
+    let floor = quad(&room.surfaces[0]);
     let height = Vec3::Z * floor.u.length();
-    room.surfaces.push(Surface::plate(floor.corner, height, floor.u, Reflectance::Grey(grey)));
+    room.surfaces.push(Surface::quad(floor.corner, height, floor.u, Reflectance::Grey(grey)));
     room.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(grey)));
     room.lights = vec![Light::white(small_light(), 10.0)];
     room
@@ -115,7 +115,7 @@ fn a_closed_grey_room_balances_with_and_without_the_stone() {
 fn the_estimate_is_uniform_to_the_edges() {
     let room = closed_room(0.5);
     let mut stream = Stream::new(SEED, Purpose::Test, 2);
-    let floor = plate(&room.surfaces[0]);
+    let floor = quad(&room.surfaces[0]);
     let n = 200_000;
     let area = floor.u.cross(floor.v).length();
     let photons = (0..n)
@@ -145,7 +145,7 @@ fn a_stone_in_uniform_light_disappears() {
     room.lights.clear();
     let grid = 80;
     let mut photons = Vec::new();
-    for (number, wall) in room.surfaces.iter().map(plate).enumerate() {
+    for (number, wall) in room.surfaces.iter().map(quad).enumerate() {
         for i in 0..grid * grid {
             let [s, t] = [i % grid, i / grid].map(|k| (k as f32 + 0.5) / grid as f32);
             let power = wall.u.cross(wall.v).length() / (grid * grid) as f32;

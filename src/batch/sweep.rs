@@ -1,8 +1,9 @@
 //! Sweeps: the values that parameters run through, and the stone at each point.
 
+use super::table::rounded;
 use crate::design::families;
 use crate::parse;
-use crate::parse::{NumberError, NumberUnit};
+use crate::parse::{NumberError, NumberUnit, format_number};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use std::fmt;
@@ -35,11 +36,6 @@ impl Steps {
     }
 }
 
-/// To nine decimals.
-fn rounded(x: f64) -> f64 {
-    (x * 1e9).round() / 1e9
-}
-
 impl Steps {
     /// `FROM:TO:STEP`, or one number.
     ///
@@ -64,7 +60,13 @@ impl Steps {
             return Err(wrong());
         }
         let steps = (to - from) / step;
-        if step == 0.0 || steps < 0.0 {
+        if step == 0.0 {
+            return Err(format!(
+                "'{text}': the step is 0; for one value give it alone, as {}",
+                format_number(from)
+            ));
+        }
+        if steps < 0.0 {
             return Err(format!("'{text}': the step leads away from {to}"));
         }
         let mut count = (steps + 1e-6).floor() + 1.0;

@@ -1,7 +1,6 @@
 //! Exit codes, and errors of one line.
 
-use super::args::stone;
-use crate::design::CutError;
+use crate::design::{CutError, LengthUnit};
 use crate::formats::FormatError;
 use crate::geometry::ClosedMesh;
 use crate::geometry::SolidError;
@@ -10,6 +9,7 @@ use crate::photons::map_file::MapFileError;
 use crate::scene::SceneError;
 use crate::storage::atomic_write::WriteError;
 pub use crate::storage::terminal::printable;
+use crate::storage::text::display_name;
 use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -77,6 +77,8 @@ pub struct MeshFacts {
     pub convex: Option<bool>,
     /// The mesh, if it is closed.
     pub body: Option<ClosedMesh>,
+    /// The mesh's unit.
+    pub unit: LengthUnit,
 }
 
 impl CliError {
@@ -96,13 +98,13 @@ impl CliError {
 
     /// A file that is there already and was not to be replaced.
     pub fn exists(stone: &str, target: &Path) -> CliError {
-        let target = stone::display_name(target);
+        let target = display_name(target);
         CliError::new(ExitStatus::Io, format!("{stone}: not written: {target} exists; --force replaces it"))
     }
 
     /// A file that is there already and that another command made.
     pub fn other_is_there(target: &Path) -> CliError {
-        let target = stone::display_name(target);
+        let target = display_name(target);
         CliError::new(
             ExitStatus::Io,
             format!(
@@ -182,6 +184,7 @@ fn code_of(cause: &std::io::Error) -> ExitStatus {
 
 fn shape_of(error: &FormatError) -> Option<MeshFacts> {
     let FormatError::NoStone { format, facets, cause } = error else { return None };
+    let unit = if let FormatError::Mesh { unit, .. } = **cause { unit } else { LengthUnit::Free };
     let (closed, convex) = match &**cause {
         FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
         FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
@@ -192,7 +195,7 @@ fn shape_of(error: &FormatError) -> Option<MeshFacts> {
     };
     let body = error.closed_mesh().map(|(_, body)| body.clone());
     let facets = facets.or(body.as_ref().map(|b| b.facets.len()));
-    Some(MeshFacts { format, facets, closed, convex, body })
+    Some(MeshFacts { format, facets, closed, convex, body, unit })
 }
 
 impl From<MapFileError> for CliError {
@@ -253,7 +256,8 @@ pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
-        .filter(|line| !line.is_empty())
+        // no option is meant as a value
+        .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
         .collect();
     let said = said.join(" ").replace(" tip: ", "; ");
     let said = said.strip_prefix("error: ").unwrap_or(&said);

@@ -11,8 +11,9 @@ use super::outputs::{Outputs, record};
 use super::shell_quote;
 use crate::batch::fingerprint::BUILD;
 use crate::design::LengthUnit;
-use crate::optics::dispersion::VISIBLE_UM;
-use crate::report::page::{Section, estimate_html};
+use crate::optics::dispersion::VISIBLE_NM;
+use crate::report::estimates::estimate_text;
+use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
 use crate::report::{self, ReportError, ReportRequest};
 use crate::sampling::stats::Estimate;
@@ -74,7 +75,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     for folder in &folders {
         claim(folder, &mut outputs)?;
     }
-    let range = args.substance.range_note(VISIBLE_UM.0, VISIBLE_UM.1);
+    let range = args.substance.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
@@ -172,7 +173,7 @@ fn text(bundle: &StoneReport, folder: &Path) -> String {
         text += &format!("{}\n", section.head);
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(estimate_html) {
+            let value = match score.value.map(estimate_text) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
                 None => "–".into(),

@@ -2,7 +2,7 @@
 
 use crate::batch::table::NumericColumns;
 use crate::metrics::Metric;
-use crate::report::page::estimate_html;
+use crate::report::estimates::estimate_text;
 use crate::sampling::stats::Estimate;
 use crate::storage::terminal::in_line;
 use comfy_table::presets::NOTHING;
@@ -59,7 +59,7 @@ pub const NONE: &str = "–";
 
 /// A score with its standard error.
 pub fn format_estimate(estimate: Estimate) -> String {
-    match estimate_html(estimate) {
+    match estimate_text(estimate) {
         (value, Some(error)) => format!("{value} ± {error}"),
         (value, None) => value,
     }

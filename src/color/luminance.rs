@@ -23,14 +23,14 @@ static DAYLIGHT: LazyLock<LuminanceDensity> = LazyLock::new(|| {
     LuminanceDensity { density, upto }
 });
 
-/// The wavelength in µm below which daylight has a share of its luminance: with uniform shares,
+/// The wavelength in nm below which daylight has a share of its luminance: with uniform shares,
 /// wavelengths are drawn in proportion to ȳ (CIE 1931) × D65.
 ///
 /// - `share`: 0 to 1
 ///
 /// The product is linear between 380, 385 … 730 nm; light beyond is left out (1e-4 of it). Checked
 /// below.
-pub fn wavelength_um(share: f64) -> f64 {
+pub fn wavelength_nm(share: f64) -> f64 {
     let LuminanceDensity { density, upto } = &*DAYLIGHT;
     let i = upto.partition_point(|s| *s <= share).clamp(1, upto.len() - 1) - 1;
     let within = ((share - upto[i]) / (upto[i + 1] - upto[i])).clamp(0.0, 1.0);
@@ -40,7 +40,7 @@ pub fn wavelength_um(share: f64) -> f64 {
     let along = within * (a + b) / (a + root).max(f64::MIN_POSITIVE);
     let (first, last) = (f64::from(cie::RANGE_NM.0), f64::from(cie::RANGE_NM.1));
     let step = (last - first) / (density.len() - 1) as f64;
-    (first + step * (i as f64 + along)) / 1000.0
+    first + step * (i as f64 + along)
 }
 
 #[cfg(test)]
@@ -52,19 +52,19 @@ mod tests {
     fn wavelengths_drawn_by_luminance_give_the_luminance_behind_a_filter() {
         let light = Illuminant::daylight();
         for pass in [
-            |um: f64| 1.0 / (1.0 + (-(um - 0.6) / 0.01).exp()),
-            |um: f64| (-((um - 0.53) / 0.03).powi(2)).exp(),
+            |nm: f64| 1.0 / (1.0 + (-(nm - 600.0) / 10.0).exp()),
+            |nm: f64| (-((nm - 530.0) / 30.0).powi(2)).exp(),
         ] {
             let n = 20_000;
-            let drawn = (0..n).map(|i| pass(wavelength_um((f64::from(i) + 0.5) / f64::from(n)))).sum::<f64>()
+            let drawn = (0..n).map(|i| pass(wavelength_nm((f64::from(i) + 0.5) / f64::from(n)))).sum::<f64>()
                 / f64::from(n);
-            let table = f64::from(light.xyz(|nm| pass(f64::from(nm) / 1000.0) as f32).y);
+            let table = f64::from(light.xyz(|nm| pass(f64::from(nm)) as f32).y);
             assert!((drawn / table - 1.0).abs() < 2e-3, "{drawn} {table}");
         }
-        assert!((wavelength_um(0.0) - 0.38).abs() < 1e-12 && (wavelength_um(1.0) - 0.73).abs() < 1e-12);
+        assert!((wavelength_nm(0.0) - 380.0).abs() < 1e-9 && (wavelength_nm(1.0) - 730.0).abs() < 1e-9);
         assert!(
             (0..1000)
-                .all(|i| wavelength_um(f64::from(i) / 1000.0) < wavelength_um(f64::from(i + 1) / 1000.0))
+                .all(|i| wavelength_nm(f64::from(i) / 1000.0) < wavelength_nm(f64::from(i + 1) / 1000.0))
         );
     }
 }

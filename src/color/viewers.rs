@@ -6,9 +6,9 @@
 use crate::parse;
 use glam::Vec3;
 
-/// A zone of the sky of one colour.
+/// A band of elevation of one colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Zone {
+pub struct ViewerBand {
     /// Elevation where it begins, degrees; it ends where the next begins, the last at the zenith.
     pub from_deg: f32,
     /// Its colour as parts of [`super::rgb_upsampling::basis`].
@@ -22,8 +22,8 @@ pub struct Viewer {
     pub name: &'static str,
     /// What it shows.
     pub about: &'static str,
-    /// Zones from below upward; the first begins at −90°.
-    pub zones: &'static [Zone],
+    /// Bands from below upward; the first begins at −90°.
+    pub bands: &'static [ViewerBand],
 }
 
 const RED: Vec3 = Vec3::X;
@@ -34,8 +34,8 @@ const WHITE: Vec3 = Vec3::ONE;
 // a lit sheet of white paper below the stone
 const PAPER: Vec3 = WHITE;
 
-const fn zone(from_deg: f32, colour: Vec3) -> Zone {
-    Zone { from_deg, colour }
+const fn band(from_deg: f32, colour: Vec3) -> ViewerBand {
+    ViewerBand { from_deg, colour }
 }
 
 /// Elevations at which the ASET's green, red and blue begin, degrees.
@@ -52,32 +52,32 @@ pub static VIEWERS: &[Viewer] = &[
     Viewer {
         name: "aset",
         about: "green from the horizon to 45°, red to 75°, blue above, dark below",
-        zones: &[
-            zone(-90.0, DARK),
-            zone(ASET_DEG[0], GREEN),
-            zone(ASET_DEG[1], RED),
-            zone(ASET_DEG[2], BLUE),
+        bands: &[
+            band(-90.0, DARK),
+            band(ASET_DEG[0], GREEN),
+            band(ASET_DEG[1], RED),
+            band(ASET_DEG[2], BLUE),
         ],
     },
     Viewer {
         name: "ideal-scope",
         about: "red light with a dark eye of 24°, white paper below",
-        zones: &[zone(-90.0, PAPER), zone(0.0, RED), zone(90.0 - SCOPE_DEG as f32, DARK)],
+        bands: &[band(-90.0, PAPER), band(0.0, RED), band(90.0 - SCOPE_DEG as f32, DARK)],
     },
     Viewer {
         name: "hearts-and-arrows",
         about: "red light from 45° up to a dark eye of 20°, white paper below: lower light shows as white",
-        zones: &[zone(-90.0, PAPER), zone(45.0, RED), zone(80.0, DARK)],
+        bands: &[band(-90.0, PAPER), band(45.0, RED), band(80.0, DARK)],
     },
     Viewer {
         name: "face-up",
         about: "a white sky with a dark observer of 46°, that of the score brightness",
-        zones: &[zone(-90.0, DARK), zone(0.0, WHITE), zone(90.0 - GIA_OBSERVER_DEG as f32, DARK)],
+        bands: &[band(-90.0, DARK), band(0.0, WHITE), band(90.0 - GIA_OBSERVER_DEG as f32, DARK)],
     },
     Viewer {
         name: "dark-field",
         about: "a white ring from 0 to 30° around a dark field",
-        zones: &[zone(-90.0, DARK), zone(0.0, WHITE), zone(30.0, DARK)],
+        bands: &[band(-90.0, DARK), band(0.0, WHITE), band(30.0, DARK)],
     },
 ];
 
@@ -87,9 +87,9 @@ impl Viewer {
         VIEWERS.iter().find(|v| parse::is_name(v.name, name))
     }
 
-    /// The zone (its number) of a unit direction whose z is `z`.
-    pub fn zone(&self, z: f32) -> usize {
-        self.zones.iter().rposition(|zone| z >= zone.from_deg.to_radians().sin()).unwrap_or(0)
+    /// The band (its number) of a unit direction whose z is `z`.
+    pub fn band(&self, z: f32) -> usize {
+        self.bands.iter().rposition(|band| z >= band.from_deg.to_radians().sin()).unwrap_or(0)
     }
 }
 
@@ -98,14 +98,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zones_rise_from_the_nadir() {
+    fn bands_rise_from_the_nadir() {
         for viewer in VIEWERS {
-            assert_eq!(viewer.zones[0].from_deg, -90.0, "{}", viewer.name);
-            assert!(viewer.zones.windows(2).all(|w| w[0].from_deg < w[1].from_deg), "{}", viewer.name);
+            assert_eq!(viewer.bands[0].from_deg, -90.0, "{}", viewer.name);
+            assert!(viewer.bands.windows(2).all(|w| w[0].from_deg < w[1].from_deg), "{}", viewer.name);
         }
         let aset = Viewer::by_name("aset").expect("in the catalogue");
-        let zones: Vec<usize> =
-            [-30f32, 10.0, 50.0, 80.0].iter().map(|deg| aset.zone(deg.to_radians().sin())).collect();
-        assert_eq!(zones, [0, 1, 2, 3]);
+        let bands: Vec<usize> =
+            [-30f32, 10.0, 50.0, 80.0].iter().map(|deg| aset.band(deg.to_radians().sin())).collect();
+        assert_eq!(bands, [0, 1, 2, 3]);
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn weighted_mean(
     medium: &TraceOptics,
     effort: &BeamEffort,
 ) -> Result<WeightedSums<2>, EstimatorError> {
-    let lit = IncidentBeam { direction, indices: LINES.map(|um| medium.material.index(um)) };
+    let lit = IncidentBeam { direction, indices: LINES.map(|nm| medium.material.index(nm)) };
     let crown = entry_sampling::crown_flags(beams.stone());
     integrate_exits(beams, &lit, medium.polarised, effort, |l| {
         let counts = is_up(l.up as f32) && crown[l.facet] > 0.0;

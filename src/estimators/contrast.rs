@@ -107,13 +107,13 @@ impl Estimator for Contrast<'_> {
     type Tally = ContrastTally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ContrastTally) {
-        let hues = pixel_cells::stream(seed, Purpose::ScoreHue, batch, points.start);
+        let start = points.start;
         let mut pairs = Pairs {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Contrast, batch, points.start),
+            stream: pixel_cells::stream(seed, Purpose::Contrast, batch, start),
             points: KroneckerPoints::new(seed, Purpose::Contrast, batch, points),
             tally,
         };
-        self.seen.trace(&mut pairs, hues);
+        self.seen.trace(&mut pairs, seed, batch, start);
     }
 }

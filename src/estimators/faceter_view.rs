@@ -1,4 +1,4 @@
-//! Faceters' view (ISO, COS, SC2): the face-up view by the rules that faceters compare designs with, GemRay's.
+//! Faceters' view (ISO, COS, SC2): the face-up view by GemRay's rules, by which faceters compare designs.
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
@@ -21,7 +21,7 @@ pub const GEMRAY_OBSERVER_DEG: f64 = 10.0;
 /// A facet faces the viewer if the cosine between its normal and his direction is above this.
 const MIN_FACING_COS: f64 = 1e-4;
 
-/// A lane with less than this share of its light is given up: nothing of what counts.
+/// A lane with less than this share of its light is given up: negligible.
 const STOP_POWER: f32 = 1e-7;
 
 /// The parallel view of one stone, D line or daylight for a stone that absorbs, unpolarised at every facet; what counts leaves through
@@ -139,10 +139,8 @@ impl RayClient for FaceterClient<'_> {
         let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
         let FaceterView { stone, light, sky, view_frame, outline, facing, table } = self.estimator;
         let (facet, point) = outline.sample(u);
-        let optics = light.line(hue);
-        let entry = stone.refract_into(facet, -view_frame.axis.as_vec3(), optics.index);
-        packet.load_refracted(lane, point, &entry, optics.index);
-        packet.absorption[lane] = optics.absorption;
+        let toward = -view_frame.axis.as_vec3();
+        let entry = light.line(hue).enter(packet, lane, stone, facet, point, toward);
         let mirrored = sky.mirrored(&entry) * facing[facet];
         let height = ObserverDome::mirror_height(&entry);
         for (power, weight) in self.power.iter_mut().zip(weights(height)) {

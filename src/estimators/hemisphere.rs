@@ -147,12 +147,9 @@ impl RayClient for HemisphereClient<'_> {
             let (facet, point) = entrance.sample([a, b]);
             let sky = warps::to_world(stone.normals[facet], warps::cosine_hemisphere([c as f32, d as f32]));
             if is_up(view_frame.sin_elevation(sky)) {
-                let optics = light.line(hue);
-                let entry = stone.refract_into(facet, -sky, optics.index);
+                let entry = light.line(hue).enter(packet, lane, stone, facet, point.as_vec3(), -sky);
                 self.tally.arrived += 1.0;
                 self.tally.glare += f64::from(entry.reflectance);
-                packet.load_refracted(lane, point.as_vec3(), &entry, optics.index);
-                packet.absorption[lane] = optics.absorption;
                 return true;
             }
         }

@@ -1,18 +1,21 @@
-//! Optics of a stone as estimators trace it, and why one cannot be lit.
+//! Optics of a stone as estimators trace it; errors of stones that cannot be lit.
 
 use crate::materials::Material;
+use crate::trace::{ConvexStone, Packet, Refraction};
+use glam::Vec3;
 
 /// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
 /// the point counts: as many as a picture's.
 pub(super) const LINES_PER_RAY: usize = 8;
 
-/// A ray with less than this share of its light is given up, unless less is asked for. Smaller costs
-/// time; larger shows: of a round brilliant's light 3e-5 are given up in all. In a stone that absorbs
-/// the share is of what has come out ([`crate::trace::lane_scheduler::RayClient::stops_by_emitted_power`]).
+/// A ray with less than this share of its light is given up, unless less is asked for. A smaller value
+/// costs time, a larger one accuracy: at this one 3e-5 of a round brilliant's light is given up. In a stone
+/// that absorbs the share is of what has come out
+/// ([`crate::trace::lane_scheduler::RayClient::stops_by_emitted_power`]).
 pub const STOP_POWER: f32 = 1e-4;
 
-/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is
-/// in millimetres: its size shows.
+/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is in
+/// millimetres: its size matters.
 #[derive(Debug, Clone, Copy)]
 pub struct TraceOptics<'a> {
     /// The material.
@@ -34,6 +37,24 @@ impl LineOptics {
     pub(super) fn absorbs(&self) -> bool {
         self.absorption > 0.0
     }
+
+    /// Loads a lane with what enters of unpolarised light of power 1; returns its refraction.
+    ///
+    /// - `facet`, `point` on it, `direction` (unit, from outside): trace frame
+    pub(super) fn enter(
+        self,
+        packet: &mut Packet,
+        lane: usize,
+        stone: &ConvexStone,
+        facet: usize,
+        point: Vec3,
+        direction: Vec3,
+    ) -> Refraction {
+        let entry = stone.refract_into(facet, direction, self.index);
+        packet.load_refracted(lane, point, &entry, self.index);
+        packet.absorption[lane] = self.absorption;
+        entry
+    }
 }
 
 impl TraceOptics<'_> {
@@ -42,11 +63,10 @@ impl TraceOptics<'_> {
         if self.material.is_clear() { 1 } else { LINES_PER_RAY as u64 }
     }
 
-    /// Optics of a stone with a trace unit of `unit` at `um` (µm); refuses indices at which the
-    /// formulas mean nothing.
-    pub(super) fn optics(&self, unit: f64, um: f64) -> Result<LineOptics, EstimatorError> {
-        let index = check_index(self.material.index(um))?;
-        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(um) * unit) as f32 })
+    /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices outside 1..=10.
+    pub(super) fn optics(&self, unit: f64, nm: f64) -> Result<LineOptics, EstimatorError> {
+        let index = check_index(self.material.index(nm))?;
+        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32 })
     }
 }
 
@@ -61,7 +81,7 @@ pub enum EstimatorError {
     Index(f64),
 }
 
-/// Refuses indices at which the formulas mean nothing.
+/// Refuses indices outside 1..=10.
 pub(super) fn check_index(n: f64) -> Result<f32, EstimatorError> {
     if (1.0..=10.0).contains(&n) { Ok(n as f32) } else { Err(EstimatorError::Index(n)) }
 }

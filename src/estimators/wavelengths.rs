@@ -27,7 +27,7 @@ impl Wavelengths {
             vec![medium.optics(unit, lines::D)?]
         } else {
             let middle = |class: usize| (class as f64 + 0.5) / CLASSES as f64;
-            let each = |class| medium.optics(unit, luminance::wavelength_um(middle(class)));
+            let each = |class| medium.optics(unit, luminance::wavelength_nm(middle(class)));
             (0..CLASSES).map(each).collect::<Result<_, _>>()?
         };
         Ok(Self { optics })

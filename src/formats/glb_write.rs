@@ -121,7 +121,7 @@ const EXTENSIONS: [&str; 3] = ["KHR_materials_ior", "KHR_materials_transmission"
 fn dielectric(material: &Material, thickness: f32) -> json::Material {
     /// Depth at which the colour is given, mm.
     const DEPTH_MM: f64 = 10.0;
-    let left = |nm: f32| (-DEPTH_MM * material.absorption_per_mm(f64::from(nm) / 1000.0)).exp() as f32;
+    let left = |nm: f32| (-DEPTH_MM * material.absorption_per_mm(f64::from(nm))).exp() as f32;
     let colour = match material.is_clear() {
         true => [1.0; 3],
         false => Illuminant::daylight().linear_srgb(left).to_array().map(|x| x.clamp(0.0, 1.0)),

@@ -13,8 +13,8 @@ pub(super) const ORDINARY: Dispersion = gems::through(1.583, Some(B_G));
 /// Index of the extraordinary ray.
 pub(super) const EXTRAORDINARY: Dispersion = gems::through(1.577, Some(B_G));
 
-/// The lines G and B, through which the law is drawn, µm.
-pub(super) const VALID_UM: (f64, f64) = gems::VALID_UM;
+/// The lines G and B, through which the law is drawn, nm.
+pub(super) const VALID_NM: (f64, f64) = gems::VALID_NM;
 
 /// Mass per volume, g/cm³.
 pub(super) const SPECIFIC_GRAVITY: f64 = 2.72;
@@ -26,7 +26,7 @@ pub static BERYL: Material = Material {
     source: "n_D and B–G of gemmological tables, as a Cauchy law through both",
     dispersion: ORDINARY,
     extraordinary: Some(EXTRAORDINARY),
-    valid_um: VALID_UM,
+    valid_nm: VALID_NM,
     specific_gravity: Some(SPECIFIC_GRAVITY),
     absorption: None,
 };

@@ -17,7 +17,7 @@ pub static CALCITE: Material = Material {
         c0: 0.35859695,
         terms: &[(0.82427830, 0.0106689543), (0.14429128, 120.0)],
     }),
-    valid_um: (0.204, 2.172),
+    valid_nm: (204.0, 2172.0),
     specific_gravity: Some(2.71),
     absorption: None,
 };

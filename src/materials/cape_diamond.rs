@@ -14,7 +14,7 @@ pub static CAPE_DIAMOND: Material = Material {
     source: "F. Peter, Z. Physik 15 (1923) 358, as C/Peter in refractiveindex.info (CC0)",
     dispersion: diamond::LAW,
     extraordinary: None,
-    valid_um: diamond::VALID_UM,
+    valid_nm: diamond::VALID_NM,
     specific_gravity: Some(diamond::SPECIFIC_GRAVITY),
     absorption: Some(Absorption {
         bands: &[

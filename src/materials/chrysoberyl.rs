@@ -14,7 +14,7 @@ pub static CHRYSOBERYL: Material = Material {
     source: "Walling et al. 1980, Loiko & Major 2016, as BeAl2O4/Walling-beta in refractiveindex.info (CC0)",
     dispersion: Dispersion::Resonance { a: 1.58829 + 1.42711, b: 1.42711 * 0.01113, c: 0.01113, d: -0.01696 },
     extraordinary: None,
-    valid_um: (0.25, 2.6),
+    valid_nm: (250.0, 2600.0),
     specific_gravity: Some(3.73),
     absorption: None,
 };

@@ -16,8 +16,8 @@ pub(super) const EXTRAORDINARY: Dispersion = Dispersion::Sellmeier {
     terms: &[(1.5039759, 0.0740288), (0.55069141, 0.1216529), (6.5927379, 20.072248)],
 };
 
-/// Where the law was measured, µm.
-pub(super) const VALID_UM: (f64, f64) = (0.20, 5.0);
+/// Where the law was measured, nm.
+pub(super) const VALID_NM: (f64, f64) = (200.0, 5000.0);
 
 /// Mass per volume, g/cm³.
 pub(super) const SPECIFIC_GRAVITY: f64 = 4.00;
@@ -29,7 +29,7 @@ pub static CORUNDUM: Material = Material {
     source: "Malitson & Dodge 1972, as Al2O3/Malitson-o and -e in refractiveindex.info (CC0)",
     dispersion: ORDINARY,
     extraordinary: Some(EXTRAORDINARY),
-    valid_um: VALID_UM,
+    valid_nm: VALID_NM,
     specific_gravity: Some(SPECIFIC_GRAVITY),
     absorption: None,
 };

@@ -14,7 +14,7 @@ pub static CUBIC_ZIRCONIA: Material = Material {
         terms: &[(1.347091, 0.062543), (2.117788, 0.166739), (9.452943, 24.32057)],
     },
     extraordinary: None,
-    valid_um: (0.361, 5.135),
+    valid_nm: (361.0, 5135.0),
     specific_gravity: Some(5.8),
     absorption: None,
 };

@@ -14,7 +14,7 @@ pub static EMERALD: Material = Material {
     source: "n_D and B–G of gemmological tables, as a Cauchy law through both",
     dispersion: beryl::ORDINARY,
     extraordinary: Some(beryl::EXTRAORDINARY),
-    valid_um: beryl::VALID_UM,
+    valid_nm: beryl::VALID_NM,
     specific_gravity: Some(beryl::SPECIFIC_GRAVITY),
     absorption: Some(Absorption {
         bands: &[

@@ -14,7 +14,7 @@ pub static FLUORITE: Material = Material {
         terms: &[(0.5675888, 0.050263605), (0.4710914, 0.1003909), (3.8484723, 34.649040)],
     },
     extraordinary: None,
-    valid_um: (0.23, 9.7),
+    valid_nm: (230.0, 9700.0),
     specific_gravity: Some(3.18),
     absorption: None,
 };

@@ -14,7 +14,7 @@ pub static FUSED_SILICA: Material = Material {
         terms: &[(0.6961663, 0.0684043), (0.4079426, 0.1162414), (0.8974794, 9.896161)],
     },
     extraordinary: None,
-    valid_um: (0.21, 6.7),
+    valid_nm: (210.0, 6700.0),
     specific_gravity: Some(2.20),
     absorption: None,
 };

@@ -7,8 +7,8 @@ use super::Material;
 use crate::optics::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
 
-/// The lines between which the laws are drawn, µm.
-pub(super) const VALID_UM: (f64, f64) = (0.4308, 0.6867);
+/// The lines between which the laws are drawn, nm.
+pub(super) const VALID_NM: (f64, f64) = (430.8, 686.7);
 
 /// How many there are.
 pub(super) const COUNT: usize = 33;
@@ -33,7 +33,7 @@ const fn gem(
             Some(n_e) => Some(through(n_e, b_g)),
             None => None,
         },
-        valid_um: VALID_UM,
+        valid_nm: VALID_NM,
         specific_gravity: Some(specific_gravity),
         absorption: None,
     }
@@ -42,8 +42,9 @@ const fn gem(
 /// Cauchy's law through an index at D and a difference between G and B; one index if that is not known.
 pub(super) const fn through(n_d: f64, b_g: Option<f64>) -> Dispersion {
     let Some(b_g) = b_g else { return Dispersion::Constant(n_d) };
-    let b = b_g / (1.0 / (lines::G * lines::G) - 1.0 / (lines::B * lines::B));
-    Dispersion::Cauchy { a: n_d - b / (lines::D * lines::D), b }
+    let (b_um, d_um, g_um) = (lines::B / 1000.0, lines::D / 1000.0, lines::G / 1000.0);
+    let b = b_g / (1.0 / (g_um * g_um) - 1.0 / (b_um * b_um));
+    Dispersion::Cauchy { a: n_d - b / (d_um * d_um), b }
 }
 
 /// The gems. Indices and B–G are checked in `tests/optics.rs`.

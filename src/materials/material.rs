@@ -19,8 +19,8 @@ pub struct Material {
     /// Index of the extraordinary ray across the axis of a uniaxial crystal, if it is known. Light
     /// is not traced with it yet.
     pub extraordinary: Option<Dispersion>,
-    /// Wavelengths for which the law was measured, µm.
-    pub valid_um: (f64, f64),
+    /// Wavelengths for which the law was measured, nm.
+    pub valid_nm: (f64, f64),
     /// Mass per volume, g/cm³; none for a bare index.
     pub specific_gravity: Option<f64>,
     /// What it absorbs; none if it is clear.
@@ -36,15 +36,15 @@ impl Material {
             source: "given",
             dispersion: Dispersion::Constant(n),
             extraordinary: None,
-            valid_um: (0.0, f64::INFINITY),
+            valid_nm: (0.0, f64::INFINITY),
             specific_gravity: None,
             absorption: None,
         }
     }
 
-    /// Refractive index at `um` (µm).
-    pub fn index(&self, um: f64) -> f64 {
-        self.dispersion.index(um)
+    /// Refractive index at `nm`.
+    pub fn index(&self, nm: f64) -> f64 {
+        self.dispersion.index(nm)
     }
 
     /// The index at the sodium D line, by which stones are known.
@@ -57,13 +57,12 @@ impl Material {
         self.index(lines::B) != self.index(lines::G)
     }
 
-    /// What is said of wavelengths (µm) at which the index is a guess; none if `from`..=`to` lies
+    /// What is said of wavelengths in nm at which the index is a guess; none if `from`..=`to` lies
     /// within what was measured.
     pub fn extrapolated(&self, from: f64, to: f64) -> Option<String> {
-        let (least, greatest) = self.valid_um;
-        let nm = |um: f64| format!("{:.0} nm", 1000.0 * um);
-        let below = (from < least).then(|| format!("below {}", nm(least)));
-        let above = (to > greatest).then(|| format!("above {}", nm(greatest)));
+        let (least, greatest) = self.valid_nm;
+        let below = (from < least).then(|| format!("below {least:.0} nm"));
+        let above = (to > greatest).then(|| format!("above {greatest:.0} nm"));
         let places: Vec<String> = below.into_iter().chain(above).collect();
         (!places.is_empty()).then(|| format!("index of {} extrapolated {}", self.name, places.join(" and ")))
     }
@@ -73,9 +72,9 @@ impl Material {
         self.absorption.is_none()
     }
 
-    /// Absorption coefficient at `um` (µm), natural logarithm, 1/mm.
-    pub fn absorption_per_mm(&self, um: f64) -> f64 {
-        self.absorption.map_or(0.0, |a| a.per_mm(um))
+    /// Absorption coefficient at `nm`, natural logarithm, 1/mm.
+    pub fn absorption_per_mm(&self, nm: f64) -> f64 {
+        self.absorption.map_or(0.0, |a| a.per_mm(nm))
     }
 
     /// Mass in carats of `volume_mm3`, if the material's weight is known.

@@ -14,7 +14,7 @@ pub static N_BK7: Material = Material {
         terms: &[(1.03961212, 0.00600069867), (0.231792344, 0.0200179144), (1.01046945, 103.560653)],
     },
     extraordinary: None,
-    valid_um: (0.30, 2.5),
+    valid_nm: (300.0, 2500.0),
     specific_gravity: Some(2.51),
     absorption: None,
 };

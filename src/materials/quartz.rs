@@ -18,7 +18,7 @@ const fn quartz(name: &'static str, about: &'static str) -> Material {
             c0: 0.28851804,
             terms: &[(1.09509924, 0.0102101864), (1.15662475, 100.0)],
         }),
-        valid_um: (0.198, 2.05),
+        valid_nm: (198.0, 2050.0),
         specific_gravity: Some(2.65),
         absorption: None,
     }

@@ -14,7 +14,7 @@ pub static SAPPHIRE: Material = Material {
     source: "Malitson & Dodge 1972, as Al2O3/Malitson-o and -e in refractiveindex.info (CC0)",
     dispersion: corundum::ORDINARY,
     extraordinary: Some(corundum::EXTRAORDINARY),
-    valid_um: corundum::VALID_UM,
+    valid_nm: corundum::VALID_NM,
     specific_gravity: Some(corundum::SPECIFIC_GRAVITY),
     absorption: Some(Absorption {
         bands: &[

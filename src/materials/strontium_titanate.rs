@@ -4,7 +4,7 @@ use super::Material;
 use crate::optics::dispersion::Dispersion;
 use std::borrow::Cow;
 
-/// Strontium titanate, cubic. Below 0.43 µm the law is extrapolated.
+/// Strontium titanate, cubic. Below 430 nm the law is extrapolated.
 pub static STRONTIUM_TITANATE: Material = Material {
     name: Cow::Borrowed("strontium-titanate"),
     about: "strontium titanate (fabulite)",
@@ -14,7 +14,7 @@ pub static STRONTIUM_TITANATE: Material = Material {
         terms: &[(3.042143, 0.1475902), (1.170065, 0.2953086), (30.83326, 33.18606)],
     },
     extraordinary: None,
-    valid_um: (0.43, 3.8),
+    valid_nm: (430.0, 3800.0),
     specific_gravity: Some(5.13),
     absorption: None,
 };

@@ -11,7 +11,7 @@ pub static TOPAZ: Material = Material {
     source: "n_D and B–G of gemmological tables (Wikipedia, Topaz; The Gemology Project), as a Cauchy law through both",
     dispersion: gems::through(1.612, Some(0.014)),
     extraordinary: None,
-    valid_um: gems::VALID_UM,
+    valid_nm: gems::VALID_NM,
     specific_gravity: Some(3.56),
     absorption: None,
 };

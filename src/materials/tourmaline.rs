@@ -13,7 +13,7 @@ pub static TOURMALINE: Material = Material {
     source: "n_D and B–G of gemmological tables, as a Cauchy law through both",
     dispersion: gems::through(1.644, Some(B_G)),
     extraordinary: Some(gems::through(1.624, Some(B_G))),
-    valid_um: gems::VALID_UM,
+    valid_nm: gems::VALID_NM,
     specific_gravity: Some(3.06),
     absorption: None,
 };

@@ -11,7 +11,7 @@ pub static YAG: Material = Material {
     source: "Zelmon et al. 1998, as Y3Al5O12/Zelmon in refractiveindex.info (CC0)",
     dispersion: Dispersion::SellmeierSquared { c0: 0.0, terms: &[(2.28200, 0.01185), (3.27644, 282.734)] },
     extraordinary: None,
-    valid_um: (0.40, 5.0),
+    valid_nm: (400.0, 5000.0),
     specific_gravity: Some(4.57),
     absorption: None,
 };

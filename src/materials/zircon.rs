@@ -13,7 +13,7 @@ pub static ZIRCON: Material = Material {
     source: "n_D and B–G of gemmological tables (W. Schumann 2009; indygem.com), as a Cauchy law through both",
     dispersion: gems::through(1.925, Some(B_G)),
     extraordinary: Some(gems::through(1.984, Some(B_G))),
-    valid_um: gems::VALID_UM,
+    valid_nm: gems::VALID_NM,
     specific_gravity: Some(4.70),
     absorption: None,
 };

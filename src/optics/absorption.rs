@@ -26,10 +26,10 @@ pub struct Absorption {
 }
 
 impl Band {
-    /// Absorption coefficient at `um` (µm), 1/mm.
-    pub fn per_mm(&self, um: f64) -> f64 {
+    /// Absorption coefficient at `nm`, natural logarithm, 1/mm.
+    pub fn per_mm(&self, nm: f64) -> f64 {
         const PER_CM: f64 = 1e7; // cm⁻¹ × nm
-        let off = PER_CM / (1e3 * um) - PER_CM / self.centre_nm;
+        let off = PER_CM / nm - PER_CM / self.centre_nm;
         let (red, blue) = self.half_widths_per_cm;
         let half_width = if off < 0.0 { red } else { blue };
         self.peak_per_mm * (-std::f64::consts::LN_2 * (off / half_width).powi(2)).exp()
@@ -37,10 +37,10 @@ impl Band {
 }
 
 impl Absorption {
-    /// Absorption coefficient at `um` (µm), natural logarithm, 1/mm: of light that goes `x` mm,
-    /// exp(−x × this) is left.
-    pub fn per_mm(&self, um: f64) -> f64 {
-        self.bands.iter().map(|band| band.per_mm(um)).sum()
+    /// Absorption coefficient at `nm`, natural logarithm, 1/mm: exp(−a x) of the light is left after
+    /// `x` mm.
+    pub fn per_mm(&self, nm: f64) -> f64 {
+        self.bands.iter().map(|band| band.per_mm(nm)).sum()
     }
 }
 
@@ -52,12 +52,12 @@ mod tests {
     fn a_band_has_its_height_and_its_width() {
         const BAND: Band =
             Band { name: "test", centre_nm: 500.0, half_widths_per_cm: (1000.0, 2000.0), peak_per_mm: 0.3 };
-        assert!((BAND.per_mm(0.5) - 0.3).abs() < 1e-15);
+        assert!((BAND.per_mm(500.0) - 0.3).abs() < 1e-15);
         // half a width from 20,000 cm⁻¹ on either side
         for wavenumber in [19_000.0, 22_000.0] {
-            assert!((BAND.per_mm(1e4 / wavenumber) - 0.15).abs() < 1e-12);
+            assert!((BAND.per_mm(1e7 / wavenumber) - 0.15).abs() < 1e-12);
         }
         let both = Absorption { bands: &[BAND, BAND], about: "", source: "" };
-        assert!((both.per_mm(0.5) - 0.6).abs() < 1e-15);
+        assert!((both.per_mm(500.0) - 0.6).abs() < 1e-15);
     }
 }

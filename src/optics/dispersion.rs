@@ -1,31 +1,32 @@
 //! Refractive index as a function of wavelength.
 
-/// The Fraunhofer lines used for scores, vacuum-to-air differences ignored, wavelengths in µm.
+/// The Fraunhofer lines used for scores, vacuum-to-air differences ignored, wavelengths in nm.
 pub mod lines {
     /// B, oxygen.
-    pub const B: f64 = 0.686719;
+    pub const B: f64 = 686.719;
     /// C, hydrogen α.
-    pub const C: f64 = 0.656281;
+    pub const C: f64 = 656.281;
     /// D, sodium: the line that a stone's index is quoted for.
-    pub const D: f64 = 0.589294;
+    pub const D: f64 = 589.294;
     /// d, helium.
-    pub const D_HELIUM: f64 = 0.587562;
+    pub const D_HELIUM: f64 = 587.562;
     /// e, mercury.
-    pub const E: f64 = 0.546073;
+    pub const E: f64 = 546.073;
     /// F, hydrogen β.
-    pub const F: f64 = 0.486134;
+    pub const F: f64 = 486.134;
     /// G, iron.
-    pub const G: f64 = 0.43079;
+    pub const G: f64 = 430.79;
     /// h, mercury's violet line.
-    pub const H: f64 = 0.404656;
+    pub const H: f64 = 404.656;
     /// The six lines B C D e F G over which fire is averaged.
     pub const SIX: [f64; 6] = [B, C, D, E, F, G];
 }
 
-/// The wavelengths of a picture, µm: those of [`crate::color::cie::RANGE_NM`].
-pub const VISIBLE_UM: (f64, f64) = (0.380, 0.730);
+/// The wavelengths of a picture, nm: those of [`crate::color::cie::RANGE_NM`].
+pub const VISIBLE_NM: (f64, f64) = (380.0, 730.0);
 
-/// A dispersion law; λ in µm, result dimensionless.
+/// A dispersion law: refractive index as a function of wavelength. Coefficients are those of the
+/// published formulas, in which λ is in µm; [`Dispersion::index`] takes nm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Dispersion {
     /// The same index at every wavelength.
@@ -39,14 +40,15 @@ pub enum Dispersion {
     Cauchy { a: f64, b: f64 },
     /// n² = A + B/(λ² − C) + D λ².
     Resonance { a: f64, b: f64, c: f64, d: f64 },
-    /// One index from each wavelength on: (up to λ, n), the last entry for the rest. How the
-    /// renderers of three colours treat dispersion.
+    /// A step function: pairs (greatest wavelength in nm, n) in rising order, the last for all longer
+    /// wavelengths. The dispersion of renderers of three colours.
     Steps(&'static [(f64, f64)]),
 }
 
 impl Dispersion {
-    /// Refractive index at the wavelength `um` (µm).
-    pub fn index(&self, um: f64) -> f64 {
+    /// Refractive index at the wavelength `nm`.
+    pub fn index(&self, nm: f64) -> f64 {
+        let um = nm / 1000.0;
         let l2 = um * um;
         match *self {
             Self::Constant(n) => n,
@@ -61,7 +63,7 @@ impl Dispersion {
             Self::Cauchy { a, b } => a + b / l2,
             Self::Resonance { a, b, c, d } => (a + b / (l2 - c) + d * l2).sqrt(),
             Self::Steps(steps) => {
-                steps.iter().find(|(up_to, _)| um <= *up_to).or(steps.last()).map_or(1.0, |(_, n)| *n)
+                steps.iter().find(|(up_to, _)| nm <= *up_to).or(steps.last()).map_or(1.0, |(_, n)| *n)
             }
         }
     }

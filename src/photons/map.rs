@@ -2,12 +2,12 @@
 //!
 //! A map for each side of each surface: photons of two walls, or of the two sides of one, never mix.
 
-use super::mirror_images::PlateEdges;
+use super::mirror_images::QuadEdges;
 use super::surface_cells::{self, SurfaceCell};
 use super::{BandSpectrum, PhotonSet, StoredPhoton};
 use crate::color::cie::BANDS;
 use crate::scene::intersection::SurfacePoint;
-use crate::scene::surface::{Plate, Shape};
+use crate::scene::surface::{Quad, Shape};
 use crate::scene::{Scene, Surface};
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -25,8 +25,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// that the sum needs no integral over edges or curved meshes.
 ///
 /// E_c = Σ_i Φ_i K(d_ic/r_i) / Σ_c' A_c' K(d_ic'/r_i), K(x) = max(0, 1 − x²), r_i the distance within
-/// which about `nearest` photons lie. Source: sample-point density estimation, B. Silverman, *Density
-/// Estimation*, 1986, §5.3. Checked in `tests/estimate.rs`.
+/// which about 4/3 `nearest` photons lie: under K these are as noisy as `nearest` photons that count alike, for
+/// π r² ∫K² = 4/3 (∫K)². Source: sample-point density estimation, B. Silverman, *Density Estimation*, 1986,
+/// §5.3. Checked in `tests/estimate.rs`.
 pub struct PhotonMap {
     /// Front and back of each surface.
     surface_maps: Vec<[Option<SurfaceMap>; 2]>,
@@ -55,6 +56,8 @@ const LONGEST: f32 = 1.2;
 const PILOTS: usize = 32;
 /// With fewer photons on it, each spreads over a whole side.
 const FEW: usize = 4;
+/// A radius that a sample of the photons gave is corrected by up to this factor.
+const MOST_CORRECTION: f32 = 1.3;
 /// A smooth look-up interpolates between the cells within so many of the longest edges.
 const AROUND: f32 = 1.0;
 /// Places among which one of the right normal is looked for, if the nearest has another.
@@ -120,6 +123,7 @@ impl SurfaceMap {
     /// None where no photon is.
     fn new(surface: &Surface, front: bool, photons: &[&StoredPhoton], nearest: usize) -> Option<SurfaceMap> {
         let nearest = nearest.max(FEW);
+        let nearest = nearest.saturating_add(nearest / 3); // as noisy under K as `nearest` counted alike
         let radii = GatherRadii::new(surface, photons, nearest)?;
         let edge = (EDGE * (ENOUGH_FOR_EDGE / nearest as f32).sqrt().max(1.0)).min(LONGEST);
         let mut cells = surface_cells::divide(surface, edge, &|place| radii.radius(place));
@@ -133,10 +137,11 @@ impl SurfaceMap {
             photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
         homes.par_sort_by_key(|(home, _)| *home); // stable
         let shares = CellPowers::new(photons, sheet.cells.len());
-        let edges = plate(surface).and_then(PlateEdges::new);
-        homes
-            .par_chunk_by(|a, b| a.0 == b.0)
-            .for_each(|of_one| sheet.share_out(of_one, edges.as_ref(), &shares));
+        let edges = quad(surface).and_then(QuadEdges::new);
+        let mut counts = vec![0.0; sheet.cells.len()];
+        homes.iter().for_each(|(home, _)| counts[*home as usize] += 1.0);
+        let spread = Spread { edges, counts, nearest: nearest as f32, shares: &shares };
+        homes.par_chunk_by(|a, b| a.0 == b.0).for_each(|of_one| sheet.share_out(of_one, &spread));
         sheet.irradiance = shares.over_areas(&sheet.cells);
         Some(sheet)
     }
@@ -157,21 +162,22 @@ impl SurfaceMap {
     }
 
     /// Shares out the power of photons that lie in the same cell among the cells around.
-    ///
-    /// - `edges`: of the surface, if it is a plate
-    fn share_out(&self, photons: &[(u32, &StoredPhoton)], edges: Option<&PlateEdges>, shares: &CellPowers) {
+    fn share_out(&self, photons: &[(u32, &StoredPhoton)], spread: &Spread) {
         let Some((home, _)) = photons.first() else { return };
         let home = *home as usize;
         let SurfaceCell { point, radius, .. } = self.cells[home];
         let apart = photons.iter().map(|(_, p)| p.point.distance(point)).fold(0.0, f32::max);
         let mut around = vec![home];
-        let reach2 = (radius + apart).powi(2);
+        let reach2 = (MOST_CORRECTION * radius + apart).powi(2);
         let middle = point.to_array();
         self.places.query(&middle).within::<SquaredEuclidean<f32>>(reach2).unsorted().visit(|f| {
             if f.item as usize != home {
                 around.push(f.item as usize);
             }
         });
+        let radius = self.corrected_radius(home, &around, spread);
+        around.retain(|i| self.cells[*i].point.distance(point) <= radius + apart);
+        let edges = spread.edges.as_ref();
         let mut weights = vec![0.0; around.len()];
         let mut sums = vec![[0.0; BANDS]; around.len()];
         for (_, photon) in photons {
@@ -180,8 +186,7 @@ impl SurfaceMap {
                 edges.map_or(([photon.point; 9], 1), |edges| edges.images(photon.point, radius));
             for (weight, i) in weights.iter_mut().zip(&around) {
                 let cell = &self.cells[*i];
-                let of_one = |at: &Vec3| (1.0 - at.distance_squared(cell.point) / (radius * radius)).max(0.0);
-                let kernel: f32 = images[..count].iter().map(of_one).sum();
+                let kernel: f32 = images[..count].iter().map(|at| kernel(*at, cell.point, radius)).sum();
                 *weight = cell.area * kernel * cell.normal.dot(normal).max(0.0);
             }
             let mut total: f32 = weights.iter().sum();
@@ -194,22 +199,60 @@ impl SurfaceMap {
                 (0..BANDS).for_each(|b| sum[b] += power[b] * weight);
             }
         }
-        around.iter().zip(&sums).for_each(|(cell, power)| shares.add(*cell, power));
+        around.iter().zip(&sums).for_each(|(cell, power)| spread.shares.add(*cell, power));
+    }
+
+    /// The radius over which the photons of a cell are spread: by all photons around it, of which the radius
+    /// of the cell counts a sample. Where a sample errs the spread would err with it, and as the errors of
+    /// neighbours differ, light would move from one to the other.
+    ///
+    /// - `around`: the cells within a little more than its radius, itself among them
+    fn corrected_radius(&self, home: usize, around: &[usize], spread: &Spread) -> f32 {
+        let SurfaceCell { point, radius, normal, .. } = self.cells[home];
+        let (images, count) =
+            spread.edges.as_ref().map_or(([point; 9], 1), |edges| edges.images(point, radius));
+        let found: f32 = around
+            .iter()
+            .map(|i| {
+                let cell = &self.cells[*i];
+                let kernel: f32 = images[..count].iter().map(|at| kernel(*at, cell.point, radius)).sum();
+                spread.counts[*i] * kernel * cell.normal.dot(normal).max(0.0)
+            })
+            .sum();
+        // the kernel counts half of the photons of a disc
+        let wanted = 0.5 * spread.nearest / found.max(f32::MIN_POSITIVE);
+        radius * wanted.sqrt().clamp(1.0 / MOST_CORRECTION, MOST_CORRECTION)
     }
 }
 
-/// The surface as a plate, if it is one.
-fn plate(surface: &Surface) -> Option<&Plate> {
+/// K of the distance of two places over the radius.
+fn kernel(a: Vec3, b: Vec3, radius: f32) -> f32 {
+    (1.0 - a.distance_squared(b) / (radius * radius)).max(0.0)
+}
+
+/// How the photons of a side are spread.
+struct Spread<'a> {
+    /// Of the surface, if it is a quad.
+    edges: Option<QuadEdges>,
+    /// Photons in each cell.
+    counts: Vec<f32>,
+    /// Photons within the radius over which one is spread.
+    nearest: f32,
+    shares: &'a CellPowers,
+}
+
+/// The surface as a quad, if it is one.
+fn quad(surface: &Surface) -> Option<&Quad> {
     match &surface.shape {
-        Shape::Plate(plate) => Some(plate),
+        Shape::Quad(quad) => Some(quad),
         Shape::Mesh(_) => None,
     }
 }
 
 /// Over how wide a disc the photons of a side are spread.
 struct GatherRadii<'a> {
-    /// The surface, if it is a plate.
-    plate: Option<&'a Plate>,
+    /// The surface, if it is a quad.
+    quad: Option<&'a Quad>,
     /// Every n-th photon in the order of emission, n the same for the whole side.
     pilots: Tree,
     /// How many of them are counted; none if each photon is spread over the whole side.
@@ -228,7 +271,7 @@ impl<'a> GatherRadii<'a> {
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
         let count = PILOTS.min(points.len() / 2);
         Some(GatherRadii {
-            plate: plate(surface),
+            quad: quad(surface),
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
             factor: (nearest as f32 / (count * every) as f32).sqrt(),
@@ -242,23 +285,23 @@ impl<'a> GatherRadii<'a> {
         let found = self.pilots.query(&at).nearest_n::<SquaredEuclidean<f32>>(counted).unsorted().execute();
         let distance = found.iter().map(|f| f.distance).fold(0.0, f32::max).sqrt();
         // at an edge a wider disc has as many photons, of which a part lies beyond
-        let share = self.plate.map_or(1.0, |plate| share_of_disc(plate, place, distance));
+        let share = self.quad.map_or(1.0, |quad| share_of_disc(quad, place, distance));
         (self.factor * distance * share.sqrt()).max(1e-6 * self.diagonal).min(self.diagonal)
     }
 }
 
-/// Share of a disc about a place of a plate that lies on the plate, by a spiral of points of equal area.
-fn share_of_disc(plate: &Plate, place: Vec3, radius: f32) -> f32 {
+/// Share of a disc about a place of a quad that lies on the quad, by a spiral of points of equal area.
+fn share_of_disc(quad: &Quad, place: Vec3, radius: f32) -> f32 {
     const POINTS: usize = 32;
-    let u = plate.u.normalize();
-    let v = plate.normal().cross(u);
+    let u = quad.u.normalize();
+    let v = quad.normal().cross(u);
     let tips = [u, -u, v, -v];
-    if tips.iter().all(|tip| plate.contains(place + *tip * radius)) {
+    if tips.iter().all(|tip| quad.contains(place + *tip * radius)) {
         return 1.0; // a disc whose four tips lie on a rectangle lies on it whole
     }
     let inside = |i: &usize| {
         let (r, phi) = (radius * ((*i as f32 + 0.5) / POINTS as f32).sqrt(), *i as f32 * 2.399_963); // golden angle
-        plate.contains(place + u * (r * phi.cos()) + v * (r * phi.sin()))
+        quad.contains(place + u * (r * phi.cos()) + v * (r * phi.sin()))
     };
     (0..POINTS).filter(inside).count().max(1) as f32 / POINTS as f32
 }

@@ -65,7 +65,7 @@ const RUN: usize = 1024;
 const PHOTONS_PER_CELL: f32 = 0.1;
 /// Halvings of a patch, at most: a millionth of its edge in both directions.
 const DEEPEST: u32 = 40;
-/// Halvings by which a plate is divided in parallel.
+/// Halvings by which a quad is divided in parallel.
 const PARALLEL: u32 = 6;
 
 /// Divides the front of a surface until no cell is longer than `share` of the radius at its middle.
@@ -75,9 +75,9 @@ const PARALLEL: u32 = 6;
 ///   no small spot is missed
 pub fn divide(surface: &Surface, share: f32, radius: &(impl Fn(Vec3) -> f32 + Sync)) -> Vec<SurfaceCell> {
     match &surface.shape {
-        Shape::Plate(plate) => {
-            let whole = Patch { corner: plate.corner, u: plate.u, v: plate.v, triangle: false };
-            halve(whole, plate.normal(), share, radius, 0)
+        Shape::Quad(quad) => {
+            let whole = Patch { corner: quad.corner, u: quad.u, v: quad.v, triangle: false };
+            halve(whole, quad.normal(), share, radius, 0)
         }
         Shape::Mesh(mesh) => {
             let triangles: Vec<[Vec3; 3]> = mesh.triangles().collect();

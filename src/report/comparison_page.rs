@@ -1,8 +1,11 @@
 //! Comparison page: scores, differences, pictures and tilt curves beside each other.
 
 use super::diagram::projection::{self, DiagramView};
-use super::page::{cell, data_uri, escaped, estimate_html, head, scope_figure, tilt_section};
-use super::stone_report::{ReportError, ReportRequest, table_picture};
+use super::estimates::{estimate_html, estimate_text};
+use super::html::{data_uri, escaped};
+use super::page::{head, scope_figure, tilt_section};
+use super::request::ReportRequest;
+use super::stone_report::{ReportError, table_picture};
 use super::{tilt_curves, viewer_images};
 use crate::geometry::{Polyhedron, SolidError};
 use crate::scoring::comparison::Comparison;
@@ -141,13 +144,13 @@ fn table(names: &[String], comparison: &Comparison, plan: &ScoreSettings, out: &
             metric.name,
             better
         );
-        let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", cell(value, ""));
+        let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", estimate_html(value, ""));
         comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
         for (other, differences) in comparison.differences.iter().enumerate() {
             let d = differences[m];
             let differs = comparison.is_significant(other, m) == Some(true);
             let text = cell(d, if differs { "value differs" } else { "value same" });
-            let positive = d.is_some_and(|e| e.value > 0.0 && estimate_html(e).0.parse() != Ok(0.0));
+            let positive = d.is_some_and(|e| e.value > 0.0 && estimate_text(e).0.parse() != Ok(0.0));
             let sign = if positive { "<b>+" } else { "<b>" };
             *out += &text.replacen("<b>", sign, 1);
         }

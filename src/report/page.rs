@@ -10,7 +10,6 @@ use super::references::STONES;
 use super::tilt_curves::TiltPlot;
 use super::viewer_images::ViewerPicture;
 use crate::design::proportions::Proportions;
-use crate::sampling::stats::Estimate;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
@@ -107,35 +106,6 @@ pub(super) fn tilt_section(plots: &[TiltPlot]) -> String {
         );
     }
     out + "</div>\n</section>\n"
-}
-
-/// A number with two digits of its error, and the error; a small number in powers of ten. What is nothing
-/// in the digits shown has no sign.
-pub fn estimate_html(e: Estimate) -> (String, Option<String>) {
-    let unsigned = |text: String| {
-        let nothing = text.parse::<f64>() == Ok(0.0);
-        if nothing { text.trim_start_matches('-').to_owned() } else { text }
-    };
-    if e.error <= 0.0 || !e.error.is_finite() {
-        return (unsigned(format!("{:.4}", e.value)), None);
-    }
-    let digits = (1.0 - e.error.log10().floor()).max(0.0) as usize;
-    if digits > 6 {
-        return (unsigned(format!("{:.2e}", e.value)), Some(format!("{:.0e}", e.error)));
-    }
-    (unsigned(format!("{:.digits$}", e.value)), Some(format!("{:.digits$}", e.error)))
-}
-
-/// A score with its error as HTML.
-pub(super) fn cell(value: Option<Estimate>, unit: &str) -> String {
-    let minus = |text: String| text.replace('-', "−");
-    match value.map(estimate_html).map(|(value, error)| (minus(value), error.map(minus))) {
-        Some((value, Some(error))) => {
-            format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>")
-        }
-        Some((value, None)) => format!("<b>{value}</b>{unit}"),
-        None => "–".into(),
-    }
 }
 
 impl Page<'_> {
@@ -281,15 +251,6 @@ impl Page<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_show_two_digits_of_their_error() {
-        let shown = |value, error| estimate_html(Estimate { value, error });
-        assert_eq!(shown(0.283_21, 0.000_43), ("0.28321".into(), Some("0.00043".into())));
-        assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
-        assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));
-        assert_eq!(shown(0.25, 0.0), ("0.2500".into(), None));
-    }
 
     /// A stone that absorbs is drawn without its colour, and its pictures say so.
     #[test]

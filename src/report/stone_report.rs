@@ -2,15 +2,15 @@
 
 use super::page::{Page, Section};
 use super::references::References;
+use super::request::ReportRequest;
 use super::{chart, diagram, sections, tilt_curves, viewer_images};
 use crate::batch::table;
 use crate::batch::table::TableError;
 use crate::design::proportions::{self, Proportions};
-use crate::design::{CutError, Design, families};
+use crate::design::{CutError, families};
 use crate::formats::{self, FormatError};
 use crate::geometry::SolidError;
 use crate::integrators::{self, PhotonMaps, Tone, image_io};
-use crate::materials::Material;
 use crate::materials::weight::Weight;
 use crate::photons::{self, PhotonSets};
 use crate::scene::{SceneError, SceneOverrides, preset};
@@ -27,21 +27,6 @@ const PHOTONS: (usize, usize) = (100_000, 500);
 
 /// Pixels across and down of the pictures through scopes.
 const SCOPE_SIDE: u32 = 480;
-
-/// What to report on.
-#[derive(Debug, Clone)]
-pub struct ReportRequest {
-    /// The stone as it was asked for: its name in the table of scores.
-    pub stone: String,
-    /// The design, in millimetres.
-    pub design: Design,
-    /// What it is made of.
-    pub material: Material,
-    /// Seed of the random streams.
-    pub seed: u64,
-    /// The command as typed, for the page.
-    pub command: String,
-}
 
 /// A report that could not be made.
 #[derive(Debug, thiserror::Error)]

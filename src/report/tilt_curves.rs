@@ -1,7 +1,7 @@
 //! Tilt curves: scores against the tilt of the stone.
 
 use super::plot::{Curves, PlotCurve};
-use super::stone_report::ReportRequest;
+use super::request::ReportRequest;
 use crate::geometry::Polyhedron;
 use crate::metrics::Metric;
 use crate::scoring::score::{ScoreInput, ScoreSettings, Target, Tilt, score};

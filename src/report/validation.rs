@@ -1,6 +1,7 @@
 //! The page of a validation: what was expected, what came out, where the two are apart.
 
-use super::page::{escaped, estimate_html};
+use super::estimates::estimate_text;
+use super::html::escaped;
 use super::plot::{Curves, Dot, PlotCurve};
 use crate::batch::validate::{Axes, CheckReport, ERRORS, Expected, Figure, FigureOutcome, Verdict};
 use crate::sampling::stats::Estimate;
@@ -24,7 +25,7 @@ pub fn written(ours: Estimate, tolerance: Option<f64>) -> String {
     if ours.error > 0.0 && ours.error < 1e-5 && ours.value.abs() > 1e-4 {
         return format!("{:.1$} ± {2:.0e}", ours.value, digits(ours.error), ours.error);
     }
-    match (estimate_html(ours), tolerance) {
+    match (estimate_text(ours), tolerance) {
         ((value, Some(error)), _) => format!("{value} ± {error}"),
         (_, Some(tolerance)) if tolerance > 0.0 => {
             let text = format!("{:.1$}", ours.value, digits(tolerance));

@@ -30,7 +30,7 @@ pub struct SurfacePoint {
     pub front: bool,
 }
 
-/// What a ray has just left. A stone, a light and a plate are convex and cannot be met again.
+/// What a ray has just left. A stone, a light and a quad are convex and cannot be met again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Past {
     /// None of these.
@@ -76,7 +76,7 @@ impl Scene {
         self.nearest_intersection(origin, direction, past, false)
     }
 
-    /// The first thing that the camera sees along a ray, straight or by mirrors: backs of plates and of
+    /// The first thing that the camera sees along a ray, straight or by mirrors: backs of quads and of
     /// lamps are cut away, so that it can look into a room from outside.
     pub fn intersect_seen(&self, origin: Vec3, direction: Vec3, past: Past) -> Intersection {
         self.nearest_intersection(origin, direction, past, true)
@@ -94,7 +94,7 @@ impl Scene {
         for (i, surface) in self.surfaces.iter().enumerate() {
             let Some(near) = self.min_distance(i, origin, past) else { continue };
             let Some(hit) = surface.intersect(origin, direction, near) else { continue };
-            let hidden = cut_away && !hit.front && matches!(surface.shape, Shape::Plate(_));
+            let hidden = cut_away && !hit.front && matches!(surface.shape, Shape::Quad(_));
             if hit.distance < nearest && !hidden {
                 nearest = hit.distance;
                 let point = origin + direction * hit.distance;
@@ -134,7 +134,7 @@ impl Scene {
     /// The distance from which on a ray can meet a surface; none if it cannot.
     fn min_distance(&self, surface: usize, origin: Vec3, past: Past) -> Option<f32> {
         match past {
-            Past::Surface(s) if s == surface && matches!(self.surfaces[s].shape, Shape::Plate(_)) => None,
+            Past::Surface(s) if s == surface && matches!(self.surfaces[s].shape, Shape::Quad(_)) => None,
             Past::Light(_) => Some(MIN_DISTANCE_SHARE * origin.abs().max_element()),
             _ => Some(0.0),
         }

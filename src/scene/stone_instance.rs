@@ -123,12 +123,12 @@ impl PlacedStone {
 
     /// Index of refraction at `nm`.
     pub fn index(&self, nm: f32) -> f32 {
-        self.material.index(f64::from(nm) / 1000.0) as f32
+        self.material.index(f64::from(nm)) as f32
     }
 
     /// Absorption coefficient at `nm`, per trace unit: the stone's own size in millimetres counts,
     /// not how large it is shown.
     pub fn absorption(&self, nm: f32) -> f32 {
-        (self.material.absorption_per_mm(f64::from(nm) / 1000.0) * self.stone.unit) as f32
+        (self.material.absorption_per_mm(f64::from(nm)) * self.stone.unit) as f32
     }
 }

@@ -52,7 +52,7 @@ pub enum Bsdf {
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A parallelogram. For light it is there from both sides; the camera looks through its back.
-    Plate(Plate),
+    Quad(Quad),
     /// Triangles, there from both sides for light and camera.
     Mesh(Arc<SceneMesh>),
 }
@@ -71,8 +71,8 @@ pub struct Surface {
 
 impl Surface {
     /// A diffuse parallelogram; `u × v` points to its front.
-    pub fn plate(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
-        let shape = Shape::Plate(Plate { corner, u, v });
+    pub fn quad(corner: Vec3, u: Vec3, v: Vec3, reflectance: Reflectance) -> Surface {
+        let shape = Shape::Quad(Quad { corner, u, v });
         Surface { shape, finish: Bsdf::Diffuse(reflectance), backdrop: true }
     }
 
@@ -81,7 +81,7 @@ impl Surface {
     /// - `near`: intersections no farther than this do not count
     pub fn intersect(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<SurfaceHit> {
         match &self.shape {
-            Shape::Plate(plate) => plate.intersect(origin, direction).filter(|hit| hit.distance > near),
+            Shape::Quad(quad) => quad.intersect(origin, direction).filter(|hit| hit.distance > near),
             Shape::Mesh(mesh) => mesh.intersect(origin, direction, near),
         }
     }
@@ -90,7 +90,7 @@ impl Surface {
     /// that rounding does not put it on the other side.
     pub fn start(&self, point: Vec3, normal: Vec3) -> Vec3 {
         match &self.shape {
-            Shape::Plate(_) => point,
+            Shape::Quad(_) => point,
             Shape::Mesh(mesh) => point + normal * mesh.offset(point),
         }
     }
@@ -100,7 +100,7 @@ impl Surface {
         let point = |p: Vec3| about + turn * (p - about) + by;
         let shape = match &self.shape {
             Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.moved(&point))),
-            Shape::Plate(p) => Shape::Plate(Plate { corner: point(p.corner), u: turn * p.u, v: turn * p.v }),
+            Shape::Quad(q) => Shape::Quad(Quad { corner: point(q.corner), u: turn * q.u, v: turn * q.v }),
         };
         Surface { shape, ..self.clone() }
     }
@@ -109,7 +109,7 @@ impl Surface {
     pub fn lowest(&self) -> f32 {
         match &self.shape {
             Shape::Mesh(mesh) => mesh.lowest(),
-            Shape::Plate(_) => self.bounds().0.z,
+            Shape::Quad(_) => self.bounds().0.z,
         }
     }
 
@@ -117,8 +117,8 @@ impl Surface {
     pub fn bounds(&self) -> (Vec3, Vec3) {
         match &self.shape {
             Shape::Mesh(mesh) => mesh.bounds(),
-            Shape::Plate(p) => {
-                let corners = [p.corner, p.corner + p.u, p.corner + p.v, p.corner + p.u + p.v];
+            Shape::Quad(q) => {
+                let corners = [q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v];
                 corners.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |b, c| (b.0.min(*c), b.1.max(*c)))
             }
         }
@@ -127,7 +127,7 @@ impl Surface {
 
 /// A parallelogram.
 #[derive(Debug, Clone, Copy)]
-pub struct Plate {
+pub struct Quad {
     /// A corner.
     pub corner: Vec3,
     /// One edge from the corner.
@@ -136,7 +136,7 @@ pub struct Plate {
     pub v: Vec3,
 }
 
-impl Plate {
+impl Quad {
     /// Unit normal of the front.
     pub fn normal(&self) -> Vec3 {
         self.u.cross(self.v).normalize()
@@ -183,8 +183,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plate_is_met_from_both_sides() {
-        let floor = Plate { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0 };
+    fn a_quad_is_met_from_both_sides() {
+        let floor = Quad { corner: Vec3::new(-1.0, -1.0, 0.0), u: Vec3::X * 2.0, v: Vec3::Y * 2.0 };
         assert_eq!(floor.normal(), Vec3::Z);
         let above = floor.intersect(Vec3::new(0.5, 0.0, 3.0), -Vec3::Z);
         assert_eq!(above, Some(SurfaceHit { distance: 3.0, normal: Vec3::Z, front: true }));

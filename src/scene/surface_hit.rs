@@ -9,7 +9,7 @@ pub struct SurfaceHit {
     pub distance: f32,
     /// Unit normal on the ray's side.
     pub normal: Vec3,
-    /// Whether that side is the front: of a plate the one that u × v points to, of a triangle the one
+    /// Whether that side is the front: of a quad the one that u × v points to, of a triangle the one
     /// from which its corners run counterclockwise.
     pub front: bool,
 }

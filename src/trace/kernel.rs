@@ -2,19 +2,47 @@
 //!
 //! Plain Rust over arrays as wide as a register, as in `intersect.rs`.
 
-// the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
+// loops over the lanes of a dozen arrays in lockstep: with an index they vectorise
 #![allow(clippy::needless_range_loop)]
 
+use super::dispatch::Vectorised;
 use super::intersect::{self, mul_add};
 use super::packet::{Interaction, LANES, NextFacets, Packet};
 use super::stone::ConvexStone;
 
-/// Advances every lane to its next facet, splits its power there and reflects it.
+/// One interaction of a packet, with the stone's instruction set: advances every lane to its next facet,
+/// splits its power there and reflects it.
+pub(super) fn interact(stone: &ConvexStone, packet: &mut Packet, out: &mut Interaction) {
+    stone.isa.run(Interact { stone, packet, out });
+}
+
+struct Interact<'a> {
+    stone: &'a ConvexStone,
+    packet: &'a mut Packet,
+    out: &'a mut Interaction,
+}
+
+impl Vectorised for Interact<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool, const W: usize, const B: usize>(self) {
+        let Interact { stone, packet, out } = self;
+        match (packet.polarised, packet.absorbing) {
+            (false, false) => interact_lanes::<FUSED, W, B, false, false>(stone, packet, out),
+            (false, true) => interact_lanes::<FUSED, W, B, false, true>(stone, packet, out),
+            (true, false) => interact_lanes::<FUSED, W, B, true, false>(stone, packet, out),
+            (true, true) => interact_lanes::<FUSED, W, B, true, true>(stone, packet, out),
+        }
+    }
+}
+
+/// [`interact`] for one kind of light.
 ///
-/// - `W`, `B`: as [`intersect::next_facets`] has them; `POLARISED`: whether the Stokes vector is followed;
-///   `ABSORBING`: whether the stone takes power on the way
+/// - `FUSED`, `W`, `B`: as [`Vectorised::run`] has them; `POLARISED`: whether the Stokes vector is
+///   followed; `ABSORBING`: whether the stone absorbs
 #[inline(always)]
-pub(super) fn interact<
+fn interact_lanes<
     const FUSED: bool,
     const W: usize,
     const B: usize,
@@ -79,7 +107,7 @@ pub(super) fn interact<
         if POLARISED {
             let half = 0.5 * (r_s - r_p);
             let turned = about_incidence(p, l, [nx, ny, nz]);
-            // within its bounds also where a lane at rest still has the q of its last light
+            // within its bounds also where an idle lane still has its last q
             kept = (kept + half * turned.q).max(0.0).min(p.power[l]);
             p.q[l] = half * p.power[l] + mean * turned.q;
             // r_s r_p*: real where light passes, of size 1 at total reflection
@@ -131,7 +159,7 @@ struct RotatedStokes {
     axis: [f32; 3],
 }
 
-/// The twin of [`crate::optics::stokes::Stokes::about_incidence`] for one lane.
+/// [`crate::optics::stokes::Stokes::about_incidence`] for one lane, in `f32`.
 #[inline(always)]
 fn about_incidence(p: &Packet, l: usize, [nx, ny, nz]: [f32; 3]) -> RotatedStokes {
     let (dx, dy, dz) = (p.dx[l], p.dy[l], p.dz[l]);

@@ -1,8 +1,8 @@
 //! A convex stone prepared for tracing.
 
-use super::dispatch::{self, Isa};
+use super::dispatch::Isa;
 use super::girdle::{GirdleFacets, PlaneBlock16};
-use super::packet::{NextFacets, Packet};
+use super::packet::Refraction;
 use crate::geometry::{Plane, Polyhedron};
 use crate::optics::fresnel::FresnelCoefficients;
 use glam::{DVec3, Vec3};
@@ -25,9 +25,9 @@ pub struct ConvexStone {
     pub(super) plane_coefficients: Vec<[f32; 4]>,
     /// The facets that all rays of a packet try.
     pub(super) inclined_facets: Vec<InclinedFacet>,
-    /// Those that few rays need to try; part of the rows if they are few.
+    /// The girdle facets; none if they are few, and then `inclined_facets` has them.
     pub(super) girdle: Option<GirdleFacets>,
-    /// The rows again for single rays.
+    /// The inclined facets again, for single rays.
     pub(super) inclined_blocks: Vec<PlaneBlock16>,
     pub(super) isa: Isa,
 }
@@ -39,39 +39,13 @@ pub(super) struct InclinedFacet {
     pub facet: u32,
 }
 
-/// Where a ray from outside meets the stone.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FacetHit {
-    /// The facet.
-    pub facet: usize,
-    /// Distance along the ray, in trace units.
-    pub distance: f32,
-}
-
-/// A ray that enters the stone.
-#[derive(Debug, Clone, Copy)]
-pub struct Refraction {
-    /// Unit direction inside.
-    pub direction: Vec3,
-    /// Share of the power reflected at the facet.
-    pub reflectance: f32,
-    /// Cosine of incidence outside.
-    pub cos_outside: f32,
-    /// Cosine of refraction inside.
-    pub cos_inside: f32,
-    /// Q of the light that enters of unpolarised light of power 1.
-    pub polarisation: f32,
-    /// Axis of Q: unit, across the plane of incidence.
-    pub axis: Vec3,
-}
-
 impl ConvexStone {
-    /// Makes a solid ready, for the best instruction set of this machine.
+    /// Prepares a solid for tracing, with the best instruction set of this machine.
     pub fn new(solid: Polyhedron) -> ConvexStone {
         Self::with_isa(solid, Isa::best())
     }
 
-    /// Makes a solid ready for a given instruction set.
+    /// Prepares a solid for tracing, with a given instruction set.
     pub fn with_isa(solid: Polyhedron, isa: Isa) -> ConvexStone {
         let (centre, unit) = solid.bounding_sphere();
         let planes: Vec<Plane> = (0..solid.faces.len())
@@ -114,29 +88,6 @@ impl ConvexStone {
         (p - self.centre) / self.unit
     }
 
-    /// First interaction of a ray that starts outside.
-    ///
-    /// - `origin`, `direction` (unit): trace frame
-    ///
-    /// None if the ray misses the stone or starts behind or inside it.
-    pub fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<FacetHit> {
-        // most rays of a scene miss the sphere around the stone
-        let b = origin.dot(direction);
-        let c = origin.length_squared() - 1.0;
-        if c > 0.0 && (b > 0.0 || b * b < c) {
-            return None;
-        }
-        dispatch::intersect_outside(self, origin, direction)
-    }
-
-    /// The facet that every lane of a packet meets next, and how far it is: the search that tracing
-    /// does at every interaction.
-    ///
-    /// Checked in `tests/trace/intersect.rs` against brute force in `f64`.
-    pub fn next_facets(&self, packet: &Packet) -> NextFacets {
-        dispatch::next_facets(self, packet)
-    }
-
     /// Refraction of a ray into facet `facet`.
     ///
     /// - `direction`: unit, pointing at the facet from outside
@@ -163,7 +114,7 @@ impl ConvexStone {
         direction.reflect(self.normals[facet])
     }
 
-    /// The planes as the kernel has them, `f32` values widened: the scalar twin traces the very
+    /// The planes as the kernel has them, `f32` values widened: [`super::reference`] then traces the very
     /// same stone.
     pub fn kernel_planes(&self) -> Vec<Plane> {
         self.plane_coefficients

@@ -26,7 +26,7 @@ PHOTON = np.dtype([("point", "<f4", 3), ("power", "<f4"), ("tint", "u1", 8), ("s
 
 
 def landed_photons(path):
-    """The caustic photons of a map file; src/photons/file.rs has the layout."""
+    """The caustic photons of a map file; src/photons/map_file.rs has the layout."""
     data = open(path, "rb").read()
     length = int.from_bytes(data[12:16], "little")
     header = json.loads(data[16 : 16 + length])

@@ -63,7 +63,7 @@ def colour():
     """Wavelengths (nm), their luminance in linear sRGB under equal-energy white (mean weight, so that
     its mean over draws from `density` is 1), and `density`, the observer's sum by which cutlab draws
     them. The observer is read from cutlab's source: one table, CIE 018:2019."""
-    source = open(os.path.join(ROOT, "src", "optics", "colour.rs")).read()
+    source = open(os.path.join(ROOT, "src", "color", "cie.rs")).read()
     rows = re.findall(r"\[([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\], // \d+", source)
     xyz = np.array(rows, float)
     nm = np.linspace(380, 730, len(xyz))

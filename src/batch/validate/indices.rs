@@ -63,7 +63,7 @@ pub fn checks() -> Vec<Check> {
     };
     let mut checks = vec![Check::new(SUBJECT, DIAMOND.iter().map(line).collect(), |_| {
         let diamond = material("diamond")?;
-        Ok(Measured::exact(DIAMOND.map(|(_, um, _)| diamond.index(um))))
+        Ok(Measured::exact(DIAMOND.map(|(_, nm, _)| diamond.index(nm))))
     })];
     checks.extend(MATERIALS.into_iter().map(index_check));
     let glass = vec![

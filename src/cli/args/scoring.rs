@@ -8,7 +8,7 @@ use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::cli::shell_quote::quoted;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
-use crate::optics::dispersion::{VISIBLE_UM, lines};
+use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
 use crate::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, StoneShape, Target, Tilt, score};
@@ -74,7 +74,7 @@ impl ScoringArgs {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
         let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
-            (true, _) => VISIBLE_UM,
+            (true, _) => VISIBLE_NM,
             (false, true) => (lines::G, lines::B),
             (false, false) => (lines::D, lines::D),
         };
@@ -146,17 +146,17 @@ impl ScoringArgs {
             Ok(imported) => {
                 orientation::note(&stone::display_name(spec), &imported);
                 let material = substance.material_of(&imported.design);
-                let size = self.size.or(stone::usual_size(&imported.design, &material));
+                let size = self.size.or(stone::usual_size(imported.design.unit, &material));
                 let design = stone::sized(imported.design, size)?;
                 return Ok((material, design.solid()?.into()));
             }
             Err(failure) => failure,
         };
-        let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
-        let body = body.ok_or(failure)?;
+        let body = failure.shape().and_then(|shape| Some((shape.unit, shape.body.clone()?)));
+        let (unit, body) = body.filter(|(_, body)| body.shells == 1).ok_or(failure)?;
         orientation::note_body(&stone::display_name(spec), &body);
         let material = substance.drawn_for(None);
-        let size = self.size.or((!material.is_clear()).then_some(stone::USUAL_SIZE));
+        let size = self.size.or(stone::usual_size(unit, &material));
         let scale = size.map_or(1.0, |mm| mm / body.width());
         Ok((material, StoneShape::Nonconvex(Box::new(body.scaled(scale)))))
     }

@@ -94,7 +94,7 @@ pub fn materials() -> Vec<CatalogueEntry> {
 fn material(m: &Material) -> CatalogueEntry {
     let n_e = m.extraordinary.map(|law| law.index(lines::D));
     let b_g = m.index(lines::G) - m.index(lines::B);
-    let valid = [1000.0 * m.valid_um.0, 1000.0 * m.valid_um.1];
+    let valid = <[f64; 2]>::from(m.valid_nm);
     let density = m.specific_gravity.map_or_else(|| "unknown".into(), |sg| format!("{sg} g/cm³"));
     let colour = through(m);
     let absorption = m.absorption.map_or_else(String::new, |a| format!("{}; {}", a.about, a.source));
@@ -147,7 +147,7 @@ const DEPTH_MM: f64 = 10.0;
 /// The colour of daylight through [`DEPTH_MM`] of a material that absorbs, as `#rrggbb`.
 fn through(m: &Material) -> Option<String> {
     let absorption = m.absorption?;
-    let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm) / 1000.0)).exp() as f32;
+    let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm))).exp() as f32;
     let byte = |x| (255.0 * cie::srgb_encode(x)).round() as u8;
     let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
     Some(format!("#{r:02x}{g:02x}{b:02x}"))

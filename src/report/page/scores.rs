@@ -1,7 +1,8 @@
 //! Scores on the page: under their heads, beside those of the reference stones.
 
-use super::{cell, escaped};
 use crate::metrics::Better;
+use crate::report::estimates::estimate_html;
+use crate::report::html::escaped;
 use crate::report::references::STONES;
 use crate::sampling::stats::Estimate;
 use std::fmt::Write;
@@ -66,7 +67,8 @@ impl PageScore {
             self.value_html()
         );
         for ((name, ..), value) in STONES.iter().zip(self.references) {
-            let _ = write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", cell(value, ""));
+            let _ =
+                write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", estimate_html(value, ""));
         }
         out + "</tr>\n"
     }
@@ -83,7 +85,7 @@ impl PageScore {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
         match &self.left_out {
             Some(why) => format!("<span title=\"{}\">–</span>", escaped(why)),
-            None => cell(self.value, &unit),
+            None => estimate_html(self.value, &unit),
         }
     }
 }

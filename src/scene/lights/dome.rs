@@ -1,4 +1,4 @@
-//! The dome: light from all directions, far away. Uniform, a gem viewer's zones, or a panorama.
+//! The dome: light from all directions, far away. Uniform, a gem viewer's bands, or a panorama.
 
 use super::{EmissionSample, Emitter, LightSample, LightType};
 use crate::color::viewers::Viewer;
@@ -15,7 +15,7 @@ pub static KIND: LightType = LightType {
     about: "light from everywhere: uniform, or viewer = NAME, or panorama = FILE (.hdr, .exr)",
     read: |entry, place| {
         let sky = match (entry.viewer()?, entry.panorama(place)?) {
-            (Some(viewer), _) => Sky::Zones(viewer),
+            (Some(viewer), _) => Sky::Bands(viewer),
             (None, Some(panorama)) => Sky::Panorama(Arc::new(panorama)),
             (None, None) => Sky::Uniform,
         };
@@ -33,7 +33,7 @@ pub struct Dome {
 #[derive(Debug, Clone)]
 enum Sky {
     Uniform,
-    Zones(&'static Viewer),
+    Bands(&'static Viewer),
     Panorama(Arc<Panorama>),
 }
 
@@ -52,7 +52,7 @@ impl Dome {
         let d = self.world_from_sky.transpose() * direction;
         match &self.sky {
             Sky::Uniform => Vec3::ONE,
-            Sky::Zones(viewer) => viewer.zones[viewer.zone(d.z)].colour,
+            Sky::Bands(viewer) => viewer.bands[viewer.band(d.z)].colour,
             Sky::Panorama(panorama) => panorama.colour(d),
         }
     }

@@ -1,17 +1,17 @@
 //! The loop over beams: the strongest first, each clipped by the facets that it meets.
 
+use super::beam_coords::{BeamCoords, EntryFacet};
 use super::beam_light::{BeamLight, Interface};
-use super::clip::{self, Clipper, locate};
-use super::facets::NO_NEIGHBOUR;
+use super::beam_visitor::{BeamExit, BeamVisitor, IncidentBeam, ResidualBeam};
+use super::clip::{self, Clipper, MIN_FACING_COS, locate};
+use super::energy_budget::{EnergyBudget, MAX_FACETS, StopCriteria};
+use super::facets::{NO_NEIGHBOUR, WeldedFacets};
 use super::queue::Queue;
-use super::{
-    BeamCoords, BeamExit, BeamVisitor, Beams, EnergyBudget, EntryFacet, IncidentBeam, MAX_FACETS,
-    MIN_FACING_COS, ResidualBeam, StopCriteria,
-};
-use crate::trace::{LANES, NO_FACET, NextFacets, Packet};
+use crate::trace::dispatch::Vectorised;
+use crate::trace::{ConvexStone, LANES, NO_FACET, NextFacets, Packet};
 use glam::DVec2;
 
-/// A beam on its way; its footprint lies beside it.
+/// A beam under way; its footprint is stored beside it.
 #[derive(Debug, Clone, Copy)]
 struct Beam<L, const K: usize> {
     frames: [BeamCoords; K],
@@ -39,12 +39,15 @@ struct BeamOrigin {
     density: f64,
 }
 
-/// One call of [`Beams::trace`]; what it allocates serves all beams.
-pub(in crate::trace) struct BeamTracer<'a, L, W, const K: usize> {
-    beams: &'a Beams<'a>,
+/// One call of [`super::Beams::trace`]; what it allocates serves all beams.
+pub(super) struct BeamTracer<'a, L, V, const K: usize> {
+    stone: &'a ConvexStone,
+    facets: &'a WeldedFacets,
     lit: &'a IncidentBeam<K>,
+    /// What falls on the stone, power 1.
+    light: L,
     until: StopCriteria,
-    watch: &'a mut W,
+    watch: &'a mut V,
     totals: EnergyBudget,
     origins: Vec<BeamOrigin>,
     queue: Queue<Beam<L, K>>,
@@ -58,16 +61,29 @@ pub(in crate::trace) struct BeamTracer<'a, L, W, const K: usize> {
     inside: f64,
 }
 
-impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W, K> {
+impl<L: BeamLight, V: BeamVisitor<L, K>, const K: usize> Vectorised for BeamTracer<'_, L, V, K> {
+    type Output = EnergyBudget;
+
+    #[inline(always)]
+    fn run<const FUSED: bool, const W: usize, const B: usize>(self) -> EnergyBudget {
+        self.trace()
+    }
+}
+
+impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V, K> {
     pub(super) fn new(
-        beams: &'a Beams<'a>,
+        stone: &'a ConvexStone,
+        facets: &'a WeldedFacets,
         lit: &'a IncidentBeam<K>,
+        light: L,
         until: StopCriteria,
-        watch: &'a mut W,
+        watch: &'a mut V,
     ) -> Self {
         BeamTracer {
-            beams,
+            stone,
+            facets,
             lit,
+            light,
             until,
             watch,
             totals: EnergyBudget::default(),
@@ -75,23 +91,23 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
             queue: Queue::new(until.residual > 0.0),
             clipper: Clipper::default(),
             next_facets: Vec::new(),
-            reached_by: vec![0; beams.facets.count()],
+            reached_by: vec![0; facets.count()],
             number: 0,
             inside: 0.0,
         }
     }
 
-    /// Follows all light; see [`Beams::trace`].
+    /// Follows all light; see [`super::Beams::trace`].
     #[inline(always)]
-    pub(in crate::trace) fn run(mut self, light: L) -> EnergyBudget {
-        let (facets, toward) = (&self.beams.facets, self.lit.direction);
+    fn trace(mut self) -> EnergyBudget {
+        let (facets, toward) = (self.facets, self.lit.direction);
         let cosine = |f: usize| -facets.planes[f].normal.dot(toward);
         let lit =
             || (0..facets.count()).filter(|f| cosine(*f) > MIN_FACING_COS && !facets.ring(*f).is_empty());
         self.totals.outline = lit().map(|f| facets.area(f) * cosine(f)).sum();
         for facet in lit() {
             let entrance = EntryFacet::new(facet, facets.planes[facet], toward);
-            self.enter(BeamOrigin { entrance, density: cosine(facet) / self.totals.outline }, light);
+            self.enter(BeamOrigin { entrance, density: cosine(facet) / self.totals.outline });
         }
         let slot = |_| BeamSlot { beam: None, footprint: Vec::new(), middle: DVec2::ZERO };
         let mut slots: [BeamSlot<L, K>; LANES] = std::array::from_fn(slot);
@@ -117,7 +133,7 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         self.totals
     }
 
-    /// Takes up the strongest beams that wait; false if none is to be followed further.
+    /// Fills empty slots with the strongest beams of the queue; false if none is to be followed further.
     fn fill(&mut self, slots: &mut [BeamSlot<L, K>]) -> bool {
         if self.inside <= self.until.residual || self.totals.beams >= self.until.beams {
             return false;
@@ -140,22 +156,22 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         for (lane, slot) in slots.iter().enumerate() {
             if let Some(beam) = &slot.beam {
                 let frame = &beam.frames[0];
-                let plane = &self.beams.facets.planes[beam.facet as usize];
+                let plane = &self.facets.planes[beam.facet as usize];
                 let point = frame.point_on(slot.middle, plane);
                 (packet.x[lane], packet.y[lane], packet.z[lane]) = point.as_vec3().into();
                 (packet.dx[lane], packet.dy[lane], packet.dz[lane]) = frame.direction.as_vec3().into();
             }
         }
-        self.beams.stone.next_facets(&packet)
+        self.stone.next_facets(&packet)
     }
 
     /// Lets the light into a facet.
-    fn enter(&mut self, origin: BeamOrigin, light: L) {
+    fn enter(&mut self, origin: BeamOrigin) {
         let BeamOrigin { entrance, density } = &origin;
-        let (facets, normal) = (&self.beams.facets, entrance.plane.normal);
+        let (facets, normal) = (self.facets, entrance.plane.normal);
         let met = self.lit.indices.map(|n| Interface::new(self.lit.direction, -normal, n, false));
         let frames = met.map(|at| entrance.coords(at.transmitted));
-        let (inside, reflected) = light.split(&met[0]);
+        let (inside, reflected) = self.light.split(&met[0]);
         let share = density * facets.area(entrance.facet);
         let (glare, toward) = (reflected.power() * share, self.lit.direction);
         self.totals.reflected += glare;
@@ -177,7 +193,7 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         let orientation_sign = if beam.bounces.is_multiple_of(2) { -1.0 } else { 1.0 };
         let facet = if guess == NO_FACET { 0 } else { guess as usize };
         for frame in &beam.frames {
-            if !clip::contains(&self.beams.facets, facet, frame, orientation_sign, footprint) {
+            if !clip::contains(self.facets, facet, frame, orientation_sign, footprint) {
                 self.divide(beam, footprint, middle, facet, orientation_sign);
                 return false;
             }
@@ -190,7 +206,7 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         next
     }
 
-    /// Parts a beam among the facets that it meets, of which `guess` is likely to be one.
+    /// Divides a beam among the facets that it meets, of which `guess` is likely to be one.
     #[inline(always)]
     fn divide(
         &mut self,
@@ -210,8 +226,8 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         self.clipper = clipper;
     }
 
-    /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the
-    /// beam does not meet the facet, no facet is left in `ahead`.
+    /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the beam does
+    /// not meet the facet, `next_facets` is left empty.
     #[inline(always)]
     fn spread(
         &mut self,
@@ -221,7 +237,7 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         first: usize,
         orientation_sign: f64,
     ) {
-        let facets = &self.beams.facets;
+        let facets = self.facets;
         let [lead, company @ ..] = &beam.frames[..] else { return };
         self.number += 1;
         self.reached_by[first] = self.number;
@@ -264,23 +280,23 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
 
     /// The facet that the middle of a beam meets, sought step by step in `f64`.
     fn first_met(&self, beam: &Beam<L, K>, middle: DVec2, orientation_sign: f64) -> Option<usize> {
-        let (facets, frame) = (&self.beams.facets, &beam.frames[0]);
+        let (facets, frame) = (self.facets, &beam.frames[0]);
         let cosine = |f: usize| facets.planes[f].normal.dot(frame.direction);
         let usable = |f: &usize| cosine(*f) > MIN_FACING_COS && !facets.ring(*f).is_empty();
         let start = (0..facets.count()).find(usable)?;
         locate(facets, start, frame, orientation_sign, middle).filter(usable).or_else(|| {
-            // rounding led astray: ask every plane
+            // rounding misled the search: test every plane
             let point = frame.point(middle);
             let distance = |f: &usize| -facets.planes[*f].signed_distance(point) / cosine(*f);
             (0..facets.count()).filter(usable).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         })
     }
 
-    /// A beam meets a facet: part leaves, the rest is thrown back. Returns the power that goes on, as
-    /// a share of the light on the outline.
+    /// A beam meets a facet: part leaves, the rest is reflected. Returns the power that goes on, as a share
+    /// of the light on the outline.
     #[inline(always)]
     fn interact(&mut self, beam: &mut Beam<L, K>, facet: usize, footprint: &[DVec2]) -> Option<f64> {
-        let plane = &self.beams.facets.planes[facet];
+        let plane = &self.facets.planes[facet];
         let at = Interface::new(beam.frames[0].direction, plane.normal, 1.0 / self.lit.indices[0], true);
         let (out, kept) = beam.light.split(&at);
         beam.bounces += 1;
@@ -317,14 +333,14 @@ impl<'a, L: BeamLight, W: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, W
         Some(power)
     }
 
-    /// Follows a beam no further.
+    /// Hands a beam to the visitor as residual.
     fn leave(&mut self, beam: &Beam<L, K>, footprint: &[DVec2]) {
         let power = beam.light.power() * beam.share;
         self.totals.not_followed += power;
         self.watch.residual(&ResidualBeam {
             entry: &self.origins[beam.origin as usize].entrance,
             facet: beam.facet as usize,
-            plane: self.beams.facets.planes[beam.facet as usize],
+            plane: self.facets.planes[beam.facet as usize],
             footprint,
             power,
             share: beam.share,
