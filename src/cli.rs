@@ -4,14 +4,18 @@
 
 mod args;
 mod compare;
+mod completions;
 mod console;
 mod diagram_output;
 mod exit_code;
 mod form;
 mod generate;
 mod heartbeat;
+mod help;
 mod import;
 mod list;
+mod man;
+mod markdown;
 mod merge;
 mod outputs;
 mod plot;
@@ -26,7 +30,9 @@ mod sweep;
 mod terminal_table;
 mod validate;
 mod weight;
+mod wrap;
 
+use crate::manual::TOPICS;
 use crate::storage::limits;
 use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -38,7 +44,7 @@ use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
 #[derive(Debug, Parser)]
-#[command(name = "cutlab", version, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "cutlab", version, max_term_width = 100, disable_help_subcommand = true)]
 struct Cli {
     #[command(flatten)]
     console: Console,
@@ -48,12 +54,22 @@ struct Cli {
     command: Command,
 }
 
-const AFTER_HELP: &str = "\
+/// The end of the help of the whole program.
+fn after_help() -> String {
+    let width = TOPICS.iter().map(|topic| topic.name.len()).max().unwrap_or(0);
+    let topics = TOPICS.iter().map(|topic| format!("  {:width$}  {}\n", topic.name, topic.about));
+    format!(
+        "\
+Topics of the manual, shown by `cutlab help TOPIC`:
+{}
 STONE is a name from `cutlab list cuts`, a name with parameters
 (round-brilliant:crown-angle=35,pavilion-angle=41), a file, or - for standard input.
 Exit codes: 0 done, 1 some stones (or figures of validate) failed, 2 usage or no input was good,
 3 could not read or write, 130 interrupted.
-Environment: CUTLAB_LIMIT=4 raises every limit on what is read four times (all: cutlab list limits).";
+Environment: CUTLAB_LIMIT=4 raises every limit on what is read four times (all: cutlab list limits).",
+        topics.collect::<String>()
+    )
+}
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -81,6 +97,12 @@ enum Command {
     Validate(validate::ValidateArgs),
     /// What there is to choose from
     List(list::ListArgs),
+    /// Print a script that completes commands and options in a shell
+    Completions(completions::CompletionsArgs),
+    /// Make man pages, one for each command
+    Man(man::ManArgs),
+    /// The help of a command, or a topic of the manual
+    Help(help::HelpArgs),
 }
 
 impl Command {
@@ -98,6 +120,9 @@ impl Command {
             Command::Report(args) => report::run(args, console),
             Command::Validate(args) => validate::run(args, console),
             Command::List(args) => list::run(args, console),
+            Command::Completions(args) => completions::run(args, command(), console),
+            Command::Man(args) => man::run(args, command(), console),
+            Command::Help(args) => help::run(args, command(), console),
         }
     }
 }
@@ -106,7 +131,7 @@ impl Command {
 pub fn command() -> clap::Command {
     // what is wrong with a number below 0 is for the option's reader to say, not that it is no option
     let valued = |arg: clap::Arg| if arg.is_positional() { arg } else { arg.allow_negative_numbers(true) };
-    Cli::command().mut_args(valued).mut_subcommands(|sub| sub.mut_args(valued))
+    Cli::command().after_help(after_help()).mut_args(valued).mut_subcommands(|sub| sub.mut_args(valued))
 }
 
 /// The arguments, with a number that follows an option joined to it where it may be taken for something else.

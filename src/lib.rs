@@ -6,7 +6,7 @@
 //!
 //! `sampling parse storage` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone_spec metrics` → `scene scoring` → `photons batch` → `integrators` →
-//! `report` → `cli`
+//! `report manual` → `cli`
 
 pub mod batch;
 pub mod cli;
@@ -16,6 +16,7 @@ pub mod estimators;
 pub mod formats;
 pub mod geometry;
 pub mod integrators;
+pub mod manual;
 pub mod materials;
 pub mod metrics;
 pub mod optics;

@@ -1,5 +1,4 @@
-//! STONE arguments, one grammar wherever a stone is named: `round-brilliant`,
-//! `round-brilliant:crown-angle=35,table=57`, a file, or `-` for standard input.
+//! STONE arguments, one grammar wherever a stone is named, which [`crate::manual::stones`] has.
 
 use crate::design::design_file::DocumentError;
 use crate::design::{Design, families, library};

@@ -15,7 +15,7 @@ const ROWS: &[&[&str]] = &[
     &["scene", "scoring"],
     &["photons", "batch"],
     &["integrators"],
-    &["report"],
+    &["report", "manual"],
     &["cli"],
 ];
 

@@ -37,7 +37,7 @@ pub fn interrupted() -> ! {
     std::process::exit(INTERRUPTED)
 }
 
-/// Exit codes, as the README lists them.
+/// Exit codes, as the manual lists them (`cutlab help outputs`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExitStatus {
     /// Everything was done.

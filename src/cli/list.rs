@@ -5,8 +5,8 @@ mod entries;
 
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
+use crate::manual::SCENE_GRAMMAR;
 use crate::parse;
-use crate::scene::scene_file::GRAMMAR;
 use catalogue_entry::CatalogueEntry;
 use clap::ValueEnum;
 
@@ -52,8 +52,12 @@ enum Catalogue {
 pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let all = match args.kind {
         Catalogue::SceneGrammar => {
-            return if console.json { console.print_json(&GRAMMAR) } else { console.print(GRAMMAR) }
-                .map(|()| ExitStatus::Done);
+            return if console.json {
+                console.print_json(&SCENE_GRAMMAR)
+            } else {
+                console.print(SCENE_GRAMMAR)
+            }
+            .map(|()| ExitStatus::Done);
         }
         Catalogue::Cuts => entries::cuts(),
         Catalogue::Materials => entries::materials(),

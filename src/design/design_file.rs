@@ -1,29 +1,5 @@
-//! Design files, cutlab's own TOML form: what `cuts/` holds and what `-o stone.toml` writes.
-//!
-//! Either `family` with `[parameters]`, or `[[tier]]`s, which take `length-to-width` as their only
-//! parameter (see [`super::scaling`]). A tier has `angle`, `indices` and a rule for
-//! its distance, or explicit facets with `normal` and `distance` (a mesh). `[expect]` lists
-//! proportions that a test checks for the library's own files.
-//!
-//! A tier's facets stand at `indices`; with `repeat = 8` each of them is cut eight times around the
-//! wheel, with `mirror = true` also at the index of opposite sign. One of these rules fixes the
-//! distance; each is about the tier's first facet and may speak of the tiers above it only:
-//!
-//! - `distance = 1.0`
-//! - `meets = "main@0 & break@3 & break@93"`: the facet passes through the corner where those
-//!   facets meet. A facet is called `TIER@INDEX`, `TIER NUMBER` (counted from 1 in cutting order),
-//!   by its own name, or `TIER` where that has one facet. Three planes or more; if more, all must
-//!   meet there; and the corner must be on the stone as cut so far.
-//! - `meets = ["A & B & C", "D & E & F"]`, without `angle`: it passes through both corners, and the
-//!   angle follows too.
-//! - `girdle = 0.02`, with `meets`: that part of W is left as girdle between the corner and the facet.
-//! - `width = 2.0`, for a vertical tier: its outline has that W.
-//! - `table = 0.56`, for a horizontal tier: the facet's extent along the width, as a part of W.
-//!
-//! W is the width as GemCad takes it: corner to corner in a round stone. A tier with `guide = true`
-//! is not cut; its planes can be named in a corner: a vertical guide at distance 0 is a plane
-//! through the axis, a horizontal one marks a height. Facets of a tier that is placed by a rule or
-//! repeated are called `TIER 1`, `TIER 2` … unless `names` says otherwise.
+//! Design files, cutlab's own TOML form: what `cuts/` holds and what `-o stone.toml` writes. Their grammar is in
+//! [`crate::manual::designs`].
 
 use super::families::{self, CutError};
 use super::meet_points::{MeetError, MeetPointSolver, Rule, TierSpec};

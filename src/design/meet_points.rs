@@ -3,7 +3,7 @@
 //! A tier is placed by a rule that speaks of the tiers before it: through the corner where named
 //! facets meet, a girdle's thickness above such a corner, a girdle of given width, a table of given
 //! size. Guides are planes that rules may name and that are not cut. The words of a rule are the
-//! grammar in [`super::design_file`]. Lengths are in the design's own unit, W is the width of
+//! grammar in [`crate::manual::designs`]. Lengths are in the design's own unit, W is the width of
 //! [`super::proportions::wheel_size`] over the girdle cut so far.
 
 mod error;

@@ -1,6 +1,6 @@
 //! Scene files: TOML, from the user or from the catalogue.
 //!
-//! Their grammar is [`GRAMMAR`], which `cutlab list scene-grammar` prints. Files that a scene names are
+//! Their grammar is in [`crate::manual::scenes`]. Files that a scene names are
 //! looked for beside it, and lie in its folder or below unless [`SceneOverrides::allow_outside`].
 
 use super::build_context::GREATEST;
@@ -18,9 +18,6 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-/// Every key of a scene file, by example.
-pub static GRAMMAR: &str = include_str!("grammar.txt");
 
 /// A scene that cannot be set up. Each error is one line.
 #[derive(Debug, thiserror::Error)]

@@ -373,12 +373,11 @@ fn the_limits_are_told_and_can_be_raised() {
 }
 
 #[test]
-fn the_readme_has_every_limit() {
-    let readme =
-        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("is there");
+fn the_manual_has_every_limit() {
+    let manual = include_str!("../../src/manual/limits.md");
     for limit in limits::ALL {
         let row = format!("| {} | {} |", limit.max(), limit.of);
-        assert!(readme.contains(&row), "README lacks '{row}'");
+        assert!(manual.contains(&row), "the manual lacks '{row}'");
     }
-    assert!(readme.contains(limits::VARIABLE));
+    assert!(manual.contains(limits::VARIABLE));
 }

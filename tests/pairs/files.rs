@@ -50,6 +50,7 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
             (!whole).then(|| "pdf: no begin or no end".into())
         }
         "mp4" => (bytes.get(4..8) != Some(b"ftyp")).then(|| "mp4: no ftyp".into()),
+        "1" => (!text(bytes).contains(".TH cutlab")).then(|| "man page: no title".into()),
         "md" | "map" => None,
         _ => shown(name, bytes, inputs),
     }

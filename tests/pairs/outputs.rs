@@ -57,8 +57,8 @@ fn standard_output(case: &Case, ran: &Ran, inputs: &Inputs) -> Option<Fault> {
             Ok(value) => named(case, &value, ran),
         };
     }
-    let answers =
-        ["show", "list", "compare", "validate", "report", "import"].contains(&case.command.as_str());
+    let answers = ["show", "list", "compare", "validate", "report", "import", "completions"]
+        .contains(&case.command.as_str());
     (answers && ran.stdout.is_empty()).then(|| fault("what is asked is answered", "standard output is empty"))
 }
 
@@ -86,6 +86,7 @@ pub fn streamed(case: &Case) -> &str {
         "score" | "sweep" | "merge" | "compare" => "csv",
         "show" => "svg",
         "render" => "png",
+        "man" => "1",
         "generate" => case.values("to").first().copied().unwrap_or("obj"),
         _ => case.values("to").first().copied().unwrap_or("toml"),
     }
@@ -98,7 +99,7 @@ fn named(case: &Case, value: &Value, ran: &Ran) -> Option<Fault> {
     };
     let rows = || value.as_array().into_iter().flatten();
     let mut named: Vec<PathBuf> = match case.command.as_str() {
-        "render" | "plot" => listed(value),
+        "render" | "plot" | "man" => listed(value),
         "score" | "sweep" | "merge" => listed(&value["files"]),
         "report" if value.is_object() => listed(&value["files"]),
         "report" => rows().flat_map(|report| listed(&report["files"])).collect(),

@@ -83,6 +83,7 @@ const SAMPLES: &[Sample] = &[
     ("compare", "output", &[&["out"], &["x.md"], &["x.csv"], &["-"]]),
     ("report", "output", &[&["out"]]),
     ("validate", "output", &[&["out"]]),
+    ("man", "output", &[&["out"], &["-"]]),
     ("show", "beams", &[&["beams.svg"], &["-"]]),
     ("show", "diagram", &[&["diagram.svg"], &["diagram.png"], &["diagram.pdf"], &["-"]]),
     ("render", "photon_map", &[&["x.map"]]),

@@ -1,6 +1,7 @@
 //! The entries of each catalogue.
 
 use super::CatalogueEntry;
+use crate::cli::wrap;
 use crate::color::illuminants::ILLUMINANTS;
 use crate::color::{Illuminant, cie};
 use crate::design::design_file::DesignFile;
@@ -23,26 +24,11 @@ fn block(head: &str, lines: &[(&str, String)]) -> String {
     let label = lines.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
     let mut out = format!("{head}\n");
     for (name, text) in lines.iter().filter(|(_, text)| !text.is_empty()) {
-        for (i, line) in textwrap(text).iter().enumerate() {
+        for (i, line) in wrap::lines(text, WIDTH).iter().enumerate() {
             out += &format!("    {:label$}  {line}\n", if i == 0 { name } else { "" });
         }
     }
     out
-}
-
-/// Words in lines of up to [`WIDTH`] characters.
-fn textwrap(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
-                *line += " ";
-                *line += word;
-            }
-            _ => lines.push(word.into()),
-        }
-    }
-    lines
 }
 
 /// Scores.
