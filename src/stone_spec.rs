@@ -1,6 +1,8 @@
 //! STONE arguments, one grammar wherever a stone is named: `round-brilliant`,
 //! `round-brilliant:crown-angle=35,table=57`, a file, or `-` for standard input.
 
+pub mod options;
+
 use crate::design::design_file::DocumentError;
 use crate::design::{Design, families, library};
 use crate::formats::error::FormatError;
