@@ -31,6 +31,7 @@ use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
 use exit_code::{CliError, ExitStatus};
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -107,20 +108,28 @@ pub fn command() -> clap::Command {
     Cli::command().mut_args(valued).mut_subcommands(|sub| sub.mut_args(valued))
 }
 
-/// The arguments, with a number that follows an option whose value may be left out joined to it:
-/// `--glare 8` is `--glare=8`, and in `--glare a.asc` what follows is a stone.
+/// The arguments, with a number that follows an option joined to it where it may be taken for something else.
+///
+/// - after an option whose value may be left out: `--glare 8` is `--glare=8`, and in `--glare a.asc` what
+///   follows is a stone
+/// - below 0 with its unit: `--size -3mm` is `--size=-3mm`, for the option's reader to say what is wrong
 fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) -> Vec<OsString> {
-    let options: Vec<String> = command
-        .get_subcommands()
-        .flat_map(|sub| sub.get_arguments())
-        .filter(|arg| arg.is_require_equals_set())
-        .filter_map(|arg| arg.get_long().map(|long| format!("--{long}")))
-        .collect();
+    let all = || command.get_arguments().chain(command.get_subcommands().flat_map(|sub| sub.get_arguments()));
+    let named = |wanted: fn(&clap::Arg) -> bool| -> BTreeSet<OsString> {
+        let long = all().filter(|arg| wanted(arg)).filter_map(clap::Arg::get_long);
+        long.map(|long| format!("--{long}").into()).collect()
+    };
+    let optional = named(clap::Arg::is_require_equals_set);
+    let valued = named(|arg| arg.get_action().takes_values());
     let mut joined: Vec<OsString> = Vec::new();
     for argument in arguments {
-        let is_number = argument.to_str().is_some_and(|text| text.parse::<f64>().is_ok());
+        let text = argument.to_str().unwrap_or_default();
+        let is_number = text.parse::<f64>().is_ok();
+        let is_below_0 = text
+            .strip_prefix('-')
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
         match joined.last_mut() {
-            Some(last) if is_number && options.iter().any(|option| option.as_str() == last.as_os_str()) => {
+            Some(last) if is_number && optional.contains(last) || is_below_0 && valued.contains(last) => {
                 last.push("=");
                 last.push(argument);
             }
@@ -167,6 +176,8 @@ mod tests {
         assert_eq!(said("cutlab render --glare 8 cube"), ["cutlab", "render", "--glare=8", "cube"]);
         assert_eq!(said("cutlab render --glare cube"), ["cutlab", "render", "--glare", "cube"]);
         assert_eq!(said("cutlab render --width 8"), ["cutlab", "render", "--width", "8"]);
+        assert_eq!(said("cutlab show a --size -3mm"), ["cutlab", "show", "a", "--size=-3mm"]);
+        assert_eq!(said("cutlab score -j -2 --exact -3"), ["cutlab", "score", "-j", "-2", "--exact", "-3"]);
     }
 
     #[test]

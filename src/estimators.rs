@@ -1,12 +1,12 @@
-//! Estimators that the metrics read, each traced once a stone.
+//! Estimators: the traced sums that metrics read, each traced once a stone.
 //!
-//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of
-//! the stone, traced backward; [`FaceterView`] the same by the rules of faceters; [`Contrast`] and
+//! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of the
+//! stone, traced backward; [`FaceterView`] the same by the rules of faceters; [`Contrast`] and
 //! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`PointLight`]: a
 //! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex. An
-//! estimator adds up small sums in independent batches
-//! ([`BatchedEstimate`]); a metric is a function of such sums, and the spread of the batches is its error.
-//! The viewer, and light with him, looks from a [`ViewFrame`].
+//! estimator adds up small sums in independent batches ([`BatchedEstimate`]); a metric is a function of
+//! such sums, and the spread of the batches is its error. The viewer, and the light with him, stands in a
+//! [`ViewFrame`].
 
 pub mod batches;
 pub mod beam_tallies;

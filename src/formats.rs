@@ -106,17 +106,16 @@ fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
 /// - `folder`: where files that it refers to must lie; none refuses them
 pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
     let source = Input { name, bytes, folder };
-    // a page may quote a design: it is none all the same
-    if unsupported::is_web_page(&source) {
-        return Err(unsupported::error(&source));
-    }
-    let (sure, format) = FORMATS
+    let found = FORMATS
         .iter()
         .rev()
         .map(|f| ((f.sniff)(&source), *f))
         .max_by_key(|(sure, _)| *sure)
-        .filter(|(sure, _)| *sure > 0)
-        .ok_or_else(|| unsupported::error(&source))?;
+        .filter(|(sure, _)| *sure > 0);
+    // a page may quote a design: it is none all the same
+    let is_page = |sure: u8| sure < stl::SURE_BY_SIZE && unsupported::is_web_page(&source);
+    let (sure, format) =
+        found.filter(|(sure, _)| !is_page(*sure)).ok_or_else(|| unsupported::error(&source))?;
     /// Below this other evidence is better: an extension, or how files of other kinds begin.
     const GUESS: u8 = 30;
     if sure < GUESS && unsupported::is_known(&source) {

@@ -5,6 +5,9 @@ pub mod shell;
 
 use std::ops::RangeInclusive;
 
+/// What stands for a minus sign in text that went through a word processor: U+2212 and dashes.
+pub const MINUS_SIGNS: [char; 6] = ['\u{2212}', '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{FF0D}'];
+
 /// Text that is not the number that is needed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NumberError {
@@ -76,10 +79,14 @@ impl NumberUnit {
     fn converted(self, number: &str, sign: &str) -> Option<String> {
         let factor = match (self, sign) {
             (NumberUnit::None, "%") => 0.01,
+            (NumberUnit::Millimetres, "\u{b5}m" | "\u{3bc}m" | "um" | "microns") => 1e-3,
             (NumberUnit::Millimetres, "cm") => 10.0,
             (NumberUnit::Millimetres, "m") => 1000.0,
             (NumberUnit::Millimetres, "in" | "inch" | "\"" | "″") => 25.4,
             (NumberUnit::Degrees, "rad") => 1f64.to_degrees(),
+            (NumberUnit::Carats, "g") => 5.0,
+            (NumberUnit::Carats, "mg") => 0.005,
+            (NumberUnit::Carats, "pt" | "points") => 0.01,
             _ => return None,
         };
         Some(format_number((number.parse::<f64>().ok()? * factor * 1e6).round() / 1e6))
@@ -96,12 +103,12 @@ impl NumberUnit {
     }
 }
 
-/// A finite number, with or without its unit: `34.5`, `34.5°`, `57 %`, `8mm`. The minus sign may be
-/// U+2212.
+/// A finite number, with or without its unit: `34.5`, `34.5°`, `57 %`, `8mm`. The minus sign may be one of
+/// [`MINUS_SIGNS`].
 ///
 /// - `unit`: what it is taken in
 pub fn parse_number(text: &str, unit: NumberUnit) -> Result<f64, NumberError> {
-    let typed = text.trim().replace('\u{2212}', "-");
+    let typed = text.trim().replace(MINUS_SIGNS, "-");
     let lower = typed.to_lowercase();
     let alone = unit.signs().iter().find_map(|sign| lower.strip_suffix(sign)).unwrap_or(&lower).trim_end();
     match alone.parse::<f64>() {
@@ -185,6 +192,12 @@ pub fn parse_whole_number(text: &str, range: RangeInclusive<u64>, what: &str) ->
         // `1e5`, as a number with decimals or a sign would be
         Ok(x) if x.fract() == 0.0 && (0.0..1e15).contains(&x) && range.contains(&(x as u64)) => Ok(x as u64),
         Ok(x) if x.fract() != 0.0 => Err(NumberError::Decimals.to_string()),
+        // decimals, or thousands apart
+        Err(NumberError::Comma(_)) => {
+            let digits: String = typed.chars().filter(|c| !",.'_ ".contains(*c)).collect();
+            let thousands = typed.split(',').skip(1).all(|part| part.len() == 3);
+            Err(if thousands { format!("write no separators, as {digits}") } else { needed() })
+        }
         Ok(_) | Err(NumberError::Infinite | NumberError::NotANumber) => Err(needed()),
         Err(error) => Err(error.to_string()),
     }
@@ -248,7 +261,10 @@ mod tests {
             ("1,234.5", NumberUnit::None, "as 1234.5"),
             ("640x480", NumberUnit::None, "is two"),
             ("57%", NumberUnit::Degrees, "give degrees, as 57"),
-            ("8 cm", NumberUnit::Millimetres, "give millimetres, as 8"),
+            ("8 cm", NumberUnit::Millimetres, "give millimetres, as 80"),
+            ("8µm", NumberUnit::Millimetres, "give millimetres, as 0.008"),
+            ("200mg", NumberUnit::Carats, "give carats, as 1"),
+            ("0.2 g", NumberUnit::Carats, "give carats, as 1"),
             ("34.5°", NumberUnit::None, "the number alone, as 34.5"),
             ("inf", NumberUnit::None, "finite"),
             ("1e400", NumberUnit::None, "finite"),
@@ -272,6 +288,8 @@ mod tests {
         }
         assert_eq!(pixels("2.5"), Err("a whole number is needed".into()));
         assert!(pixels("640x480").is_err_and(|e| e.contains("is two")));
+        assert_eq!(pixels("1,000"), Err("write no separators, as 1000".into()));
+        assert_eq!(pixels("640,5"), Err("a width is a whole number of pixels from 1 to 16384".into()));
         let size = |text: &str| {
             parse_number_within(
                 text,

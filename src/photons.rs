@@ -38,7 +38,7 @@ impl Class {
 /// A photon on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StoredPhoton {
-    /// Where, in the world.
+    /// Place, world frame.
     pub point: Vec3,
     /// Spectral power of its strongest band, a share of the lights' total Φ: Φ is the power at each
     /// wavelength, so light of equal energy has equal power in every band.
@@ -100,8 +100,8 @@ pub struct PhotonSet {
 /// The stored photons of a scene, both classes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotonSets {
-    /// Light last from the stone.
+    /// Caustic photons, scattered last by a stone or a mirror.
     pub caustic: PhotonSet,
-    /// Light last from another surface.
+    /// Indirect photons, reflected last by another diffuse surface.
     pub indirect: PhotonSet,
 }

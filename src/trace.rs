@@ -19,21 +19,21 @@ pub use dispatch::Isa;
 pub use packet::{FacetHit, Interaction, LANES, Lanes, NO_FACET, NextFacets, Packet, RayExit, Refraction};
 pub use stone::ConvexStone;
 
-/// After so many bounces whatever power a lane still holds is given up as lost. A guard against
-/// rays that total reflection keeps for ever, not a quality setting: power is what stops a trace.
+/// Most bounces of a trace; power that a lane still holds then is lost. A guard against rays that total
+/// reflection keeps for ever: the quality is set by the stop power.
 pub const MAX_BOUNCES: u32 = 20_000;
 
 impl ConvexStone {
     /// Traces a packet until no lane holds more than `stop_power`.
     ///
-    /// - `packet`: lanes with positions inside or on the stone, unit directions, index of
-    ///   refraction and power; lanes without power stand still
+    /// - `packet`: lanes with positions inside or on the stone, unit directions, index of refraction and
+    ///   power; lanes without power are idle
     /// - `stop_power`: a lane with less is stopped, its power added to the returned loss
     /// - `visit`: called after each interaction with what left the stone there and what the stone
     ///   absorbed on the way there
     ///
-    /// Returns the power given up, summed over the lanes. What entered = Σ exits + Σ absorbed +
-    /// lost to rounding. Checked in `tests/trace/` against the `f64` twin and by energy balance.
+    /// Returns the power given up, summed over the lanes. What entered = Σ exits + Σ absorbed + lost to
+    /// rounding. Checked in `tests/trace/` against [`reference`] and by energy balance.
     pub fn trace(
         &self,
         packet: &mut Packet,

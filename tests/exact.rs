@@ -3,6 +3,7 @@
 mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
+use cutlab::design::library;
 use cutlab::formats;
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric, MetricSource};
@@ -87,6 +88,27 @@ fn photons_in_place_of_beams_are_told() {
     let row = score(&subject, &asked(&["light_return"]));
     assert!(row.note.is_some_and(|said| said.starts_with("beams need a convex stone")), "{row:?}");
     assert_eq!(score(&subject, &plan(&["light_return"], 256)).note, None);
+}
+
+/// Rays that look straight into a cube all go the same way, so nothing but the light that they give up is
+/// between photons and beams: the viewer's own share holds it in its error too.
+#[test]
+fn what_is_given_up_counts_for_every_share_of_a_view() {
+    let names: Vec<&str> = METRICS
+        .iter()
+        .map(|m| m.name)
+        .filter(|n| n.starts_with("aset_") || n.starts_with("ideal_"))
+        .collect();
+    let cube = library::design("cube", &Default::default()).expect("in the library").expect("solved");
+    let subject = subject("cube", &cube, diamond());
+    let random = plan(&names, 1 << 13);
+    let exact = ScoreSettings { exact: true, ..random.clone() };
+    let [a, b] = [random, exact].map(|plan| score(&subject, &plan).scores);
+    for ((name, a), b) in names.iter().zip(a).zip(b) {
+        let (a, b) = (a.expect("applies"), b.expect("applies"));
+        let off = (a.value - b.value).abs();
+        assert!(off <= 4.2 * a.error.hypot(b.error) + 1e-7, "{name}: {a:?} {b:?}");
+    }
 }
 
 /// Corners and faces of a cube with a pit in its top.

@@ -8,6 +8,7 @@ use bench::{Bench, text};
 #[test]
 fn numbers_are_refused_with_what_is_needed() {
     let bench = Bench::new();
+    bench.good(&["generate", "-q", "cube", "-o", "plain.obj"]);
     for (line, said) in [
         ("show cube --carat -1", "a weight is a number of carats"),
         ("show cube --size -3", "a girdle width is a number of millimetres"),
@@ -21,6 +22,20 @@ fn numbers_are_refused_with_what_is_needed() {
         ("show cube --size 1in", "millimetres, as 25.4"),
         ("show round-brilliant:crown-angle=34,5", "as crown-angle=34.5"),
         ("render cube --width 640x480", "'640x480' is two"),
+        ("render cube --width 1,000", "no separators, as 1000"),
+        ("render cube --width 640,5", "a width is a whole number"),
+        ("show cube --size -3mm", "a girdle width is a number of millimetres"),
+        ("render cube --progressive --time -1s", "a time is given with its unit"),
+        ("score cube --shard -1/2", "a shard is I/N"),
+        ("show cube --carat 200mg", "give carats, as 1"),
+        ("show cube --size 8µm", "give millimetres, as 0.008"),
+        ("score cube --tilt 10:20:0", "the step is 0"),
+        ("report cube -o x --error 0.1", "unexpected argument '--error'"),
+        ("generate cube -o - -o -", "standard output is given for two outputs"),
+        ("list cuts nosuch", "all: cutlab list cuts"),
+        ("show plain.obj:ri=1,5", "write decimals with a point, as ri=1.5"),
+        ("show plain.obj:material=topaz,size=4", "a file takes material=NAME or ri=N"),
+        ("show nosuch[.asc", "there is no file 'nosuch[.asc'"),
     ] {
         let words: Vec<&str> = line.split(' ').collect();
         let complaint = bench.ends(2, &words).1;

@@ -149,6 +149,7 @@ fn an_animation_that_fails_leaves_no_lock() {
 #[test]
 fn default_names_tell_pictures_apart() {
     let bench = Bench::new();
+    bench.good(&["generate", "-q", "cube", "-o", "a.obj"]);
     for (arguments, name) in [
         (&["round-brilliant:table=60"][..], "round-brilliant-table60-table.png"),
         (&["round-brilliant:table=50"], "round-brilliant-table50-table.png"),
@@ -158,11 +159,32 @@ fn default_names_tell_pictures_apart() {
         (&["cube", "--size", "8"], "cube-8mm-table.png"),
         (&["--scene", "arrows"], "round-brilliant-arrows.png"),
         (&["cube", "--scene", "arrows", "--frames", "1"], "cube-arrows.gif"),
+        (&["a.obj:material=topaz"], "a-materialtopaz-table.png"),
+        (&["a.obj:ri=1.6"], "a-ri1.6-table.png"),
     ] {
         bench.good(&[&["render", "-q"], arguments, &TINY[..]].concat());
         assert!(bench.path(name).exists(), "{arguments:?}: {:?}", bench.names());
     }
-    assert_eq!(bench.names().len(), 8);
+    assert_eq!(bench.names().len(), 11);
+}
+
+/// Names that are not UTF-8 stay as they are, in every file that a picture has.
+#[cfg(unix)]
+#[test]
+fn names_of_pictures_keep_their_bytes() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let bench = Bench::new();
+    bench.good(&["generate", "-q", "cube", "-o", "a.obj"]);
+    let [stone, picture, pass] =
+        [&b"b\xff.obj"[..], b"b\xff-table.png", b"b\xff-table-caustic.png"].map(OsStr::from_bytes);
+    let top = bench.path("");
+    if std::fs::copy(bench.path("a.obj"), top.join(stone)).is_err() {
+        return; // a file system that takes no such names
+    }
+    let made = bench.command(&["render", "-q", "--passes"]).arg(stone).args(TINY).output().expect("starts");
+    assert!(made.status.success(), "{made:?}");
+    assert!(top.join(picture).exists() && top.join(pass).exists(), "{:?}", std::fs::read_dir(&top));
 }
 
 #[test]

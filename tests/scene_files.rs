@@ -52,6 +52,8 @@ fn what_is_out_of_range_is_refused_with_its_line() {
         ("size = 6", "size = 200", "camera stands inside stone 1"),
         ("size = 6", "radius = 1e-30", "radius"),
         ("field = 40", "field = 40\nexposure = 1e5", "exposure"),
+        ("field = 40", "field = 0", "an angle from 0 to 175 degrees"),
+        ("field = 40", "field-short = 180", "an angle from 0 to 150 degrees"),
         ("picture = [16, 12]", "picture = [16, 12]\ndepth = 0", "depth"),
     ] {
         let text = ROOM.replacen(from, to, 1);
@@ -254,6 +256,25 @@ fn daylight_takes_a_panorama_by_option() {
     let pixels = |bytes: &[u8]| image::load_from_memory(bytes).expect("is a picture").to_rgb8();
     assert_eq!(pixels(&first), pixels(&std::fs::read(bench.path("b.png")).expect("was written")));
     assert!(bench.ends(2, &render("c.png", &["--hdr", "nothing.hdr"])).1.contains("nothing.hdr"));
+    std::fs::remove_file(bench.path("panorama.hdr")).expect("is there");
+    assert!(bench.ends(2, &render("c.png", &[])).1.contains("--hdr FILE"));
+    std::fs::write(bench.path("text.hdr"), "no picture").expect("writes");
+    assert!(
+        bench.ends(2, &render("c.png", &["--hdr", "text.hdr"])).1.contains("neither a Radiance .hdr nor")
+    );
+}
+
+/// Lines of every system, in scenes and in designs.
+#[test]
+fn toml_is_read_whatever_ends_its_lines() {
+    let bench = Bench::new();
+    let (design, _) = bench.ends(0, &["generate", "-q", "cube", "--to", "toml", "-o", "-"]);
+    for (name, ends) in [("lf", "\n"), ("crlf", "\r\n"), ("cr", "\r")] {
+        std::fs::write(bench.path(&format!("{name}.toml")), ROOM.replace('\n', ends)).expect("writes");
+        SceneFile::open(&bench.path(&format!("{name}.toml"))).unwrap_or_else(|e| panic!("{name}: {e}"));
+        std::fs::write(bench.path(&format!("{name}-cube.toml")), design.replace('\n', ends)).expect("writes");
+        bench.good(&["show", &format!("{name}-cube.toml")]);
+    }
 }
 
 /// The grammar that the program prints is one that it takes.

@@ -226,7 +226,7 @@ fn nothing_in_names_and_files_reaches_the_terminal() {
 fn no_cell_of_a_csv_is_a_formula_and_parts_still_join() {
     let bench = Bench::new();
     let design = bench.good(&["generate", "cube", "-q", "--to", "asc", "-o", "-"]);
-    let names = ["=1+1.asc", "+1.asc", "@SUM(1).asc", "\t=1.asc"];
+    let names = ["=1+1.asc", "+1.asc", "@SUM(1).asc", "\t=1.asc", "\n=1.asc", "'=1.asc", "''@1.asc"];
     for name in names {
         std::fs::write(bench.path(name), &design).expect("writes");
     }
@@ -247,6 +247,10 @@ fn no_cell_of_a_csv_is_a_formula_and_parts_still_join() {
     bench.good(&["merge", "p1.csv", "p2.csv", "-o", "joined.csv"]);
     let read = |name: &str| std::fs::read_to_string(bench.path(name)).expect("written");
     assert_eq!(read("joined.csv"), read("all.csv"));
+    // and names are again as they were
+    score(&["-o", "all.json"]);
+    bench.good(&["merge", "p1.csv", "p2.csv", "-o", "joined.json"]);
+    assert_eq!(read("joined.json"), read("all.json"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::table::rounded;
 use crate::design::families;
 use crate::parse;
-use crate::parse::{NumberError, NumberUnit};
+use crate::parse::{NumberError, NumberUnit, format_number};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use serde::{Deserialize, Serialize};
@@ -96,7 +96,13 @@ impl Steps {
             return Err(format!("'{text}' is not a range of numbers"));
         }
         let steps = (to - from) / step;
-        if step == 0.0 || steps < 0.0 {
+        if step == 0.0 {
+            return Err(format!(
+                "'{text}': the step is 0; for one value give it alone, as {}",
+                format_number(from)
+            ));
+        }
+        if steps < 0.0 {
             return Err(format!("'{text}': the step leads away from {to}"));
         }
         let mut count = (steps + 1e-6).floor() + 1.0;

@@ -40,7 +40,7 @@ pub enum TableError {
     #[error("cannot write the table: {0}")]
     Row(String),
     /// A file extension without a form.
-    #[error("cannot write '{0}': a table's extension is .csv, .jsonl, .ndjson or .json")]
+    #[error("'{0}': a table's extension is .csv, .jsonl, .ndjson or .json")]
     Ending(String),
 }
 
@@ -60,14 +60,20 @@ pub enum TableCell {
 
 impl TableCell {
     /// The cell in a CSV: a text that a spreadsheet would compute (it begins with `=`, `+`, `-`, `@`, a tab
-    /// or a carriage return) has an apostrophe before it, which makes it text. Checked in `tests/words.rs`.
+    /// or an end of a line) has an apostrophe before it, which makes it text; one that begins so after
+    /// apostrophes has one more, so that none is lost. Checked in `tests/words.rs`.
     fn for_spreadsheet(&self) -> TableCell {
         match self {
-            TableCell::Text(text) if text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r']) => {
+            TableCell::Text(text) if is_formula(text.trim_start_matches('\'')) => {
                 TableCell::Text(format!("'{text}"))
             }
             cell => cell.clone(),
         }
+    }
+
+    /// The text that stands so in a CSV, without what [`TableCell::for_spreadsheet`] put before it.
+    fn without_apostrophe(text: &str) -> &str {
+        text.strip_prefix('\'').filter(|_| is_formula(text.trim_start_matches('\''))).unwrap_or(text)
     }
 
     /// A number as tables show it.
@@ -78,7 +84,7 @@ impl TableCell {
     fn of_csv(column: &str, text: &str) -> TableCell {
         match (text.parse(), text.parse()) {
             _ if text.is_empty() => TableCell::Empty(()),
-            _ if TEXT_COLUMNS.contains(&column) => text.into(),
+            _ if TEXT_COLUMNS.contains(&column) => TableCell::without_apostrophe(text).into(),
             (Ok(count), _) => TableCell::Count(count),
             (Err(_), Ok(number)) => TableCell::Number(number),
             _ => text.into(),
@@ -97,6 +103,11 @@ impl TableCell {
             other => TableCell::Text(other.to_string()),
         }
     }
+}
+
+/// Whether a spreadsheet would compute a text.
+fn is_formula(text: &str) -> bool {
+    text.len() > 1 && text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
 }
 
 /// Columns whose cells are words, even those that look like numbers.
@@ -290,7 +301,10 @@ impl NumericColumns {
             let head = reader.headers().map_err(fail)?.clone();
             for row in reader.records() {
                 let row = row.map_err(fail)?;
-                head.iter().zip(&row).for_each(|(column, cell)| add(column, cell.parse().ok(), cell.into()));
+                for (column, cell) in head.iter().zip(&row) {
+                    let text = TableCell::without_apostrophe(cell);
+                    add(column, cell.parse().ok(), text.into());
+                }
             }
             return Ok(table);
         }

@@ -1,6 +1,6 @@
 //! Exit codes, and errors of one line.
 
-use crate::design::CutError;
+use crate::design::{CutError, LengthUnit};
 use crate::formats::FormatError;
 use crate::geometry::ClosedMesh;
 use crate::geometry::SolidError;
@@ -77,6 +77,8 @@ pub struct MeshFacts {
     pub convex: Option<bool>,
     /// The mesh, if it is closed.
     pub body: Option<ClosedMesh>,
+    /// The mesh's unit.
+    pub unit: LengthUnit,
 }
 
 impl CliError {
@@ -182,6 +184,7 @@ fn code_of(cause: &std::io::Error) -> ExitStatus {
 
 fn shape_of(error: &FormatError) -> Option<MeshFacts> {
     let FormatError::NoStone { format, facets, cause } = error else { return None };
+    let unit = if let FormatError::Mesh { unit, .. } = **cause { unit } else { LengthUnit::Free };
     let (closed, convex) = match &**cause {
         FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
         FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
@@ -192,7 +195,7 @@ fn shape_of(error: &FormatError) -> Option<MeshFacts> {
     };
     let body = error.closed_mesh().map(|(_, body)| body.clone());
     let facets = facets.or(body.as_ref().map(|b| b.facets.len()));
-    Some(MeshFacts { format, facets, closed, convex, body })
+    Some(MeshFacts { format, facets, closed, convex, body, unit })
 }
 
 impl From<MapFileError> for CliError {
@@ -253,7 +256,8 @@ pub fn usage(error: &clap::Error, command: &clap::Command) -> ExitCode {
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"))
-        .filter(|line| !line.is_empty())
+        // no option is meant as a value
+        .filter(|line| !line.is_empty() && !line.starts_with("tip: to pass"))
         .collect();
     let said = said.join(" ").replace(" tip: ", "; ");
     let said = said.strip_prefix("error: ").unwrap_or(&said);

@@ -184,11 +184,10 @@ fn import(
         }
     }
     let (bytes, read) = match stone::open(&job.stone) {
-        Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.body.as_ref()?))) {
-            Some((of, body)) => {
-                let scale = args.size.map(|mm| mm / body.width()).or(formats::unit_mm(of));
-                let unit = if scale.is_some() { LengthUnit::Millimetre } else { LengthUnit::Free };
-                let scale = scale.unwrap_or(1.0);
+        Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.unit, s.body.as_ref()?))) {
+            Some((of, unit, body)) => {
+                let unit = if args.size.is_some() { LengthUnit::Millimetre } else { unit };
+                let scale = args.size.map_or(1.0, |mm| mm / body.width());
                 let name = stone::display_name(stone::file_stem(&job.stone));
                 let (TargetFormat::Format(format), None) = (form, args.made.carat) else {
                     return Err(failure);

@@ -8,6 +8,7 @@ use super::exit_code::{CliError, ExitStatus};
 use crate::parse;
 use crate::scene::scene_file::GRAMMAR;
 use catalogue_entry::CatalogueEntry;
+use clap::ValueEnum;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -63,8 +64,9 @@ pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
         Catalogue::Limits => entries::limits(),
         Catalogue::Lights => entries::lights(),
     };
+    let kind = args.kind.to_possible_value().map_or_else(String::new, |kind| kind.get_name().into());
     let asked =
-        args.names.iter().map(|name| find(&all, name)).collect::<Result<Vec<&CatalogueEntry>, _>>()?;
+        args.names.iter().map(|name| find(&all, &kind, name)).collect::<Result<Vec<&CatalogueEntry>, _>>()?;
     if console.json {
         let chosen = if asked.is_empty() { all.iter().collect() } else { asked };
         console.print_json(&chosen.iter().map(|e| e.json()).collect::<Vec<_>>())?;
@@ -79,9 +81,9 @@ pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::Done)
 }
 
-fn find<'a>(all: &'a [CatalogueEntry], name: &str) -> Result<&'a CatalogueEntry, CliError> {
+fn find<'a>(all: &'a [CatalogueEntry], kind: &str, name: &str) -> Result<&'a CatalogueEntry, CliError> {
     all.iter().find(|e| parse::is_name(&e.name, name)).ok_or_else(|| {
         let near = parse::did_you_mean(parse::nearest_name(name, all.iter().map(|e| e.name.as_str())));
-        CliError::input(format!("the list has no '{name}'{near}"))
+        CliError::input(format!("the list of {kind} has no '{name}'{near} (all: cutlab list {kind})"))
     })
 }

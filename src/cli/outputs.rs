@@ -56,6 +56,9 @@ impl Outputs {
     ///
     /// - `is_own`: whether a file that is there was made by the same command
     pub fn claim(&mut self, path: &Path, is_own: impl FnOnce(&Path) -> bool) -> Result<(), CliError> {
+        if atomic_write::is_stdout(path) && self.claimed.insert("-".into(), path.to_owned()).is_some() {
+            return Err(CliError::input("standard output is given for two outputs: name a file for one"));
+        }
         if atomic_write::is_stream(path) {
             return Ok(());
         }

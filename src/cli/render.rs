@@ -62,27 +62,30 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
 
 /// A name that tells the stones with their parameters, what they are made of, their size and the scene:
 /// pictures of different things have different names.
-fn default_name(args: &RenderArgs, file: &SceneFile) -> String {
+fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
     let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
     let stones = args.stones.iter().map(OsString::as_os_str).chain(first.map(OsStr::new));
-    let mut parts: Vec<String> = stones.map(stone_name).collect();
-    parts.extend(args.substance.material.map(|m| m.name.to_string()));
-    parts.extend(args.substance.ri.map(|n| format!("n{n}")));
-    parts.extend(args.size.map(|mm| format!("{mm}mm")));
-    parts.push(file.name.clone());
-    parts.push(if args.frames.is_some() { "gif" } else { "png" }.into());
-    let extension = parts.pop().unwrap_or_default();
-    format!("{}.{extension}", parts.join("-"))
+    let mut parts: Vec<OsString> = stones.map(stone_name).collect();
+    parts.extend(args.substance.material.map(|m| m.name.as_ref().into()));
+    parts.extend(args.substance.ri.map(|n| format!("n{n}").into()));
+    parts.extend(args.size.map(|mm| format!("{mm}mm").into()));
+    parts.push(file.name.clone().into());
+    let mut name = parts.join(OsStr::new("-"));
+    name.push(if args.frames.is_some() { ".gif" } else { ".png" });
+    name
 }
 
-/// `round-brilliant:table=60` as `round-brilliant-table60`.
-fn stone_name(spec: &OsStr) -> String {
+/// `round-brilliant:table=60` as `round-brilliant-table60`, `D.asc:material=topaz` as `D-materialtopaz`.
+fn stone_name(spec: &OsStr) -> OsString {
     let text = spec.to_str().filter(|_| stone::is_cut(spec));
-    let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest);
-    let given = parameters.unwrap_or_default().split(',').map(str::trim).filter(|p| !p.is_empty());
-    let fit = |c: char| if c.is_alphanumeric() || c == '.' || c == '-' { Some(c) } else { None };
-    let told = given.map(|p| p.chars().filter_map(fit).collect::<String>());
-    std::iter::once(stone::display_name(stone::file_stem(spec))).chain(told).collect::<Vec<_>>().join("-")
+    let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
+    let of_file =
+        || stone::StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
+    let given = parameters.unwrap_or_else(of_file);
+    let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
+    let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
+    let told = told.filter(|p| !p.is_empty()).map(OsString::from);
+    std::iter::once(stone::file_stem(spec)).chain(told).collect::<Vec<_>>().join(OsStr::new("-"))
 }
 
 /// A scene of the catalogue, or a file.

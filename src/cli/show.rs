@@ -268,7 +268,9 @@ fn sheet(spec: &OsStr, args: &ShowArgs) -> Result<StoneSheet, CliError> {
     let index = material.index_d();
     let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
     let p = proportions::measure(&solid);
-    let unit_mm = formats::unit_mm(imported.format).unwrap_or(1.0);
+    // a glTF too wide for metres has its own numbers
+    let in_mm = design.unit == LengthUnit::Millimetre;
+    let unit_mm = formats::unit_mm(imported.format).filter(|_| in_mm).unwrap_or(1.0);
     let weight = Weight::new(&material);
     let size = match args.carat {
         Some(carats) => Some(weight::width_mm(&weight, &design, carats)?),
@@ -282,11 +284,7 @@ fn sheet(spec: &OsStr, args: &ShowArgs) -> Result<StoneSheet, CliError> {
         closed: true,
         convex: true, // what the readers let through is the solid of its planes
         volume: p.volume / unit_mm.powi(3),
-        unit: match (design.unit, imported.format) {
-            (LengthUnit::Free, _) => "file",
-            (LengthUnit::Millimetre, format) if formats::unit_mm(format).is_some() => "m",
-            (LengthUnit::Millimetre, _) => "mm",
-        },
+        unit: measured::unit_name(design.unit, imported.format),
         unit_mm,
         facets_by_kind: p.by_zone.iter().copied().collect(),
         measured: MeasuredProportions::new(&p, &design, size, &weight).in_unit_of(unit_mm),

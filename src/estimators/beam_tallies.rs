@@ -12,8 +12,8 @@ use crate::trace::beams::{
 };
 use glam::DVec3;
 
-/// A beam that could still bring a stronger path to a point is followed down to this share of the
-/// light on the outline; what then is undecided covers some 1e-5 of the outline.
+/// A beam that could still bring a stronger path to a point is followed down to this share of the light on
+/// the outline; the undecided rest covers some 1e-5 of the outline.
 const STRONGEST_POWER: f64 = 1e-8;
 
 /// The faceters' view follows every beam of nine bounces that holds more than this.
@@ -36,8 +36,8 @@ pub fn needs_strongest_path(score: &Statistic<view::ViewTally>) -> bool {
 
 /// The view's tally in batches, which share what beams give and have photons of their own.
 ///
-/// The luminance of single points is not known: `dark` stays 0. Strongest paths are followed if they
-/// are asked for; if not, or if there are too many beams, they are not numbers. Checked in `tests/exact.rs` against
+/// The luminance of single points is not known: `dark` stays 0. Strongest paths are followed if they are
+/// asked for; if not, or if there are too many beams, they are NaN. Checked in `tests/exact.rs` against
 /// [`super::View`].
 pub fn view(
     beams: &Beams,
@@ -114,7 +114,7 @@ pub fn iso(
     Ok(faceter_view::FaceterTally { rays: 1.0, table_rays, ..bright.tally })
 }
 
-/// What is bright by the faceters' rules.
+/// Visitor that sums what is bright by the faceters' rules.
 struct FaceterBeamVisitor<'a> {
     axis: DVec3,
     sky: ObserverDome,
@@ -148,8 +148,8 @@ impl BeamVisitor<UnpolarisedLight, 1> for FaceterBeamVisitor<'_> {
     }
 }
 
-/// What of the beam's tally the separation of the colours is taken from, in batches as [`view()`]'s.
-/// Angles one by one and thresholds are left out. Checked in `tests/beams.rs`.
+/// The sums behind colour separation, in batches as those of [`view()`]; angles one by one and thresholds
+/// are left out. Checked in `tests/beams.rs`.
 pub fn colours(
     beams: &Beams,
     medium: &TraceOptics,

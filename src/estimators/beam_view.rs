@@ -1,5 +1,5 @@
-//! The view by exact beams, its residual finished by photons. Scores of one direction without
-//! noise, or all but.
+//! The view by exact beams, its residual finished by photons. Scores of one direction with little noise or
+//! none.
 
 use super::horizon::is_above;
 use super::view::{AsetBand, band};
@@ -88,7 +88,7 @@ pub fn between<const N: usize>(limits_deg: [f64; N]) -> impl Fn(&ExitSample<1>) 
     }
 }
 
-/// Light that remembers where its strongest path so far has left.
+/// Light that records the exit of its strongest path so far.
 #[derive(Debug, Clone, Copy)]
 pub struct StrongestPath<L = UnpolarisedLight> {
     /// What is still inside.
@@ -152,8 +152,8 @@ pub struct StrongestShares {
     pub dark: f64,
     /// Share of the outline whose strongest path leaves through the first pavilion facet it meets.
     pub windowed: f64,
-    /// Whether there were more than [`MAX_BEAMS`], and the rest was not followed: the shares are then
-    /// good for nothing but a guess.
+    /// Whether there were more than [`MAX_BEAMS`], and the rest was not followed: the shares are then no
+    /// more than a guess.
     pub cut_short: bool,
 }
 

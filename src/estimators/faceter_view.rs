@@ -1,4 +1,4 @@
-//! Faceters' view (ISO, COS, SC2): the face-up view by the rules that faceters compare designs with, GemRay's.
+//! Faceters' view (ISO, COS, SC2): the face-up view by GemRay's rules, by which faceters compare designs.
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
@@ -21,7 +21,7 @@ pub const GEMRAY_OBSERVER_DEG: f64 = 10.0;
 /// A facet faces the viewer if the cosine between its normal and his direction is above this.
 const MIN_FACING_COS: f64 = 1e-4;
 
-/// A lane with less than this share of its light is given up: nothing of what counts.
+/// A lane with less than this share of its light is given up: negligible.
 const STOP_POWER: f32 = 1e-7;
 
 /// The parallel view of one stone, D line or daylight for a stone that absorbs, unpolarised at every facet; what counts leaves through

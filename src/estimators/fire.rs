@@ -29,7 +29,7 @@ const FEWEST_OF_A_BATCH: usize = 64;
 /// Lines that are compared, D first.
 const LINES: [f64; 3] = [lines::D, lines::B, lines::G];
 
-/// Light that is followed by the area it covers, while it can be seen.
+/// Light that is followed by the area it covers, while it is visible.
 #[derive(Debug, Clone, Copy)]
 struct VisibleLight<L> {
     light: L,
@@ -134,12 +134,12 @@ fn sums<const K: usize>(
     Ok((0..BATCHES).into_par_iter().map(finish).collect())
 }
 
-/// Which exits count, and for how much.
+/// Which exits count, and with what weight.
 struct FireRules<'a, F> {
     crown: &'a [f32],
-    /// In which the light goes.
+    /// Direction of the incident light, unit.
     direction: DVec3,
-    /// Of the leading line.
+    /// Refractive index at the leading line.
     index: f64,
     of: &'a F,
 }
@@ -172,7 +172,7 @@ impl<F> FireRules<'_, F> {
     }
 }
 
-/// Exits of beams into a sum, what is too small to be followed into photons.
+/// Visitor that sums exits of beams; beams too small to be followed go to photons.
 struct FireVisitor<'a, F, const K: usize> {
     rules: FireRules<'a, F>,
     sum: f64,
@@ -200,7 +200,7 @@ impl<L: BeamLight, F: Fn(&[DVec3; K], f64) -> f64, const K: usize> BeamVisitor<V
     }
 }
 
-/// Exits of photons into a sum.
+/// Client that sums exits of photons.
 struct FireClient<'a, F, const K: usize> {
     rules: FireRules<'a, F>,
     sum: f64,

@@ -3,9 +3,10 @@
 //! The definitions are those of [`super::hemisphere`] and [`super::view`], and so are the tallies. The
 //! crown is every facet that faces up, the outline all that lines of sight meet. Light of the dome that
 //! another part of the stone shades does not arrive there; what is mirrored and has never been inside
-//! counts as reflected at entry, after however many facets. In a concavity chance picks which part of a ray
-//! goes on: sums of power have no bias, but a single ray has no strongest path and no luminance of its
-//! own, so the tallies of strongest paths and of dark rays stay empty. Checked in `tests/trace/nonconvex_scores.rs`.
+//! counts as reflected at entry, after however many facets. In a concavity a random choice decides which
+//! part of a ray goes on: sums of power have no bias, but a single ray has no strongest path and no
+//! luminance of its own, so the tallies of strongest paths and of dark rays stay empty. Checked in
+//! `tests/trace/nonconvex_scores.rs`.
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Crown};
@@ -84,7 +85,7 @@ impl<'a> NonconvexTracer<'a> {
     }
 }
 
-/// The numbers that chance takes for a point of a batch.
+/// Random numbers for a point of a batch.
 fn chance(seed: u64, batch: u64, point: u64) -> Stream {
     Stream::new(seed, Purpose::Nonconvex, (batch << 48) | point)
 }

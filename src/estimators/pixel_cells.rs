@@ -25,8 +25,8 @@ pub(super) fn side_for(stone: &ConvexStone) -> f64 {
 /// Half-angle of the observer under the dome, degrees (AGS; 20° gives its contrast map).
 pub const AGS_OBSERVER_DEG: f64 = 15.0;
 
-/// Draws for a point of a cell within the outline. Less than one cell in a thousand has so little
-/// of it inside that this may not do.
+/// Draws for a point of a cell within the outline. They may not suffice for less than one cell in a
+/// thousand.
 const DRAWS: usize = 32;
 
 /// Random numbers for the cells of a run that starts at point `start` of a batch.
@@ -44,14 +44,14 @@ pub(super) struct PixelCell {
 }
 
 impl PixelCell {
-    /// A cell around a place, randomly rotated and shifted, as if the whole grid were.
+    /// A cell around a place, of a randomly rotated and shifted grid.
     pub(super) fn around(inside: DVec2, side: f64, stream: &mut Stream) -> PixelCell {
         let side = DVec2::from_angle(std::f64::consts::TAU * stream.unit64()) * side;
         let corner = inside - side * stream.unit64() - side.perp() * stream.unit64();
         PixelCell { inside, corner, side }
     }
 
-    /// Another place of the cell, uniform over what of it `holds` says.
+    /// Another place of the cell, uniform over the part of it where `holds` is true.
     pub(super) fn sample(&self, stream: &mut Stream, holds: impl Fn(DVec2) -> bool) -> DVec2 {
         let mut draw = || self.corner + self.side * stream.unit64() + self.side.perp() * stream.unit64();
         (0..DRAWS).map(|_| draw()).find(|at| holds(*at)).unwrap_or(self.inside)
@@ -83,11 +83,11 @@ pub(super) trait SampleGroups {
     /// Fills in the next group; false if there is none.
     fn next_group(&mut self, group: &mut Vec<SightLine>) -> bool;
 
-    /// Takes a group's luminances, dome = 1, in the group's order.
+    /// Receives a group's luminances, dome = 1, in the group's order.
     fn accept(&mut self, luminances: &[f32]);
 }
 
-/// A group on its way.
+/// A group under way.
 #[derive(Debug, Default)]
 struct PendingGroup {
     luminances: Vec<f32>,
@@ -101,7 +101,7 @@ struct LaneSlot {
     member: usize,
 }
 
-/// How the cells of a stone are seen.
+/// Tracer of the cells of a stone's picture.
 #[derive(Debug, Clone)]
 pub(super) struct CellTracer<'a> {
     pub(super) stone: &'a ConvexStone,
@@ -136,14 +136,14 @@ impl<'a> CellTracer<'a> {
     }
 }
 
-/// The groups' lines of sight on their way through the lanes, in `K` wavelengths each.
+/// The client that traces the groups' lines of sight, in `K` wavelengths each.
 struct CellClient<'a, G, const K: usize> {
     seen: &'a CellTracer<'a>,
     hues: Stream,
-    /// Where in their parts of the light the wavelengths of the present point lie.
+    /// Place of the present point's wavelengths in their strata, 0..1.
     hue: f64,
     groups: &'a mut G,
-    /// The last group's sights, and how many of them are on their way.
+    /// The last group's lines of sight, and how many of them have been loaded.
     sights: Vec<SightLine>,
     begun: usize,
     group: usize,
@@ -177,7 +177,7 @@ impl<'a, G: SampleGroups, const K: usize> CellClient<'a, G, K> {
         lane_scheduler::trace_all(self.seen.stone, self.seen.stop_power, &mut self);
     }
 
-    /// Takes up the next group.
+    /// Begins the next group.
     fn begin(&mut self) -> bool {
         self.sights.clear();
         self.begun = 0;

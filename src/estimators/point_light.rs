@@ -22,7 +22,7 @@ const STOP_POWER: f32 = 1e-6;
 /// Threshold of visibility: exiting irradiance as a share of the beam's (GIA 2001: 10⁻³).
 pub const THRESHOLD: f32 = 1e-3;
 
-/// Lanes of a ray: the sixteenth of a packet rests.
+/// Lanes of a ray: the sixteenth of a packet is idle.
 const LINES: usize = 3;
 
 /// Lines that are paired on one path, D first.
@@ -49,7 +49,7 @@ pub struct PointLight<'a> {
     needs: PointLightNeeds,
 }
 
-/// What of a [`PointLightTally`] is wanted; the rest need not be right.
+/// The parts of a [`PointLightTally`] that are needed; the others may be wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointLightNeeds {
     /// Exits of all six lines, rather than of those that are compared.
@@ -59,10 +59,10 @@ pub struct PointLightNeeds {
 }
 
 impl PointLightNeeds {
-    /// Everything.
+    /// All parts.
     pub const ALL: PointLightNeeds = PointLightNeeds { lit: true, faint: true };
 
-    /// What a score reads of a tally.
+    /// The parts that a score reads.
     pub fn from_statistic(reading: &Statistic<PointLightTally>) -> PointLightNeeds {
         let seen = PointLightTally { points: 1.0, lit: 1.0, streak_deg: 1.0, ..PointLightTally::default() };
         let unlit = PointLightTally { lit: 2.0, ..seen.clone() };
@@ -73,7 +73,7 @@ impl PointLightNeeds {
         PointLightNeeds { lit: differs(&unlit), faint: differs(&faint) }
     }
 
-    /// What either needs.
+    /// The parts that either needs.
     pub fn and(self, other: PointLightNeeds) -> PointLightNeeds {
         PointLightNeeds { lit: self.lit || other.lit, faint: self.faint || other.faint }
     }
@@ -86,11 +86,11 @@ pub struct PointLightTally {
     pub points: f64,
     /// Σ m cos² over visible exits, mean over the six lines.
     pub lit: f64,
-    /// Σ m cos² × angle between B and G in degrees, over visible exits at D whose B and G have
-    /// come the same way and leave too.
+    /// Σ m cos² × angle between B and G in degrees, over visible exits at D whose B and G have met the same
+    /// facets and leave too.
     pub streak_deg: f64,
-    /// Σ power × angle between B and G in degrees, over crown exits at D whose B and G have come
-    /// the same way and leave too.
+    /// Σ power × angle between B and G in degrees, over crown exits at D whose B and G have met the same
+    /// facets and leave too.
     pub power_angle_deg: f64,
     /// Σ power over the same exits.
     pub paired_power: f64,
@@ -202,7 +202,7 @@ impl RayClient for PointLightClient<'_> {
         true
     }
 
-    /// Lines that have parted are not compared any more.
+    /// Lines that have met different facets are no longer compared.
     fn is_done(&self, lane: usize) -> bool {
         !self.estimator.needs.lit && !self.together.is_same(lane)
     }

@@ -21,13 +21,13 @@ impl<const K: usize> SamePath<K> {
         self.0[lane] = true;
     }
 
-    /// Whether the lines of the ray in the lanes from `lane` on have come the same way so far.
+    /// Whether the lines of the ray in the lanes from `lane` on have met the same facets so far.
     pub(super) fn is_same(&self, lane: usize) -> bool {
         self.0[lane]
     }
 
-    /// Whether all lines of the ray in the lanes from `lane` on leave at this interaction, and have come
-    /// the same way.
+    /// Whether all lines of the ray in the lanes from `lane` on leave at this interaction, and have met the
+    /// same facets.
     #[inline]
     pub(super) fn leave(&mut self, m: &Interaction, lane: usize) -> bool {
         let facets = &m.facet[lane..lane + K];

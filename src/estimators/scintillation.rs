@@ -22,7 +22,7 @@ const REACH: i32 = 15;
 const STEPS: usize = 4 * REACH as usize;
 
 /// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
-/// [`ScintillationTally::last`], and is about what is left to take off: `tests/faceter_view.rs` looks at it.
+/// [`ScintillationTally::last`], and is about what is left to take off: checked in `tests/faceter_view.rs`.
 const FINEST: u32 = 10;
 
 /// A cell has 2^k points or more with probability 2^(−k · this).
@@ -84,7 +84,7 @@ pub struct ScintillationTally {
     pub luminance: f64,
     /// Σ |change of a cell's luminance| in one step.
     pub change: f64,
-    /// What of it the doubling to the most points has added (it is negative).
+    /// The part of it that the doubling to the most points has added (negative).
     pub last: f64,
 }
 
@@ -98,7 +98,7 @@ impl Accumulate for ScintillationTally {
 }
 
 impl<'a> Scintillation<'a> {
-    /// Rocks a stone about an aspect and its [`pivot`].
+    /// Rocks a stone about its [`pivot`], from a view frame.
     pub fn in_frame(
         stone: &'a ConvexStone,
         medium: &TraceOptics,
@@ -189,13 +189,13 @@ impl SampleGroups for Changes<'_> {
     }
 }
 
-/// A cell has two to this power of points.
+/// The exponent k of a cell's 2^k points.
 fn level(stream: &mut Stream) -> u32 {
     ((-stream.unit64().log2() / RARER) as u32).min(FINEST)
 }
 
-/// What the changes of 2^k points of a cell add to the mean |change| of cells, and what of it the last
-/// doubling does.
+/// What the changes of 2^k points of a cell add to the mean |change| of cells, and the last doubling's part
+/// of it.
 fn unbiased(changes: &mut Vec<f64>) -> (f64, f64) {
     let mean_size = |changes: &[f64]| changes.iter().map(|c| c.abs()).sum::<f64>() / changes.len() as f64;
     let mut coarse = mean_size(changes);

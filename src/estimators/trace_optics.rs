@@ -1,4 +1,4 @@
-//! Optics of a stone as estimators trace it, and why one cannot be lit.
+//! Optics of a stone as estimators trace it; errors of stones that cannot be lit.
 
 use crate::materials::Material;
 use crate::trace::{ConvexStone, Packet, Refraction};
@@ -8,13 +8,14 @@ use glam::Vec3;
 /// the point counts: as many as a picture's.
 pub(super) const LINES_PER_RAY: usize = 8;
 
-/// A ray with less than this share of its light is given up, unless less is asked for. Smaller costs
-/// time; larger shows: of a round brilliant's light 3e-5 are given up in all. In a stone that absorbs
-/// the share is of what has come out ([`crate::trace::lane_scheduler::RayClient::stops_by_emitted_power`]).
+/// A ray with less than this share of its light is given up, unless less is asked for. A smaller value
+/// costs time, a larger one accuracy: at this one 3e-5 of a round brilliant's light is given up. In a stone
+/// that absorbs the share is of what has come out
+/// ([`crate::trace::lane_scheduler::RayClient::stops_by_emitted_power`]).
 pub const STOP_POWER: f32 = 1e-4;
 
-/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is
-/// in millimetres: its size shows.
+/// What a stone is made of, and how light is followed in it. A stone of a material that absorbs is in
+/// millimetres: its size matters.
 #[derive(Debug, Clone, Copy)]
 pub struct TraceOptics<'a> {
     /// The material.
@@ -37,9 +38,9 @@ impl LineOptics {
         self.absorption > 0.0
     }
 
-    /// Sets a lane on its way with what enters of unpolarised light of power 1; returns its refraction.
+    /// Loads a lane with what enters of unpolarised light of power 1; returns its refraction.
     ///
-    /// - `facet`, `point` on it, `direction` (unit, from outside): where and whence, trace frame
+    /// - `facet`, `point` on it, `direction` (unit, from outside): trace frame
     pub(super) fn enter(
         self,
         packet: &mut Packet,
@@ -62,8 +63,7 @@ impl TraceOptics<'_> {
         if self.material.is_clear() { 1 } else { LINES_PER_RAY as u64 }
     }
 
-    /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices at which the
-    /// formulas mean nothing.
+    /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices outside 1..=10.
     pub(super) fn optics(&self, unit: f64, nm: f64) -> Result<LineOptics, EstimatorError> {
         let index = check_index(self.material.index(nm))?;
         Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32 })
@@ -81,7 +81,7 @@ pub enum EstimatorError {
     Index(f64),
 }
 
-/// Refuses indices at which the formulas mean nothing.
+/// Refuses indices outside 1..=10.
 pub(super) fn check_index(n: f64) -> Result<f32, EstimatorError> {
     if (1.0..=10.0).contains(&n) { Ok(n as f32) } else { Err(EstimatorError::Index(n)) }
 }

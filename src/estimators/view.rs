@@ -72,7 +72,7 @@ impl ObserverDome {
     }
 }
 
-/// What stands around the stone in a view.
+/// Lighting of a view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewerLighting {
     /// The dome whose dark cone is the black of the Ideal-Scope.
@@ -167,7 +167,8 @@ impl Accumulate for ViewTally {
         let absorbed = absorbs.then(|| ViewTally { absorbed: self.absorbed + self.lost, ..self.clone() });
         let zenith = AsetBand::Blue as usize;
         let sky = (0..=zenith).map(|band| from(band, 1.0));
-        sky.chain([from(zenith, 0.0), from(AsetBand::Below as usize, 0.0)]).chain(absorbed).collect()
+        let viewer = ViewTally { scope_dark: self.scope_dark + self.lost, ..from(zenith, 0.0) };
+        sky.chain([viewer, from(AsetBand::Below as usize, 0.0)]).chain(absorbed).collect()
     }
 }
 
@@ -222,7 +223,7 @@ pub fn band(z: f32) -> AsetBand {
     }
 }
 
-/// The rays of a run of points, `K` wavelengths each; what is said of a ray stands in its first lane.
+/// The rays of a run of points, `K` wavelengths each; sums of a ray are kept in its first lane.
 struct ViewClient<'a, const K: usize> {
     estimator: &'a View<'a>,
     points: KroneckerPoints<2>,
@@ -296,8 +297,8 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
             self.been_below[l] += below;
             (height[l], straight[l]) = (z, first);
         }
-        // the strongest path of the eye: where most of all wavelengths together leaves, as the one
-        // that brings the most of it leaves
+        // the strongest path of a ray: the exit with the greatest power over all wavelengths, by the
+        // direction of the strongest of them
         for ray in (0..LANES).step_by(K) {
             let powers = &m.power[ray..ray + K];
             let power = powers.iter().sum::<f32>();

@@ -1,5 +1,5 @@
-//! Weighted exits: what leaves a stone lit from one direction, by beams, their residual finished by photons;
-//! every exit weighted as the caller likes. The exact scores are sums of this kind.
+//! Weighted exits: what leaves a stone lit from one direction, by beams, their residual finished by
+//! photons; every exit weighted by the caller. The exact scores are sums of this kind.
 
 use super::same_path::SamePath;
 use super::{BATCHES, EstimatorError, check_index};
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 /// millions; what is left is then finished by photons.
 pub const MAX_BEAMS: u64 = 4_000_000;
 
-/// How hard to work.
+/// Effort of an integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamEffort {
     /// When beams are left to photons.
@@ -40,7 +40,7 @@ impl Default for BeamEffort {
     }
 }
 
-/// Light that leaves, in `K` lines that have come the same way; what a weight depends on.
+/// Light that leaves, in `K` lines that have met the same facets; the argument of a weight.
 #[derive(Debug, Clone, Copy)]
 pub struct ExitSample<const K: usize> {
     /// Facet through which it leaves, or at which it is reflected from outside.
@@ -162,7 +162,7 @@ fn integrate_exits_of<L: BeamLight, const K: usize, const N: usize>(
     WeightedSums { beam_sums: sums, glare, reflected, residual: left, beams: totals.beams, batches }
 }
 
-/// Weights and what they add up to.
+/// Weights and their sums.
 struct WeightAccumulator<'a, F, const N: usize> {
     weights: &'a F,
     axis: DVec3,
@@ -191,7 +191,7 @@ impl<F, const N: usize> WeightAccumulator<'_, F, N> {
     }
 }
 
-/// Exits into sums, the rest into photons.
+/// Visitor that sums exits of beams; the rest goes to photons.
 struct ExitVisitor<'a, F, const K: usize, const N: usize> {
     scales: WeightAccumulator<'a, F, N>,
     glare: [f64; N],
@@ -226,7 +226,7 @@ impl<L: BeamLight, F: Fn(&ExitSample<K>) -> [f64; N], const K: usize, const N: u
     }
 }
 
-/// Photons into sums.
+/// Client that sums exits of photons.
 struct ResidualSums<'a, F, const K: usize, const N: usize> {
     scales: WeightAccumulator<'a, F, N>,
     together: SamePath<K>,

@@ -6,7 +6,7 @@ use super::{Format, Parsed, Writer};
 use crate::design::Design;
 use crate::design::design_file::{DesignFile, DocumentError};
 use crate::parse::plain;
-use crate::storage::limits;
+use crate::storage::{limits, text};
 use std::collections::BTreeMap;
 
 /// Design files as in `cuts/`.
@@ -37,7 +37,7 @@ fn sniff(source: &Input) -> u8 {
 /// another program's settings, has neither.
 pub fn looks_like_cutlab_toml(source: &Input) -> bool {
     const KEYS: [&str; 2] = ["tier", "family"];
-    let text = source.text();
+    let text = text::decode_lines(source.bytes);
     match toml::from_str::<toml::Table>(&text) {
         Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
         Err(_) => lines(&text).any(|(_, line)| {
@@ -49,7 +49,7 @@ pub fn looks_like_cutlab_toml(source: &Input) -> bool {
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {
     source.is_within(&limits::TOML_DESIGN)?;
-    let text = source.text();
+    let text = text::decode_lines(source.bytes);
     let mut design = document(source, &text)?
         .design(&BTreeMap::new())
         .map_err(|cause| FormatError::Cut { file: source.name.into(), cause })?;

@@ -1,5 +1,6 @@
 //! The one error of every reader and writer. Each is one line.
 
+use crate::design::LengthUnit;
 use crate::design::design_file::DocumentError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::geometry::{ClosedMesh, SolidError};
@@ -102,6 +103,8 @@ pub enum FormatError {
         file: String,
         /// What is wrong with it.
         cause: RecoverError,
+        /// Unit of the mesh that the cause may hold.
+        unit: LengthUnit,
     },
     /// Planes that bound no stone.
     #[error("{file}: {cause}")]

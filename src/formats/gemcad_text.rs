@@ -11,7 +11,7 @@ mod words;
 
 use super::error::{FormatError, quoted_excerpt};
 use super::gemcad_text_write::write;
-use super::input::{Input, lines, number};
+use super::input::{Input, MINUS_SIGNS, lines, number};
 use super::{Format, Parsed, Writer};
 use crate::design::Gear;
 use crate::storage::limits;
@@ -34,7 +34,7 @@ fn sniff(source: &Input) -> u8 {
         return 100;
     }
     let tier = |line: &str| line.starts_with('a') && is_keyword_line(line);
-    if lines(start).any(|(_, line)| tier(line.trim())) { 60 } else { 0 }
+    if lines(start).any(|(_, line)| tier(line.trim())) || words::begins(start) { 60 } else { 0 }
 }
 
 /// A file of other text has remarks on every line: nobody reads more of them.
@@ -226,7 +226,9 @@ impl AscFile<'_> {
         let found = words.peek(0).filter(|w| w.line == word.line).map_or("", |w| w.text);
         let meant = word.rest.split_whitespace().nth(1).is_some_and(|w| number(w).is_some());
         match letter {
-            'a' if word.first && (meant || found.starts_with(|c: char| "+-.\u{2212}".contains(c))) => {
+            'a' if word.first
+                && (meant || found.starts_with(|c: char| "+-.".contains(c) || MINUS_SIGNS.contains(&c))) =>
+            {
                 Err(self.source.at_line(word.line, "an angle from -90 to 90 degrees", found))
             }
             'g' if word.first && self.gear.is_none() => {

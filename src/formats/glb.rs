@@ -77,11 +77,15 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
     } else if widest.is_finite() {
         mesh.warnings.push(format!("{widest:.3} m wide, as no stone is: the unit is taken as unknown"));
     }
-    let mut reading = design_from_mesh(source, &mesh)?;
-    if is_in_metres {
-        reading.design.unit = LengthUnit::Millimetre;
+    let known = if is_in_metres { LengthUnit::Millimetre } else { LengthUnit::Free };
+    match design_from_mesh(source, &mesh) {
+        Ok(mut reading) => {
+            reading.design.unit = known;
+            Ok(reading)
+        }
+        Err(FormatError::Mesh { file, cause, .. }) => Err(FormatError::Mesh { file, cause, unit: known }),
+        Err(other) => Err(other),
     }
-    Ok(reading)
 }
 
 /// The mesh as it stands in the file, +z up.

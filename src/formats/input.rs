@@ -1,6 +1,9 @@
 //! Input of a reader: a file's bytes, its name for errors, and the text in it.
 
 use super::error::{FormatError, quoted_excerpt, shortened};
+use crate::design::LengthUnit;
+use crate::geometry::facet_recovery::RecoverError;
+pub use crate::parse::MINUS_SIGNS;
 use crate::storage::limits::Limit;
 use crate::storage::text;
 use std::borrow::Cow;
@@ -23,9 +26,9 @@ impl<'a> Input<'a> {
         text::decode(self.bytes)
     }
 
-    /// The first 4,096 bytes as text, for telling formats apart.
+    /// The first 65,536 bytes as text, for telling formats apart: a long comment may come first.
     pub fn beginning(&self) -> String {
-        text::beginning(self.bytes, 4096)
+        text::beginning(self.bytes, 1 << 16)
     }
 
     /// Whether the bytes are those of no text: control characters among the first, or NUL before others.
@@ -54,6 +57,11 @@ impl<'a> Input<'a> {
             expected: expected.into(),
             found: quoted_excerpt(found),
         }
+    }
+
+    /// An error of a mesh without a unit that is no convex stone.
+    pub fn no_stone(&self, cause: RecoverError) -> FormatError {
+        FormatError::Mesh { file: self.name.into(), cause, unit: LengthUnit::Free }
     }
 
     /// Refuses a file with `n` of something in all, if that is more than its limit.
@@ -125,9 +133,9 @@ pub fn without_comment(line: &str) -> &str {
     &line[..comment.unwrap_or(line.len())]
 }
 
-/// A finite number; the minus sign may be U+2212.
+/// A finite number; the minus sign may be one of [`MINUS_SIGNS`].
 pub fn number(word: &str) -> Option<f64> {
-    let value = match word.strip_prefix('\u{2212}') {
+    let value = match word.strip_prefix(MINUS_SIGNS) {
         Some(rest) => format!("-{rest}").parse::<f64>(),
         None => word.parse::<f64>(),
     };

@@ -108,8 +108,7 @@ const COARSE: f64 = 2e-6;
 
 /// The design of a mesh's facets. Facets keep their names; the design gets the file's.
 pub fn design_from_mesh(source: &Input, mesh: &PolygonMesh) -> Result<Parsed, FormatError> {
-    let (design, warnings) = recover(&source.stem(), mesh)
-        .map_err(|cause| FormatError::Mesh { file: source.name.into(), cause })?;
+    let (design, warnings) = recover(&source.stem(), mesh).map_err(|cause| source.no_stone(cause))?;
     Ok(Parsed { design, warnings })
 }
 

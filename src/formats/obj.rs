@@ -153,10 +153,11 @@ fn joined(text: &str) -> impl Iterator<Item = (usize, String)> {
         let (at, line) = all.next()?;
         let mut whole = without_comment(line).to_owned();
         let mut goes_on = whole.len() == line.len();
-        while goes_on && whole.ends_with('\\') {
-            whole.pop();
+        while goes_on && whole.trim_end().ends_with('\\') {
+            whole.truncate(whole.trim_end().len() - 1);
             whole.push(' ');
-            let next = all.next()?.1;
+            // at the end of the file nothing is left to go on with
+            let Some((_, next)) = all.next() else { break };
             let said = without_comment(next);
             goes_on = said.len() == next.len();
             whole += said;
@@ -175,7 +176,11 @@ fn reference(word: &str, seen: Counts, total: Counts) -> Option<(usize, Option<u
         if k == 1 || (part.is_empty() && k > 0) {
             continue;
         }
-        let n: i64 = part.parse().ok()?;
+        let n: i64 = match part.parse() {
+            Ok(n) => n,
+            Err(_) if k == 2 => continue,
+            Err(_) => return None,
+        };
         let index = if n < 0 { n.checked_add(seen[k] as i64 + 1)? } else { n };
         *slot = (1..=total[k] as i64).contains(&index).then_some(index as usize - 1);
     }

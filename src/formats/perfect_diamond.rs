@@ -60,15 +60,13 @@ fn stone(source: &Input, (shapes, digits): PolygonShapes) -> Result<Parsed, Form
             let count = shapes.len();
             let alone = shapes.into_iter().take(MOST_SHAPES);
             let alone: Vec<_> = alone.filter_map(|s| as_stone(s).ok()).collect();
-            let [found] = <[_; 1]>::try_from(alone)
-                .map_err(|_| FormatError::Mesh { file: source.name.into(), cause })?;
+            let [found] = <[_; 1]>::try_from(alone).map_err(|_| source.no_stone(cause))?;
             let (design, mut warnings) = found;
             warnings.push(format!("the stone is one of {} shapes; the others were left out", count));
             (design, warnings)
         }
     };
-    let upright = upright(&design)
-        .map_err(|cause| FormatError::Mesh { file: source.name.into(), cause: cause.into() })?;
+    let upright = upright(&design).map_err(|cause| source.no_stone(cause.into()))?;
     warnings.push("Perfect Diamond data: the file's form is reconstructed and unverified".into());
     Ok(Parsed { design: upright, warnings })
 }

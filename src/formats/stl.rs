@@ -3,7 +3,7 @@
 //! A binary file is one whose size is 84 + 50 n, whatever its header says: many begin with `solid`.
 
 use super::error::{FormatError, counted};
-use super::input::{Input, lines, number};
+use super::input::{Input, lines, number, without_comment};
 use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
 use super::{Format, MeshExport, Writer};
 use crate::geometry::facet_recovery::Polygon;
@@ -31,24 +31,39 @@ pub static TEXT: Format = Format {
     write: Some(Writer::Mesh(write_text)),
 };
 
+/// How sure it is that a file of a binary STL's size is one: no text has its number of triangles, and hardly
+/// another binary file.
+pub(super) const SURE_BY_SIZE: u8 = 110;
+
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
 
 /// The number of triangles that a binary file states, and how many bytes it then has.
 fn stated(bytes: &[u8]) -> Option<(usize, usize)> {
     let count: [u8; 4] = bytes.get(HEADER..HEADER + 4)?.try_into().ok()?;
-    let count = u32::from_le_bytes(count) as usize;
+    let count = match u32::from_le_bytes(count) {
+        // as a writer leaves it that does not know yet how many there will be
+        0 | u32::MAX if is_whole(bytes) && is_like_triangles(bytes) => (bytes.len() - HEADER - 4) / TRIANGLE,
+        count => count as usize,
+    };
     Some((count, count.checked_mul(TRIANGLE)?.checked_add(HEADER + 4)?))
 }
 
 fn sniff_binary(source: &Input) -> u8 {
     match stated(source.bytes) {
-        Some((1.., size)) if size == source.bytes.len() => 95,
+        // more certain than any beginning, which may be another format's
+        Some((1.., size)) if size == source.bytes.len() => SURE_BY_SIZE,
         // what follows the triangles is of no use, if these are triangles at all
         Some((1.., size)) if size < source.bytes.len() && is_like_triangles(source.bytes) => 60,
         Some((1.., _)) if source.extension() == "stl" && source.is_binary() => 10,
         _ => 0,
     }
+}
+
+/// Whether there are nothing but triangles after the header, and more than zeros.
+fn is_whole(bytes: &[u8]) -> bool {
+    let rest = bytes.get(HEADER + 4..).unwrap_or_default();
+    rest.len() % TRIANGLE == 0 && rest.iter().any(|b| *b != 0)
 }
 
 /// Whether the first triangles have coordinates that a mesh may have.
@@ -112,6 +127,8 @@ fn binary_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
 /// parts words, so that a file may stand on one line.
 fn text_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let text = source.text();
+    let follows_facet =
+        |word: &str| ["normal", "outer", "loop", "vertex"].iter().any(|n| word.eq_ignore_ascii_case(n));
     let facets = words_of(&text).filter(|(_, w)| w.eq_ignore_ascii_case("facet")).count();
     source.has_at_most(&limits::POLYGONS, facets)?;
     let mut mesh = PolygonMesh { corners: Digits::TEXT, normals: Digits::TEXT, ..PolygonMesh::default() };
@@ -122,7 +139,7 @@ fn text_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let mut last = 1;
     while let Some((at, word)) = words.next() {
         last = at;
-        if is(word, "facet") {
+        if is(word, "facet") && words.peek().is_some_and(|(_, w)| follows_facet(w)) {
             finish(source, at, &mut open, &mut mesh)?;
             open = Some(Polygon::default());
         } else if let (true, Some(polygon)) = (is(word, "normal"), &mut open) {
@@ -136,6 +153,11 @@ fn text_mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
             let values: Option<Vec<f64>> = said.iter().map(|w| number(w)).collect();
             polygon.normal = values.filter(|v| v.len() == 3).map(|v| DVec3::from_slice(&v));
             said.iter().for_each(|w| mesh.normals.see(w));
+        } else if is(word, "vertex")
+            && open.is_none()
+            && words.peek().is_none_or(|(_, w)| number(w).is_none())
+        {
+            // of the solid's name
         } else if is(word, "vertex") {
             let Some(polygon) = &mut open else {
                 return Err(source.at_line(at, "'facet' before another vertex", word));
@@ -178,9 +200,13 @@ fn finish(
 /// The words of the file without the solids' names: these end with their line, unless all stands on one.
 fn words_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
     lines(text).flat_map(|(at, line)| {
+        let line = without_comment(line);
         let first = line.split_whitespace().next().unwrap_or_default();
         let names = ["solid", "endsolid"].iter().any(|n| first.eq_ignore_ascii_case(n));
-        let holds = names && line.split_whitespace().any(|w| w.eq_ignore_ascii_case("vertex"));
+        let next = line.split_whitespace().skip(1);
+        let is_corner =
+            |(word, next): (&str, &str)| word.eq_ignore_ascii_case("vertex") && number(next).is_some();
+        let holds = names && line.split_whitespace().zip(next).any(is_corner);
         let said = if names && !holds { "" } else { line };
         said.split_whitespace().map(move |word| (at, word))
     })

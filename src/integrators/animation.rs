@@ -1,4 +1,4 @@
-//! Animations: what moves from frame to frame, and frames put together as GIF or APNG.
+//! Animations: the motion from frame to frame, and frames put together as GIF or APNG.
 
 use super::image_io::{EncodeError, Provenance};
 use crate::scene::{PlacedStone, Scene, Surface};
@@ -8,7 +8,7 @@ use image::{Delay, Frame, RgbaImage};
 use std::f32::consts::TAU;
 use std::io::Write;
 
-/// What moves.
+/// The moving part of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Turn {
     /// The camera goes around what it looks at.
@@ -75,7 +75,7 @@ fn piece_turned(scene: &mut Scene, motion: Mat3) {
     }
 }
 
-/// How long a frame stays.
+/// Duration of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameTiming {
     /// Ticks that a frame stays.
@@ -85,13 +85,13 @@ pub struct FrameTiming {
 }
 
 impl FrameTiming {
-    /// So many frames in a second.
+    /// The duration for a number of frames in a second.
     pub fn of_rate(per_second: u32) -> FrameTiming {
         FrameTiming { ticks: 1, ticks_per_second: per_second.max(1) }
     }
 
-    /// The pace at which a turn of so many frames is well looked at: it takes three seconds, of more than
-    /// 36 frames up to six.
+    /// The duration for a full turn of so many frames: it takes three seconds, with more than 36 frames up
+    /// to six.
     pub fn of_turn(frames: u32) -> FrameTiming {
         let frames = frames.max(1);
         let ms = if frames <= 36 { 3000 / frames } else { (6000 / frames).clamp(20, 83) };

@@ -22,11 +22,11 @@ const SHADOW_RAYS: u32 = 64;
 /// Most shadow rays to each light of one camera ray.
 const SHADOW_RAYS_EACH: u32 = 9;
 
-/// An estimate of the maps holds within this share of its disc's radius: the camera rays of a pixel
-/// that lie closer together have one between them.
+/// An estimate of the maps holds within this share of its disc's radius: the camera rays of a pixel that
+/// lie closer together share one.
 const HOLDS: f32 = 0.1;
 
-/// Takes a picture.
+/// Renders a picture.
 ///
 /// - `row_done`: called after each row, from any thread
 ///
@@ -50,7 +50,7 @@ pub fn render(
     Film { width: settings.width, height: settings.height, pixels }
 }
 
-/// What lies in the middle of each pixel.
+/// The first thing in the middle of each pixel.
 pub fn first_hits(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Vec<FirstHit> {
     let before: Vec<usize> = scene
         .stones
@@ -78,12 +78,12 @@ pub fn first_hits(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Ve
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| thing(x, y)).collect()
 }
 
-/// What the camera rays of a pixel have in common.
+/// State shared by the camera rays of a pixel.
 struct Shared {
     stream: Stream,
     /// Places of each light that shadow rays look at next.
     shadows: Vec<KroneckerPoints<2>>,
-    /// The last look into the maps.
+    /// The last estimate from the maps.
     seen: Option<MapEstimates>,
     entering: Vec<StoneArrival>,
 }
@@ -138,7 +138,7 @@ impl CameraIntegrator<'_> {
         pixel
     }
 
-    /// What a display shows of a camera ray.
+    /// Display colour of a camera ray.
     ///
     /// - `light`: of all passes
     fn display_rgb(&self, sight: &CameraSample, light: Vec3) -> Vec3 {

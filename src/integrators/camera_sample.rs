@@ -1,4 +1,4 @@
-//! What camera rays share, outside stones and inside: settings, maps, samples.
+//! Settings, maps and samples that both integrators share.
 
 use super::film::{PASSES, Pass};
 use super::sensor::Sensor;
@@ -11,7 +11,7 @@ use crate::scene::intersection::StoneHit;
 use crate::scene::{Camera, Light, Scene};
 use glam::{Mat3, Vec3};
 
-/// How a picture is taken.
+/// Settings of a render.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderSettings {
     /// Pixels across.
@@ -22,7 +22,7 @@ pub struct RenderSettings {
     pub samples_per_pixel: u32,
     /// Which of several pictures with the same seed this is: their mean is one of all their rays.
     pub round: u32,
-    /// How light becomes a picture.
+    /// Exposure and tone curve.
     pub tone: Tone,
     /// The user's seed.
     pub seed: u64,
@@ -33,9 +33,9 @@ pub(super) const MAX_MIRRORS: u32 = 64;
 
 /// The maps of a picture.
 pub struct PhotonMaps {
-    /// Light last from a stone.
+    /// Caustic light: last from a stone or a mirror.
     pub caustic: PhotonMap,
-    /// Light last from another surface.
+    /// Indirect light: last from another diffuse surface.
     pub indirect: PhotonMap,
 }
 
@@ -51,7 +51,7 @@ impl PhotonMaps {
     }
 }
 
-/// A picture being taken.
+/// State of a render.
 pub(super) struct CameraIntegrator<'a> {
     pub scene: &'a Scene,
     pub(super) camera: &'a Camera,

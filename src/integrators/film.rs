@@ -1,4 +1,4 @@
-//! What a picture is made of: passes of light in linear colour, what is shown, and what is where.
+//! Film: passes of light in linear colour, display colours, and the first thing in each pixel.
 
 use glam::Vec3;
 
@@ -33,10 +33,10 @@ impl Pass {
 pub struct Pixel {
     /// Light by pass: mean over the camera rays, linear sRGB, unclamped.
     pub light: [Vec3; PASSES],
-    /// What a display shows of all passes: each camera ray goes through the tone curve before the
-    /// mean, so that the edge of a facet that mirrors a lamp is as smooth as any other. By how much the
-    /// curve darkens a ray depends on its colour without the noise of its few wavelengths. Linear sRGB;
-    /// that noise may reach beyond 0..=1.
+    /// Display colour of all passes: each camera ray goes through the tone curve before the mean, so that
+    /// the edge of a facet that mirrors a lamp is as smooth as any other. By how much the curve darkens a
+    /// ray depends on its colour without the noise of its few wavelengths. Linear sRGB; that noise may
+    /// reach beyond 0..=1.
     pub display: Vec3,
     /// Coverage: the share of the camera rays that met something other than the background. 1 unless the
     /// scene leaves its background out ([`crate::scene::Scene::cut_out`]); `light` and `shown` are

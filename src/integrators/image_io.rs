@@ -51,7 +51,7 @@ pub struct Provenance<'a> {
 }
 
 impl Provenance<'_> {
-    /// Says it in a PNG. The texts are iTXt: a STONE's name may hold any letter.
+    /// Writes it into a PNG. The texts are iTXt: a STONE's name may hold any letter.
     pub(super) fn note<W: std::io::Write>(&self, png: &mut png::Encoder<W>) -> Result<(), EncodeError> {
         png.add_itxt_chunk("Software".into(), PROGRAM.into())?;
         png.add_itxt_chunk("Command".into(), self.command.into())?;
@@ -71,7 +71,7 @@ pub enum Bits {
     Sixteen,
 }
 
-/// What a display shows of a film, linear in 0..=1: the picture, or one pass.
+/// Display colours of a film, linear in 0..=1: the picture, or one pass.
 pub fn display_rgb(film: &Film, pass: Option<Pass>, tone: &Tone) -> Vec<Vec3> {
     match pass {
         None => film.pixels.iter().map(|p| p.display.clamp(Vec3::ZERO, Vec3::ONE)).collect(),
@@ -113,8 +113,8 @@ fn sixteen_linear(x: f32) -> [u8; 2] {
     ((x.clamp(0.0, 1.0) * 65535.0).round() as u16).to_be_bytes()
 }
 
-/// What a display shows of a film that leaves its background out: linear colours, not premultiplied, and
-/// the share of each pixel that is covered.
+/// Display colours of a film that leaves its background out: linear colours, not premultiplied, and the
+/// share of each pixel that is covered.
 pub fn cut_out(film: &Film) -> Vec<Vec4> {
     let straight = |p: &Pixel| {
         let straight = (p.display / p.alpha).clamp(Vec3::ZERO, Vec3::ONE);
@@ -123,7 +123,7 @@ pub fn cut_out(film: &Film) -> Vec<Vec4> {
     film.pixels.iter().map(straight).collect()
 }
 
-/// What a display shows of such a film before a background of one colour.
+/// Display colours of such a film before a background of one colour.
 ///
 /// - `colour`: linear sRGB
 pub fn over_background(film: &Film, colour: Vec3) -> Vec<Vec3> {

@@ -1,11 +1,11 @@
 //! Progressive photon mapping: picture after picture with photons of their own and ever smaller
 //! estimates, whose mean has less and less noise and blur.
 //!
-//! Every round shoots as many photons as the one before but spreads each over fewer of them, k_{i+1} =
-//! k_i (i + α)/(i + 1) with α = 2/3: the disc of an estimate shrinks to nothing while the mean over
-//! rounds sees ever more photons, so that noise and bias both vanish. Memory holds one round.
-//! Source: C. Knaus and M. Zwicker, *Progressive photon mapping: a probabilistic approach*, ACM
-//! Trans. Graphics 30(3), 2011. Checked in `tests/progressive.rs`.
+//! Every round emits as many photons as the one before but spreads each over fewer of them, k_{i+1} = k_i
+//! (i + α)/(i + 1) with α = 2/3: the disc of an estimate shrinks to nothing while the mean over rounds sees
+//! ever more photons, so that noise and bias both vanish. Memory holds one round. Source: C. Knaus and M.
+//! Zwicker, *Progressive photon mapping: a probabilistic approach*, ACM Trans. Graphics 30(3), 2011.
+//! Checked in `tests/progressive.rs`.
 
 use super::camera_integrator::{self, PhotonMaps, RenderSettings};
 use super::film::{Film, PASSES, Pixel};
@@ -14,13 +14,13 @@ use crate::photons::{self, PhotonSets};
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
 
-/// How fast the estimates shrink: noise and blur then fall alike.
+/// α: how fast the estimates shrink; with ⅔ noise and blur fall alike.
 const ALPHA: f64 = 2.0 / 3.0;
-/// No estimate gathers fewer photons; from there on the rounds shoot more of them instead.
+/// No estimate gathers fewer photons; from there on the rounds emit more of them instead.
 const MIN_PHOTONS_NEAREST: f64 = 32.0;
 /// Most photons of a round.
 const MAX_PHOTONS: f64 = 5e7;
-/// Rounds whose spread tells of the noise.
+/// Fewest rounds from whose spread the noise is estimated.
 const MIN_ROUNDS_FOR_NOISE: u32 = 8;
 /// Side of the square of pixels whose noise is measured.
 const BLOCK: usize = 4;
@@ -39,9 +39,9 @@ pub struct Progressive<'a> {
 }
 
 impl<'a> Progressive<'a> {
-    /// A picture of which nothing has been taken yet.
+    /// A picture before its first round.
     ///
-    /// - `settings.rays`: camera rays a pixel and round; `settings.round` is counted here
+    /// - `settings.samples_per_pixel`: camera rays a pixel and round; `settings.round` is counted here
     /// - `photons`: those of the first round
     pub fn new(
         scene: &'a Scene,
@@ -112,7 +112,7 @@ impl<'a> Progressive<'a> {
         bytes
     }
 
-    /// Puts the picture where it was when [`Self::state`] was asked; whether the bytes are of its form.
+    /// Restores what [`Self::state`] gave; false if the bytes do not fit the picture.
     pub fn restore(&mut self, mut state: &[u8]) -> bool {
         let fixed = size_of::<u32>() + 2 * size_of::<u64>();
         let a_pixel = size_of::<f32>() * (3 * (PASSES + 1) + 1);

@@ -1,4 +1,4 @@
-//! What a camera makes of the wavelengths of a ray: the colours of an eye, or flat ones.
+//! Sensor: from the wavelengths of a camera ray to colours, an eye's or flat ones.
 
 use crate::color::{cie, rgb_upsampling};
 use crate::scene::Camera;

@@ -104,8 +104,8 @@ impl RandomNumbers {
     }
 }
 
-/// What one wavelength sees along a way out of a stone: a light always; a surface or another stone
-/// by Russian roulette if the power is small, and then it counts for more.
+/// Radiance of one wavelength along an exit of a stone: of lights always; of a surface or another stone by
+/// Russian roulette if the power is small.
 fn radiance_outside(
     view: &CameraIntegrator,
     way: ExitRay,
@@ -160,8 +160,8 @@ fn radiance_outside(
     }
 }
 
-/// A surface seen through a stone or mirrored in it, at one wavelength: one shadow ray a light,
-/// photons from the nearest known place.
+/// A surface seen through a stone or mirrored in it, at one wavelength: one shadow ray a light, irradiance
+/// from the nearest cell of the maps.
 fn radiance_from_afar(
     view: &CameraIntegrator,
     at: &SurfacePoint,
@@ -179,7 +179,7 @@ fn radiance_from_afar(
     sight.add(Pass::Stone, band, reflected * (direct + caustic + indirect));
 }
 
-/// What a lane carries: a camera ray's number, and the share that mirrors before the stone left.
+/// Contents of a lane: a camera ray's number, and the share that mirrors before the stone left.
 #[derive(Clone, Copy, Default)]
 struct CarriedSample {
     sight: usize,
@@ -212,7 +212,7 @@ impl<'a, I: Iterator<Item = &'a StoneArrival>> RayClient for StoneClient<'a, '_,
         self.view.scene.max_bounces(OUTSIDE)
     }
 
-    /// Lets a camera ray in; what the facet mirrors is seen at once.
+    /// Refracts a camera ray into the stone; what the facet mirrors is evaluated at once.
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Some(e) = self.entering.next() else { return false };
         let placed = &self.view.scene.stones[self.number];

@@ -10,14 +10,14 @@ use glam::Vec3;
 /// A tone curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ToneCurve {
-    /// Straight in the dark, bending toward white as film does: highlights keep their drawing.
+    /// Straight in the dark, bending toward white as film does: highlights keep their detail.
     #[default]
     Filmic,
     /// A straight line that ends at white.
     Linear,
 }
 
-/// How light becomes a picture.
+/// Exposure and tone curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tone {
     /// Exposure in stops.
@@ -55,7 +55,7 @@ impl Tone {
         (linear * self.gain(linear)).clamp(Vec3::ZERO, Vec3::ONE)
     }
 
-    /// What linear light of a colour is multiplied by to be shown.
+    /// Factor by which linear light of a colour is multiplied to be shown.
     pub fn gain(&self, colour: Vec3) -> f32 {
         let exposure = self.stops.exp2();
         let exposed = colour * exposure;
@@ -67,8 +67,8 @@ impl Tone {
     }
 }
 
-/// Stops that bring a picture to a middle exposure: the brightness that one pixel in twenty exceeds
-/// goes to the shoulder's end. From a small picture that is thrown away.
+/// Stops that bring a picture to a middle exposure: the brightness that one pixel in twenty exceeds goes to
+/// the shoulder's end. Measured on a small picture that is not kept.
 pub fn auto_stops(film: &Film) -> f32 {
     let mut brightness: Vec<f32> = film.linear(None).iter().map(|p| p.dot(LUMINANCE)).collect();
     brightness.sort_by(f32::total_cmp);

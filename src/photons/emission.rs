@@ -18,28 +18,27 @@ use rayon::prelude::*;
 
 /// Photons of one batch, the unit of parallel work.
 const BATCH: u64 = 4096;
-/// Batches between two looks at whether there are enough.
+/// Batches between two checks of whether there are enough photons.
 const ROUND: u64 = 16;
-/// Give up a class of which nothing is found after emitting this many times the photons asked for
-/// (the global map of a scene with a single plane is empty), and any class after `PATIENCE`² times.
+/// A class of which no photon has been stored is given up after this many times the photons asked for (the
+/// global map of a scene with a single plane is empty), any class after `PATIENCE`² times.
 const PATIENCE: u64 = 8;
-/// Share of photons aimed at the stones and the balls around them, at each emission and diffuse
-/// reflection. The rest go as the surface sends them, so that light that reaches a stone by any other
-/// way is found too: the balance of both densities makes a photon at most double its power, at each of
-/// the bounces (with .8 it was five times, and rooms had coloured blotches). Light by way
-/// of table and stone is over half of what is in a stone's shadow (`reports/peers.md`).
+/// Share of photons aimed at the stones and the spheres around them, at each emission and diffuse
+/// reflection. The rest go as the surface sends them, so that light that reaches a stone by any other way
+/// is found too: the balance of both densities makes a photon at most double its power, at each of the
+/// bounces (with .8 it was five times, and rooms had coloured blotches). Light by way of table and stone is
+/// over half of what is in a stone's shadow (`reports/peers.md`).
 const AIMED: f32 = 0.5;
 /// A light gets at least this share of the photons that an even split would give it.
 const LEAST: f32 = 0.1;
-/// Mirrors in a row, after which a photon is given up: two that face each other without loss keep
-/// it for ever.
+/// Most mirrors in a row: two that face each other without loss would keep a photon for ever.
 const MIRRORS: u32 = 1000;
 
 /// Segments of a photon's path that are not inside a stone: from the light, to the surface, and
 /// from there to the eye.
 const OUTSIDE: u32 = 3;
 
-/// What every photon of a class needs to know.
+/// Data shared by all photons of a class.
 struct EmissionContext<'a> {
     scene: &'a Scene,
     class: Class,
@@ -68,10 +67,10 @@ impl EmissionContext<'_> {
     }
 }
 
-/// Shoots photons until `settings.photons` of a class are stored. If the scene has none or very few
-/// of them the result holds what was found.
+/// Emits photons until `settings.photons` of a class are stored. If the scene has none or very few of them
+/// the result holds what was found.
 ///
-/// - `from`: number of the first photon; shots that follow each other have none in common
+/// - `from`: number of the first photon; consecutive sets have none in common
 pub fn emit(scene: &Scene, class: Class, settings: &PhotonSettings, from: u64) -> PhotonSet {
     let target = settings.photons;
     let possible = match class {
@@ -107,7 +106,7 @@ pub fn emit(scene: &Scene, class: Class, settings: &PhotonSettings, from: u64) -
     PhotonSet { photons, emitted }
 }
 
-/// Where a photon starts: light, wavelength, two for the place on it, three for the direction.
+/// Dimensions of a photon's start: light, wavelength, two of the place on it, three of the direction.
 /// Evenly spread over all photons, which makes maps smoother than independent draws do.
 type EmissionUniforms = [f64; 7];
 
@@ -185,7 +184,7 @@ fn start_path(room: &EmissionContext, number: u64, place: EmissionUniforms) -> O
     Some(PhotonPath { stream, number, point, direction, light, hue, last: LastEvent::Light(i) })
 }
 
-/// Carries a photon through the world until it ends or reaches a stone.
+/// Traces a photon through the world until it ends or reaches a stone.
 fn trace(
     room: &EmissionContext,
     mut flight: PhotonPath,
@@ -235,7 +234,7 @@ fn trace(
     }
 }
 
-/// Takes all photons that have reached a stone through it.
+/// Scatters all photons that have reached a stone by it.
 fn scatter_all(
     scene: &Scene,
     number: usize,
@@ -255,12 +254,12 @@ fn scatter_all(
 }
 
 impl PhotonSets {
-    /// Sends photons through a scene until each class has as many as asked for.
+    /// Emits photons into a scene until each class has as many as asked for.
     pub fn emit(scene: &Scene, settings: &PhotonSettings) -> PhotonSets {
         PhotonSets::resume(scene, settings, [0, 0])
     }
 
-    /// Sends the photons that come after those emitted so far, caustic and indirect ones.
+    /// Emits the photons that come after those emitted so far, caustic and indirect ones.
     pub fn resume(scene: &Scene, settings: &PhotonSettings, [caustic, indirect]: [u64; 2]) -> PhotonSets {
         PhotonSets {
             caustic: emit(scene, Class::Caustic, settings, caustic),

@@ -25,8 +25,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// that the sum needs no integral over edges or curved meshes.
 ///
 /// E_c = Σ_i Φ_i K(d_ic/r_i) / Σ_c' A_c' K(d_ic'/r_i), K(x) = max(0, 1 − x²), r_i the distance within
-/// which about `nearest` photons lie. Source: sample-point density estimation, B. Silverman, *Density
-/// Estimation*, 1986, §5.3. Checked in `tests/estimate.rs`.
+/// which about 4/3 `nearest` photons lie: under K these are as noisy as `nearest` photons that count alike, for
+/// π r² ∫K² = 4/3 (∫K)². Source: sample-point density estimation, B. Silverman, *Density Estimation*, 1986,
+/// §5.3. Checked in `tests/estimate.rs`.
 pub struct PhotonMap {
     /// Front and back of each surface.
     surface_maps: Vec<[Option<SurfaceMap>; 2]>,
@@ -55,6 +56,8 @@ const LONGEST: f32 = 1.2;
 const PILOTS: usize = 32;
 /// With fewer photons on it, each spreads over a whole side.
 const FEW: usize = 4;
+/// A radius that a sample of the photons gave is corrected by up to this factor.
+const MOST_CORRECTION: f32 = 1.3;
 /// A smooth look-up interpolates between the cells within so many of the longest edges.
 const AROUND: f32 = 1.0;
 /// Places among which one of the right normal is looked for, if the nearest has another.
@@ -120,6 +123,7 @@ impl SurfaceMap {
     /// None where no photon is.
     fn new(surface: &Surface, front: bool, photons: &[&StoredPhoton], nearest: usize) -> Option<SurfaceMap> {
         let nearest = nearest.max(FEW);
+        let nearest = nearest.saturating_add(nearest / 3); // as noisy under K as `nearest` counted alike
         let radii = GatherRadii::new(surface, photons, nearest)?;
         let edge = (EDGE * (ENOUGH_FOR_EDGE / nearest as f32).sqrt().max(1.0)).min(LONGEST);
         let mut cells = surface_cells::divide(surface, edge, &|place| radii.radius(place));
@@ -134,9 +138,10 @@ impl SurfaceMap {
         homes.par_sort_by_key(|(home, _)| *home); // stable
         let shares = CellPowers::new(photons, sheet.cells.len());
         let edges = quad(surface).and_then(QuadEdges::new);
-        homes
-            .par_chunk_by(|a, b| a.0 == b.0)
-            .for_each(|of_one| sheet.share_out(of_one, edges.as_ref(), &shares));
+        let mut counts = vec![0.0; sheet.cells.len()];
+        homes.iter().for_each(|(home, _)| counts[*home as usize] += 1.0);
+        let spread = Spread { edges, counts, nearest: nearest as f32, shares: &shares };
+        homes.par_chunk_by(|a, b| a.0 == b.0).for_each(|of_one| sheet.share_out(of_one, &spread));
         sheet.irradiance = shares.over_areas(&sheet.cells);
         Some(sheet)
     }
@@ -157,21 +162,22 @@ impl SurfaceMap {
     }
 
     /// Shares out the power of photons that lie in the same cell among the cells around.
-    ///
-    /// - `edges`: of the surface, if it is a quad
-    fn share_out(&self, photons: &[(u32, &StoredPhoton)], edges: Option<&QuadEdges>, shares: &CellPowers) {
+    fn share_out(&self, photons: &[(u32, &StoredPhoton)], spread: &Spread) {
         let Some((home, _)) = photons.first() else { return };
         let home = *home as usize;
         let SurfaceCell { point, radius, .. } = self.cells[home];
         let apart = photons.iter().map(|(_, p)| p.point.distance(point)).fold(0.0, f32::max);
         let mut around = vec![home];
-        let reach2 = (radius + apart).powi(2);
+        let reach2 = (MOST_CORRECTION * radius + apart).powi(2);
         let middle = point.to_array();
         self.places.query(&middle).within::<SquaredEuclidean<f32>>(reach2).unsorted().visit(|f| {
             if f.item as usize != home {
                 around.push(f.item as usize);
             }
         });
+        let radius = self.corrected_radius(home, &around, spread);
+        around.retain(|i| self.cells[*i].point.distance(point) <= radius + apart);
+        let edges = spread.edges.as_ref();
         let mut weights = vec![0.0; around.len()];
         let mut sums = vec![[0.0; BANDS]; around.len()];
         for (_, photon) in photons {
@@ -180,8 +186,7 @@ impl SurfaceMap {
                 edges.map_or(([photon.point; 9], 1), |edges| edges.images(photon.point, radius));
             for (weight, i) in weights.iter_mut().zip(&around) {
                 let cell = &self.cells[*i];
-                let of_one = |at: &Vec3| (1.0 - at.distance_squared(cell.point) / (radius * radius)).max(0.0);
-                let kernel: f32 = images[..count].iter().map(of_one).sum();
+                let kernel: f32 = images[..count].iter().map(|at| kernel(*at, cell.point, radius)).sum();
                 *weight = cell.area * kernel * cell.normal.dot(normal).max(0.0);
             }
             let mut total: f32 = weights.iter().sum();
@@ -194,8 +199,46 @@ impl SurfaceMap {
                 (0..BANDS).for_each(|b| sum[b] += power[b] * weight);
             }
         }
-        around.iter().zip(&sums).for_each(|(cell, power)| shares.add(*cell, power));
+        around.iter().zip(&sums).for_each(|(cell, power)| spread.shares.add(*cell, power));
     }
+
+    /// The radius over which the photons of a cell are spread: by all photons around it, of which the radius
+    /// of the cell counts a sample. Where a sample errs the spread would err with it, and as the errors of
+    /// neighbours differ, light would move from one to the other.
+    ///
+    /// - `around`: the cells within a little more than its radius, itself among them
+    fn corrected_radius(&self, home: usize, around: &[usize], spread: &Spread) -> f32 {
+        let SurfaceCell { point, radius, normal, .. } = self.cells[home];
+        let (images, count) =
+            spread.edges.as_ref().map_or(([point; 9], 1), |edges| edges.images(point, radius));
+        let found: f32 = around
+            .iter()
+            .map(|i| {
+                let cell = &self.cells[*i];
+                let kernel: f32 = images[..count].iter().map(|at| kernel(*at, cell.point, radius)).sum();
+                spread.counts[*i] * kernel * cell.normal.dot(normal).max(0.0)
+            })
+            .sum();
+        // the kernel counts half of the photons of a disc
+        let wanted = 0.5 * spread.nearest / found.max(f32::MIN_POSITIVE);
+        radius * wanted.sqrt().clamp(1.0 / MOST_CORRECTION, MOST_CORRECTION)
+    }
+}
+
+/// K of the distance of two places over the radius.
+fn kernel(a: Vec3, b: Vec3, radius: f32) -> f32 {
+    (1.0 - a.distance_squared(b) / (radius * radius)).max(0.0)
+}
+
+/// How the photons of a side are spread.
+struct Spread<'a> {
+    /// Of the surface, if it is a quad.
+    edges: Option<QuadEdges>,
+    /// Photons in each cell.
+    counts: Vec<f32>,
+    /// Photons within the radius over which one is spread.
+    nearest: f32,
+    shares: &'a CellPowers,
 }
 
 /// The surface as a quad, if it is one.

@@ -20,7 +20,7 @@ const MAGIC: &[u8; 8] = b"CUTLABPM";
 pub const VERSION: u32 = 4;
 /// Bytes of one stored photon.
 const PHOTON: usize = 30;
-/// A header is a few hundred bytes; more is not one of ours.
+/// Most bytes of a header; one has a few hundred.
 const HEADER_LIMIT: usize = 1 << 16;
 
 /// A stored map that cannot be used.
@@ -112,7 +112,7 @@ impl MapProvenance {
     }
 }
 
-/// What is to be said of each stone.
+/// Descriptions of all stones, joined.
 fn listed(scene: &Scene, say: impl Fn(&PlacedStone) -> String) -> String {
     scene.stones.iter().map(say).collect::<Vec<_>>().join(" and ")
 }
@@ -147,9 +147,9 @@ fn surroundings_checksum(scene: &Scene) -> u32 {
     crc32fast::hash(format!("{:?} {:?} {:?}", scene.surfaces, scene.lights, scene.depth).as_bytes())
 }
 
-/// The photons of a scene: read from `path` if it exists and fits, else shot and written there.
+/// The photons of a scene: read from `path` if it exists and fits, else emitted and written there.
 ///
-/// Returns the shots and whether they were read. Checked in this file's tests and in `tests/render.rs`.
+/// Returns the photons and whether they were read. Checked in this file's tests and in `tests/render.rs`.
 pub fn load_or_emit(
     path: &Path,
     scene: &Scene,

@@ -1,7 +1,7 @@
 //! Spectrum of a photon in flight: all eight bands until it meets the stone, one wavelength after.
 //!
-//! Only the stone parts colours. A photon that has met walls alone carries its whole spectrum, so
-//! that light between surfaces has no colour noise; at the stone it keeps one wavelength.
+//! Only stones disperse light. A photon that has met walls alone carries its whole spectrum, so that light
+//! between surfaces has no colour noise; at the stone it keeps one wavelength.
 
 use super::BandSpectrum;
 use crate::color::cie;
@@ -43,8 +43,8 @@ impl PhotonLight {
         self.power.iter_mut().for_each(|p| *p *= weight);
     }
 
-    /// Meets a diffuse surface. Russian roulette by the strongest band: whether the photon goes on,
-    /// its power then in proportion to what each band reflects.
+    /// Reflects at a diffuse surface. Russian roulette by the strongest band decides whether the photon
+    /// goes on, its power then in proportion to what each band reflects.
     ///
     /// - `u`: uniform in (0, 1)
     pub fn reflect(&mut self, reflectance: &Reflectance, u: f32) -> bool {

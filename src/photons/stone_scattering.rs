@@ -20,7 +20,7 @@ pub struct IncidentPhoton {
 /// How a photon leaves, in the trace frame.
 #[derive(Debug, Clone, Copy)]
 pub struct ScatteredPhoton {
-    /// Where.
+    /// Point of exit.
     pub point: Vec3,
     /// Unit direction outside.
     pub direction: Vec3,
@@ -32,13 +32,13 @@ pub struct ScatteredPhoton {
 /// percent, is lost.
 const STOP_SHARE: f32 = 1e-3;
 
-/// Takes photons through the stone, each to the departure of its number.
+/// Scatters photons by the stone; returns them in the order of `arrivals`.
 ///
 /// Every way out, the reflection at entry among them, is chosen with a probability proportional to
 /// its power, so each photon goes on alone and the mean over photons is right. One uniform number
 /// serves all choices: it is stretched back to (0, 1) after each.
 ///
-/// - `max_bounces`: with facets inside, after which a photon that is still there is lost
+/// - `max_bounces`: facets met inside after which a photon that is still there is lost
 pub fn scatter(placed: &PlacedStone, max_bounces: u32, arrivals: &[IncidentPhoton]) -> Vec<ScatteredPhoton> {
     let mut crossing = ScatteringClient {
         placed,

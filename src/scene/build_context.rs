@@ -1,4 +1,4 @@
-//! What a scene's entries are built with: unit, files, overrides.
+//! Build context of a scene's entries: unit, files, overrides.
 
 use super::Pose;
 use super::file_access::Files;
@@ -15,13 +15,13 @@ use std::path::{Path, PathBuf};
 pub struct SceneOverrides {
     /// Stones, for the scene's places in order.
     pub designs: Vec<Design>,
-    /// What each of them is made of, where it is not what all are.
+    /// Materials of single stones, before that of all.
     pub materials: Vec<Option<Material>>,
-    /// What all are made of.
+    /// Material of all.
     pub material: Option<Material>,
     /// Girdle width of all, mm.
     pub size_mm: Option<f64>,
-    /// How all stand.
+    /// Pose of all.
     pub pose: Option<Pose>,
     /// Whether light keeps its polarisation from facet to facet; it does if neither this nor the scene
     /// says.
@@ -34,7 +34,7 @@ pub struct SceneOverrides {
     pub cut_out: bool,
 }
 
-/// What entries are read against.
+/// Context in which entries become parts of a scene.
 pub struct BuildContext<'a> {
     /// World length of one of the file's units.
     pub unit: f32,

@@ -4,7 +4,7 @@ use crate::color::Illuminant;
 use crate::sampling::warps;
 use glam::{Mat3, Vec2, Vec3};
 
-/// How much a camera sees.
+/// A camera's projection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lens {
     /// A pinhole: full angle of the field across the width, in degrees.
@@ -50,11 +50,11 @@ impl Lens {
 /// A camera.
 #[derive(Debug, Clone, Copy)]
 pub struct Camera {
-    /// Where it stands.
+    /// Position, world frame.
     pub position: Vec3,
-    /// What it looks at.
+    /// Point in the middle of the picture, world frame.
     pub target: Vec3,
-    /// What it sees.
+    /// Projection.
     pub lens: Lens,
     /// Width over height of the picture.
     pub aspect: f32,
@@ -78,7 +78,7 @@ impl Camera {
 
     /// The ray of [`Camera::ray`] by any place of the lens.
     ///
-    /// - `on_lens`: two uniforms, of no account unless the lens is open
+    /// - `on_lens`: two uniforms, ignored by a pinhole
     pub fn ray_through(&self, u: f32, v: f32, on_lens: [f32; 2]) -> (Vec3, Vec3) {
         self.ray_by(u, v, if self.lens.is_open() { warps::uniform_disc(on_lens) } else { Vec2::ZERO })
     }
@@ -101,7 +101,7 @@ impl Camera {
         }
     }
 
-    /// The camera carried around its target.
+    /// The camera turned about its target.
     pub fn turned(&self, turn: Mat3) -> Camera {
         Camera { position: self.target + turn * (self.position - self.target), ..*self }
     }

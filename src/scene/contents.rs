@@ -44,9 +44,9 @@ impl Scene {
         }
     }
 
-    /// Where photons are sent: at the stones, and at balls around each that double in width up to the
-    /// whole world. What lies within r of a stone sends it light as 1/r², so each of them matters about
-    /// as much as the next; without one, a photon that lands there by chance counts for very many.
+    /// Targets of photons: the stones, and spheres around each that double in width up to the whole world.
+    /// What lies within r of a stone sends it light as 1/r², so each of them matters about as much as the
+    /// next; without one, a photon that lands there by chance counts for very many.
     ///
     /// - `share`: of photons sent at any of them
     pub fn photon_guide(&self, share: f32) -> PhotonGuide {

@@ -41,7 +41,7 @@ impl LightEntry {
         self.at.map(|p| place.point(p)).ok_or_else(|| field_error("at", "at is missing"))
     }
 
-    /// What it shines at, the first stone unless it says.
+    /// Its target; the first stone if the entry has none.
     pub(super) fn to(&self, place: &BuildContext) -> Result<Vec3, FieldError> {
         let to = self.to.map_or(place.centre, |p| place.point(p));
         if self.position(place)?.distance(to) < 1e-6 {
@@ -104,7 +104,7 @@ impl LightEntry {
         ))
     }
 
-    /// How it is turned.
+    /// Its rotation.
     pub(super) fn turned(&self) -> Mat3 {
         turned(self.turn).as_mat3()
     }

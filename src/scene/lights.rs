@@ -1,4 +1,4 @@
-//! Lights: the catalogue of what shines, one kind a file.
+//! Lights: the catalogue of lights, one kind a file.
 
 pub mod disc;
 pub mod dome;

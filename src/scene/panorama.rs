@@ -32,7 +32,7 @@ pub struct Panorama {
     checksum: u32,
 }
 
-/// A panorama is told apart by its file.
+/// Checksums of scenes take a panorama by the checksum of its file.
 impl std::fmt::Debug for Panorama {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "panorama {}×{} {:08x}", self.width, self.height, self.checksum)
@@ -44,7 +44,11 @@ impl Panorama {
     pub fn open(path: &Path) -> Result<Panorama, String> {
         let wrong =
             |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", text::display_name(path));
-        let bytes = limits::PANORAMA.read_regular(path).map_err(|e| wrong(&e))?.map_err(|e| wrong(&e))?;
+        let missing = |e: std::io::Error| match e.kind() {
+            std::io::ErrorKind::NotFound => wrong(&e) + "; --hdr FILE names one that is there",
+            _ => wrong(&e),
+        };
+        let bytes = limits::PANORAMA.read_regular(path).map_err(missing)?.map_err(|e| wrong(&e))?;
         Panorama::from_bytes(&bytes).map_err(|e| wrong(&e))
     }
 
@@ -54,7 +58,11 @@ impl Panorama {
     pub fn from_bytes(bytes: &[u8]) -> Result<Panorama, String> {
         let one_line = |e: image::ImageError| e.to_string().replace('\n', " ");
         let reader = image::ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-        let decoder = reader.map_err(|e| e.to_string())?.into_decoder().map_err(one_line)?;
+        let reader = reader.map_err(|e| e.to_string())?;
+        if reader.format().is_none() {
+            return Err("it is neither a Radiance .hdr nor an OpenEXR file".into());
+        }
+        let decoder = reader.into_decoder().map_err(one_line)?;
         let (width, height) = decoder.dimensions();
         let count = u64::from(width) * u64::from(height);
         limits::PIXELS.check(count).map_err(|e| e.to_string())?;
@@ -68,7 +76,7 @@ impl Panorama {
         Ok(Panorama::new(width as usize, height as usize, pixels, crc32fast::hash(bytes)))
     }
 
-    /// A table of what a function says of the middle of each pixel.
+    /// A panorama of a function's values in the middle of each pixel.
     ///
     /// - `colour`: parts of [`rgb_upsampling::basis`] in a unit direction; `checksum`: what tells it from others
     pub fn painted(

@@ -1,4 +1,4 @@
-//! Photon guide: sends a share of the photons straight at the stones, so that they find them.
+//! Photon guide: aims a share of the photons at the stones.
 
 use crate::sampling::warps;
 use glam::Vec3;
@@ -13,7 +13,7 @@ pub struct BoundingSphere {
     pub radius: f32,
 }
 
-/// What photons are to find.
+/// Targets of photons.
 ///
 /// Directions are drawn from a mixture of the natural density and one uniform over the cones in
 /// which the targets are seen; the weights (balance heuristic: natural density over that of the
@@ -106,13 +106,13 @@ impl PhotonGuide {
         };
         let aimed: f32 = self.targets.iter().map(within).sum();
         let density = self.share * aimed / count.max(1) as f32 + (1.0 - self.share) * within(&self.world);
-        // back to where nothing is in the way yet
+        // back to outside the world
         let start = (point - self.world.centre).dot(direction) + 1.01 * self.world.radius;
         (point - direction * start.max(0.0), 1.0 / density.max(f32::MIN_POSITIVE))
     }
 
-    /// Solid angle of the targets as seen from a point with a normal, each weighted by its cosine;
-    /// π where there are no targets. A rough measure of what a light does for the stones.
+    /// Solid angle of the targets as seen from a point with a normal, each weighted by its cosine; π where
+    /// there are no targets. A rough measure of how much a light matters to the stones.
     pub fn pdf(&self, point: Vec3, normal: Vec3) -> f32 {
         if self.share == 0.0 {
             return PI;

@@ -1,4 +1,4 @@
-//! How a stone lies: a stable rest from its shape and centre of mass, or on its culet.
+//! Pose of a stone: a stable rest from its shape and centre of mass, or on its culet.
 
 use crate::geometry::Polyhedron;
 use glam::{DMat3, DVec3};

@@ -111,7 +111,7 @@ impl SceneFile {
         Self::parse(
             &name,
             &text::display_name(path),
-            &text::decode(&bytes),
+            &text::decode_lines(&bytes),
             path.parent().unwrap_or(Path::new("")),
         )
     }

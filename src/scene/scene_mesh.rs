@@ -11,7 +11,7 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 use std::collections::HashMap;
 
-/// A mesh ready to be met by rays, on both sides.
+/// A mesh prepared for intersection from both sides.
 pub struct SceneMesh {
     triangles: Vec<Triangle>,
     tree: Bvh2,
@@ -19,7 +19,7 @@ pub struct SceneMesh {
     checksum: u32,
 }
 
-/// A mesh is told apart by its corners.
+/// Checksums of scenes take a mesh by the checksum of its corners.
 impl std::fmt::Debug for SceneMesh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "mesh of {} triangles {:08x}", self.triangles.len(), self.checksum)
@@ -87,7 +87,7 @@ impl SceneMesh {
         Some(SurfaceHit { distance: hit.t, normal: if front { normal } else { -normal }, front })
     }
 
-    /// How far rounding may have put a point of the mesh off.
+    /// Bound on the rounding error of a point of the mesh.
     pub fn offset(&self, point: Vec3) -> f32 {
         let (low, high) = self.bounds();
         1e-5 * (high - low).length().max(point.abs().max_element())

@@ -108,7 +108,7 @@ enum Aperture {
     Number(String),
 }
 
-/// What is sharp: a distance along the view, or the plane across the view through a point.
+/// Focus: a distance along the view, or the plane across the view through a point.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 enum Focus {
@@ -125,6 +125,12 @@ impl CameraEntry {
                 Lens::Perspective(2.0 * half.atan().to_degrees())
             }
             (None, None, width @ Some(_)) => Lens::Orthographic(place.length(positive("width", width)?)),
+            (Some(_), None, None) => {
+                return Err(field_error("field", "a field is an angle from 0 to 175 degrees"));
+            }
+            (None, Some(_), None) => {
+                return Err(field_error("field-short", "a short field is an angle from 0 to 150 degrees"));
+            }
             _ => {
                 return Err(field_error(
                     "field",
@@ -233,8 +239,8 @@ impl StoneEntry {
         Ok(opened.map_err(|e| field_error("cut", e.to_string()))?.design)
     }
 
-    /// The stone and what it is made of: as the cast says, else the entry, else the design's own
-    /// index, else diamond.
+    /// The stone and what it is made of: as the overrides say, else the entry, else the design's own index,
+    /// else diamond.
     pub(super) fn stone(
         &self,
         design: Design,
@@ -256,7 +262,7 @@ impl StoneEntry {
         Ok((stone_to_trace(design, size).map_err(|e| field_error("cut", e))?, material))
     }
 
-    /// Sets the stone down.
+    /// Places the stone.
     pub(super) fn place(
         &self,
         stone: ConvexStone,

@@ -22,6 +22,12 @@ pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// As [`decode`], with lines that end in LF alone, for readers that take no other or count them so.
+pub fn decode_lines(bytes: &[u8]) -> Cow<'_, str> {
+    let text = decode(bytes);
+    if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text }
+}
+
 /// The first `most` bytes as text, for telling formats apart.
 pub fn beginning(bytes: &[u8], most: usize) -> String {
     let cut = &bytes[..bytes.len().min(most)];
@@ -92,6 +98,7 @@ mod tests {
         assert_eq!(text(b"\xFF\xFEa\0\xB0\0"), "a°");
         assert_eq!(text(b"\xFE\xFF\0a\0\xB0"), "a°");
         assert_eq!(text(b"end\r\n\x1A\0"), "end\r\n");
+        assert_eq!(decode_lines(b"a\r\nb\rc\n"), "a\nb\nc\n");
         assert_eq!(text(b"<?xml version='1.0' encoding='windows-1251'?>\xC0"), {
             "<?xml version='1.0' encoding='windows-1251'?>А"
         });

@@ -5,10 +5,10 @@ use super::packet::{LANES, Lanes, NO_FACET};
 use crate::geometry::Plane;
 use glam::{DVec2, Vec3};
 
-/// Fewer girdle facets cost less than finding out which rays need them.
+/// With fewer girdle facets it is faster to test them all for every ray.
 const MIN_GIRDLE_FACETS: usize = 8;
 
-/// Flats of a design are vertical to rounding; the cylinder inside them needs no more slack.
+/// Greatest |z| of a girdle facet's normal: those of designs are vertical to rounding.
 const MAX_NORMAL_Z: f64 = 1e-9;
 
 /// Margin between the cylinder and the nearest girdle facet, for the rounding of a ray's end.
@@ -19,13 +19,13 @@ const RADIUS_MARGIN: f64 = 1e-5;
 pub(super) struct GirdleFacets {
     /// Square of the radius about the frame's axis within which no girdle facet is met.
     pub radius2: f32,
-    /// By azimuth, all around.
+    /// The facets in order of azimuth.
     pub blocks: Vec<PlaneBlock16>,
-    /// For each sector of azimuth, which of the sixteens faces it.
+    /// For each sector of azimuth, the block that faces it.
     facing: [u16; SECTORS],
 }
 
-/// Sixteen planes side by side, or fewer and some that nothing meets.
+/// Sixteen planes side by side; unused places hold planes that no ray meets.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct PlaneBlock16 {
@@ -34,7 +34,7 @@ pub(super) struct PlaneBlock16 {
     pub nz: Lanes,
     pub d: Lanes,
     pub facet: [u32; LANES],
-    /// The last one that something can meet.
+    /// Number of the last plane in use.
     pub last: u32,
 }
 
@@ -56,12 +56,12 @@ impl GirdleFacets {
         Some(GirdleFacets { radius2: (radius * radius) as f32, blocks: parts, facing })
     }
 
-    /// Whether a plane is a flat.
+    /// Whether a plane is vertical, as girdle facets are.
     pub fn is_girdle(plane: &Plane) -> bool {
         plane.normal.z.abs() < MAX_NORMAL_Z
     }
 
-    /// Which of the sixteens faces the azimuth of a point.
+    /// The block that faces the azimuth of a point.
     #[inline(always)]
     pub fn facing(&self, x: f32, y: f32) -> usize {
         self.facing[sector_of(x, y)].into()
@@ -73,7 +73,7 @@ impl GirdleFacets {
     }
 }
 
-/// Sectors of azimuth that name where to begin; more would not name it better.
+/// Sectors of azimuth by which a search finds its first block; more would not find a better one.
 const SECTORS: usize = 64;
 
 /// The sector of a point: azimuth by y / (|x| + |y|), which rises with the angle as well.
@@ -92,8 +92,8 @@ fn middle_of(sector: usize) -> DVec2 {
 }
 
 impl PlaneBlock16 {
-    /// The planes of these numbers, in parts that differ in length by one at most: no plane is alone in
-    /// its part, so that every one has a neighbour there.
+    /// The planes of these numbers, in blocks that differ in length by one at most: no plane is alone in
+    /// its block, so that every one has a neighbour there.
     pub fn split(planes: &[Plane], numbers: &[usize]) -> Vec<PlaneBlock16> {
         let (n, parts) = (numbers.len(), numbers.len().div_ceil(LANES));
         (0..parts).map(|i| Self::new(planes, &numbers[i * n / parts..(i + 1) * n / parts])).collect()

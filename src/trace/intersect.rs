@@ -5,7 +5,7 @@
 //! instruction once `dispatch.rs` has named the instruction set. `FUSED`, `W` and `B` are as
 //! [`Vectorised::run`] has them.
 
-// the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
+// loops over the lanes of a dozen arrays in lockstep: with an index they vectorise
 #![allow(clippy::needless_range_loop)]
 
 use super::dispatch::Vectorised;
@@ -14,8 +14,8 @@ use super::packet::{FacetHit, LANES, Lanes, NO_FACET, NextFacets, Packet};
 use super::stone::{ConvexStone, InclinedFacet};
 use glam::Vec3;
 
-/// Least height above a plane that a point inside is given: a point that rounding put outside
-/// meets that plane at once, if it heads for it.
+/// Least slack (distance inside a plane) of a point: one that rounding put outside meets that plane at once
+/// if it moves towards it.
 const MIN_SLACK: f32 = 1e-9;
 
 #[inline(always)]
@@ -25,7 +25,7 @@ pub(super) fn mul_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
 
 /// `W` rays of a packet.
 struct RayLanes<const W: usize> {
-    /// Positions with their signs turned: heights are then three multiply-adds.
+    /// Negated positions, so that a slack is three multiply-adds.
     neg_origin: [[f32; W]; 3],
     d: [[f32; W]; 3],
 }
@@ -59,7 +59,7 @@ struct NearestFacet<const W: usize> {
 impl<const W: usize> NearestFacet<W> {
     const NONE: NearestFacet<W> = NearestFacet { cos_num: [0.0; W], slack: [1.0; W], facet: [NO_FACET; W] };
 
-    /// The better of `self` and one more plane for every ray; a tie leaves the earlier one.
+    /// The nearer of `self` and one more plane, ray by ray; the earlier one in a tie.
     #[inline(always)]
     fn or_plane<const FUSED: bool>(self, rays: &RayLanes<W>, row: &InclinedFacet) -> NearestFacet<W> {
         let [nx, ny, nz, d] = row.plane;
@@ -74,7 +74,7 @@ impl<const W: usize> NearestFacet<W> {
         self.nearer(NearestFacet { cos_num, slack, facet: [row.facet; W] })
     }
 
-    /// The better of two; a tie leaves `self`.
+    /// The nearer of two, ray by ray; `self` in a tie.
     #[inline(always)]
     fn nearer(self, other: NearestFacet<W>) -> NearestFacet<W> {
         let mut wins = [false; W];
@@ -90,10 +90,10 @@ impl<const W: usize> NearestFacet<W> {
         best
     }
 
-    /// The best of all rows, for every ray.
+    /// The nearest of all rows, ray by ray.
     ///
-    /// `B` independent accumulators hide the latency of the comparison: each waits for the one before
-    /// it, and the machine has work for several such chains at once.
+    /// `B` independent accumulators hide the latency of the comparison: each waits for the one before it,
+    /// and the processor works on several such chains at once.
     #[inline(always)]
     fn among<const FUSED: bool, const B: usize>(
         rays: &RayLanes<W>,
@@ -120,10 +120,10 @@ impl<const W: usize> NearestFacet<W> {
 
 /// The facet that each lane meets next.
 ///
-/// It is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop has no
-/// division and no mask: a facet that the ray leaves has a negative numerator and never wins. All
-/// rays together try the sloping facets; a ray that would pass the cylinder inside the girdle's
-/// girdle facets tries those at its azimuth, on its own: one in forty in a round brilliant.
+/// It is the argmax over i of (nᵢ·d)/(dᵢ − nᵢ·x), compared crosswise so that the loop has no division and
+/// no mask: a facet that the ray leaves has a negative numerator and never wins. All rays together are
+/// tested against the inclined facets; a ray that ends outside the cylinder inscribed in the girdle (one in
+/// forty in a round brilliant) is tested, on its own, against the girdle facets at its azimuth.
 #[inline(always)]
 pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
     stone: &ConvexStone,
@@ -135,7 +135,7 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
         let best = NearestFacet::among::<FUSED, B>(&rays, &stone.inclined_facets);
         let (mut ends, mut end2) = ([[0.0; 2]; W], [0.0; W]);
         for l in 0..W {
-            // a ray that has met nothing has no end: the quotient is infinite, or no number
+            // without a facet the quotient is infinite or NaN
             let t = best.slack[l] / best.cos_num[l];
             let (x, y) = (t * rays.d[0][l] - rays.neg_origin[0][l], t * rays.d[1][l] - rays.neg_origin[1][l]);
             out.distance[lane + l] = t;
@@ -163,7 +163,7 @@ pub(super) fn next_facets<const FUSED: bool, const W: usize, const B: usize>(
     }
 }
 
-/// The girdle facet that one ray meets first and its distance, sought from the azimuth of its end outward.
+/// The nearest girdle facet of one ray and its distance, searched for from the azimuth of the ray's end.
 ///
 /// The girdle facets are the sides of a convex polygon, so that (nᵢ·d)/(dᵢ − nᵢ·x) is unimodal in i: a girdle
 /// facet that is met before both its neighbours is met before all.
@@ -207,15 +207,15 @@ fn nearest_in_block<const FUSED: bool>(flats: &PlaneBlock16, p: &Packet, lane: u
         keys[l] = (slack.max(MIN_SLACK) / cos_num).to_bits();
     }
     let (key, which) = least(&keys, &std::array::from_fn(|l| l as u32));
-    // less than 0 or no number: it turns away
+    // negative or NaN: it turns away
     let distance = f32::from_bits(key);
     (if distance >= 0.0 { distance } else { f32::INFINITY }, which)
 }
 
-/// The least key and what stands beside it; of equal keys the least of that.
+/// The least key with its companion value; of equal keys the one with the least companion.
 ///
-/// Numbers that are not negative sort as their bits do, and the least of whole numbers is found in
-/// any order: the compiler may halve.
+/// Non-negative floats sort as their bits do, and a minimum of integers can be taken in any order, so that
+/// it vectorises.
 #[inline(always)]
 fn least(keys: &[u32; LANES], beside: &[u32; LANES]) -> (u32, u32) {
     let mut least = u64::MAX;
@@ -225,12 +225,12 @@ fn least(keys: &[u32; LANES], beside: &[u32; LANES]) -> (u32, u32) {
     ((least >> 32) as u32, least as u32)
 }
 
-/// Ways into half-spaces and out of them, sixteen planes side by side.
+/// Interval of a ray within half-spaces, for sixteen planes side by side.
 struct RayInterval {
-    /// The latest way in, and its facet.
+    /// The latest entry, and its facet.
     enter: Lanes,
     facet: [u32; LANES],
-    /// The earliest way out.
+    /// The earliest exit.
     leave: Lanes,
 }
 
@@ -245,7 +245,7 @@ impl RayInterval {
                 let cos_num = mul_add::<FUSED>(nx, dir.x, mul_add::<FUSED>(ny, dir.y, cos_num));
                 let slack = mul_add::<FUSED>(nz, -o.z, planes.d[l]);
                 let slack = mul_add::<FUSED>(nx, -o.x, mul_add::<FUSED>(ny, -o.y, slack));
-                // along a plane and outside it: left since ever
+                // parallel to a plane and outside it: the exit is at −∞
                 let t = slack / cos_num;
                 let leaves = cos_num >= 0.0;
                 let later = !leaves && t > self.enter[l];
@@ -258,7 +258,7 @@ impl RayInterval {
         self
     }
 
-    /// The latest way in, if it is ahead and before every way out.
+    /// The latest entry, if it lies ahead and before every exit.
     #[inline(always)]
     fn hit(&self) -> Option<FacetHit> {
         let mut keys = [0; LANES];
@@ -275,9 +275,8 @@ impl RayInterval {
     }
 }
 
-/// First facet that a ray from outside meets: the latest entry into a half-space, if it comes
-/// before the earliest way out of one. Where that entry lies within the girdle, the girdle facets have nothing
-/// to say.
+/// First facet that a ray from outside meets: the latest entry into a half-space, if it comes before the
+/// earliest exit from one. An entry within the girdle's cylinder needs no test of girdle facets.
 #[inline(always)]
 fn intersect_outside<const FUSED: bool>(stone: &ConvexStone, o: Vec3, dir: Vec3) -> Option<FacetHit> {
     let none = RayInterval { enter: [0.0; LANES], facet: [NO_FACET; LANES], leave: [f32::INFINITY; LANES] };
@@ -322,7 +321,7 @@ impl Vectorised for IntersectOutside<'_> {
 }
 
 impl ConvexStone {
-    /// First interaction of a ray that starts outside.
+    /// First facet that a ray from outside meets.
     ///
     /// - `origin`, `direction` (unit): trace frame
     ///

@@ -2,7 +2,7 @@
 //!
 //! Plain Rust over arrays as wide as a register, as in `intersect.rs`.
 
-// the lanes of a dozen arrays in lockstep: an index is what says so, and what vectorises
+// loops over the lanes of a dozen arrays in lockstep: with an index they vectorise
 #![allow(clippy::needless_range_loop)]
 
 use super::dispatch::Vectorised;
@@ -39,8 +39,8 @@ impl Vectorised for Interact<'_> {
 
 /// [`interact`] for one kind of light.
 ///
-/// - `FUSED`, `W`, `B`: as [`Vectorised::run`] has them; `POLARISED`: whether the Stokes vector is followed;
-///   `ABSORBING`: whether the stone takes power on the way
+/// - `FUSED`, `W`, `B`: as [`Vectorised::run`] has them; `POLARISED`: whether the Stokes vector is
+///   followed; `ABSORBING`: whether the stone absorbs
 #[inline(always)]
 fn interact_lanes<
     const FUSED: bool,
@@ -107,7 +107,7 @@ fn interact_lanes<
         if POLARISED {
             let half = 0.5 * (r_s - r_p);
             let turned = about_incidence(p, l, [nx, ny, nz]);
-            // within its bounds also where a lane at rest still has the q of its last light
+            // within its bounds also where an idle lane still has its last q
             kept = (kept + half * turned.q).max(0.0).min(p.power[l]);
             p.q[l] = half * p.power[l] + mean * turned.q;
             // r_s r_p*: real where light passes, of size 1 at total reflection
@@ -159,7 +159,7 @@ struct RotatedStokes {
     axis: [f32; 3],
 }
 
-/// The twin of [`crate::optics::stokes::Stokes::about_incidence`] for one lane.
+/// [`crate::optics::stokes::Stokes::about_incidence`] for one lane, in `f32`.
 #[inline(always)]
 fn about_incidence(p: &Packet, l: usize, [nx, ny, nz]: [f32; 3]) -> RotatedStokes {
     let (dx, dy, dz) = (p.dx[l], p.dy[l], p.dz[l]);

@@ -24,9 +24,8 @@ pub trait RayClient {
         false
     }
 
-    /// Whether a ray is at its end when it holds less than the stop power times what it has let out so
-    /// far, instead of what it began with: of a dark stone so little comes out that what is given up
-    /// would exceed it. For rays of power 1.
+    /// Whether the stop power is relative to what a ray has emitted so far, instead of to its initial power
+    /// of 1: a dark stone emits so little that what is given up would exceed it.
     fn stops_by_emitted_power(&self) -> bool {
         false
     }
@@ -51,7 +50,7 @@ pub trait RayClient {
     fn finish(&mut self, _lane: usize) {}
 }
 
-/// A ray that ends by what came out is given up below this all the same.
+/// Least power of a ray whose stop power is relative to what it has emitted.
 const MIN_POWER: f32 = 1e-9;
 
 /// Traces all rays until each holds less than `stop_power` in every lane; returns the power given

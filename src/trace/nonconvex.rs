@@ -1,9 +1,9 @@
 //! Stones that are not convex: tracing over a bounding-volume tree, in `f64`, one ray at a time.
 //!
-//! Light that leaves a concavity may meet the stone again. A ray still never branches: what leaves for
-//! good is left outside as ever; where both parts meet the stone again, one of them goes on with the
-//! power of both, chosen by chance in proportion to its share. No power is made or lost by that, and
-//! sums over many rays have no bias. `tests/trace/nonconvex.rs` checks both, and convex stones against
+//! Light that leaves a concavity may meet the stone again. A ray still never branches: a transmitted part
+//! that does not meet the stone again leaves it; where both parts meet the stone again, one of them goes on
+//! with the power of both, chosen at random in proportion to its share. That conserves power, and sums over
+//! many rays have no bias. `tests/trace/nonconvex.rs` checks both, and convex stones against
 //! [`super::reference`].
 
 use super::reference::{ScalarInteraction, ScalarRay};
@@ -25,7 +25,7 @@ const MAX_OFF_PLANE: f64 = 1e-6;
 /// A point within this of a plane or an edge is on it, trace units: some thousand roundings.
 const MIN_DISTANCE: f64 = 1e-12;
 
-/// What boxes are widened by for the roundings of `f32` in the tree.
+/// Margin of boxes for the roundings of `f32` in the tree.
 const BOX_MARGIN: f32 = 1e-6;
 
 /// A stone of any shape in its trace frame: centred on its box and scaled so that its farthest
@@ -57,7 +57,7 @@ pub enum Side {
     Outside,
 }
 
-/// A mesh that is no stone.
+/// A mesh that cannot be traced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// An edge is not run once in each direction.
@@ -69,7 +69,7 @@ pub enum MeshError {
 }
 
 impl MeshStone {
-    /// Makes a closed surface ready, triangles counter-clockwise seen from outside.
+    /// Prepares a closed surface for tracing, triangles counter-clockwise seen from outside.
     pub fn new(mesh: &TriangleMesh) -> Result<MeshStone, MeshError> {
         check_closed(mesh)?;
         let (low, high) = mesh
@@ -107,7 +107,7 @@ impl MeshStone {
             if best.is_none_or(|(_, least)| t < least) {
                 best = Some((triangle.facet, t));
             }
-            // boxes a rounding farther are still looked into
+            // boxes farther by a rounding are still searched
             t as f32 + BOX_MARGIN
         });
         best
@@ -122,7 +122,7 @@ impl MeshStone {
     /// side on which it met the facet; returns the power given up. A ray from outside that misses the
     /// stone gives up all.
     ///
-    /// - `ray`: trace frame; `side`: where it starts; `stream`: what chance takes its numbers from
+    /// - `ray`: trace frame; `side`: where it starts; `stream`: random numbers
     pub fn trace(
         &self,
         mut ray: ScalarRay,
@@ -167,7 +167,7 @@ impl MeshStone {
     }
 }
 
-/// One of the two ways on from a facet.
+/// Reflected or transmitted light at a facet.
 struct Branch {
     /// Unit.
     direction: DVec3,
@@ -176,14 +176,14 @@ struct Branch {
 }
 
 impl Branch {
-    /// The same light, as strong as `power`.
+    /// The same light scaled to `power`.
     fn with_power(self, power: f64) -> Branch {
         let grown = power / self.power;
         Branch { power, stokes: self.stokes.map(|light| Stokes { i: power, ..light.dimmed(grown) }), ..self }
     }
 }
 
-/// Both ways on from a facet.
+/// Both parts of the light at a facet, by the side that they go on in.
 struct FresnelSplit {
     inside: Branch,
     outside: Branch,

@@ -24,7 +24,7 @@ pub struct Packet {
     pub dy: Lanes,
     /// Unit directions.
     pub dz: Lanes,
-    /// Power still inside; 0 for a lane at rest.
+    /// Power still inside; 0 for an idle lane.
     pub power: Lanes,
     /// Index of refraction of the stone at the lane's wavelength.
     pub index: Lanes,
@@ -51,7 +51,7 @@ pub struct Packet {
     pub az: Lanes,
 }
 
-/// A ray that enters the stone.
+/// Refraction of a ray into the stone.
 #[derive(Debug, Clone, Copy)]
 pub struct Refraction {
     /// Unit direction inside.
@@ -62,7 +62,7 @@ pub struct Refraction {
     pub cos_outside: f32,
     /// Cosine of refraction inside.
     pub cos_inside: f32,
-    /// Q of the light that enters of unpolarised light of power 1.
+    /// Q of what enters of unpolarised light of power 1.
     pub polarisation: f32,
     /// Axis of Q: unit, across the plane of incidence.
     pub axis: Vec3,
@@ -100,17 +100,17 @@ impl Packet {
         Packet { polarised, ..Packet::default() }
     }
 
-    /// Sets a lane on its way with light that was unpolarised outside.
+    /// Loads a lane with what enters of unpolarised light of power 1.
     ///
-    /// - `point`: in the stone's frame; `entry`: its refraction there; `index`: of the stone at the
-    ///   lane's wavelength. The power is what enters of 1.
+    /// - `point`: in the stone's frame; `entry`: its refraction there; `index`: of the stone at the lane's
+    ///   wavelength.
     pub fn load_refracted(&mut self, lane: usize, point: Vec3, entry: &Refraction, index: f32) {
         self.load(lane, point, entry.direction, 1.0 - entry.reflectance, index);
         self.q[lane] = entry.polarisation;
         (self.ax[lane], self.ay[lane], self.az[lane]) = entry.axis.into();
     }
 
-    /// Sets a lane on its way, without absorption: give the lane its `absorption` afterwards.
+    /// Loads a lane, without absorption: set its `absorption` afterwards.
     ///
     /// - `point`, `direction` (unit): in the stone's frame, just inside
     /// - `power`: any unit; `index`: of the stone at the lane's wavelength
@@ -135,7 +135,7 @@ impl Packet {
         Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
     }
 
-    /// Puts lanes below `power` to rest and returns the power they held.
+    /// Stops lanes below `power` and returns the power they held.
     pub(super) fn stop_below(&mut self, power: f32) -> f32 {
         let mut lost = 0.0;
         for p in &mut self.power {
@@ -146,7 +146,7 @@ impl Packet {
         lost
     }
 
-    /// Whether every lane is at rest.
+    /// Whether every lane is idle.
     pub(super) fn is_spent(&self) -> bool {
         self.power.iter().all(|p| *p <= 0.0)
     }
@@ -161,7 +161,7 @@ pub const NO_FACET: u32 = u32::MAX;
 pub struct NextFacets {
     /// The facet, or [`NO_FACET`].
     pub facet: [u32; LANES],
-    /// The distance to it, in units of the stone's frame; of no meaning if there is none.
+    /// The distance to it, in units of the stone's frame; undefined if there is none.
     pub distance: Lanes,
 }
 
@@ -188,7 +188,7 @@ pub struct Interaction {
     pub facet: [u32; LANES],
     /// Power that left the stone there; 0 at total reflection.
     pub power: Lanes,
-    /// Power that the stone took on the way there; 0 in a packet that is not absorbing.
+    /// Power absorbed on the way there; 0 in a packet that is not absorbing.
     pub absorbed: Lanes,
     /// Unit direction outside.
     pub dx: Lanes,
@@ -226,11 +226,11 @@ impl Default for Interaction {
 pub struct RayExit {
     /// Facet through which it leaves.
     pub facet: u32,
-    /// Where, in the stone's frame.
+    /// Point of the facet, in the stone's frame.
     pub point: Vec3,
-    /// Where to, unit.
+    /// Unit direction outside.
     pub direction: Vec3,
-    /// How much.
+    /// Its power.
     pub power: f32,
 }
 
@@ -240,7 +240,7 @@ impl Interaction {
         Vec3::new(self.dx[lane], self.dy[lane], self.dz[lane])
     }
 
-    /// What a lane left outside; none at total reflection or at rest.
+    /// What a lane left outside; none at total reflection or for an idle lane.
     pub fn exit(&self, packet: &Packet, lane: usize) -> Option<RayExit> {
         (self.power[lane] > 0.0).then(|| RayExit {
             facet: self.facet[lane],

@@ -1,4 +1,4 @@
-//! Reference tracer in `f64`, one ray at a time, written for reading: the oracle of the lanes.
+//! Reference tracer in `f64`, one ray at a time, written for reading: the oracle of the packet kernel.
 
 use crate::geometry::Plane;
 use crate::optics::fresnel::FresnelCoefficients;
@@ -24,7 +24,7 @@ pub struct ScalarRay {
 }
 
 impl ScalarRay {
-    /// Goes `distance` through the stone by the law of Beer and Lambert; returns the power taken.
+    /// Absorbs over `distance` by Beer–Lambert; returns the power absorbed.
     pub(super) fn absorb(&mut self, distance: f64) -> f64 {
         let (before, left) = (self.power, (-self.absorption * distance).exp());
         self.power *= left;
@@ -33,18 +33,18 @@ impl ScalarRay {
     }
 }
 
-/// What a ray leaves at an interaction with a facet.
+/// Interaction of a ray with a facet: what leaves the stone there.
 #[derive(Debug, Clone, Copy)]
 pub struct ScalarInteraction {
     /// The facet's number.
     pub facet: usize,
-    /// Where.
+    /// Point of the facet, in the frame of the planes.
     pub point: DVec3,
     /// Unit direction outside; the zero vector at total reflection.
     pub direction: DVec3,
     /// Power that left; 0 at total reflection.
     pub power: f64,
-    /// Power that the stone took on the way there.
+    /// Power absorbed on the way there.
     pub absorbed: f64,
     /// Cosine of the ray with the facet normal, inside.
     pub cos_inside: f64,

@@ -25,9 +25,9 @@ pub struct ConvexStone {
     pub(super) plane_coefficients: Vec<[f32; 4]>,
     /// The facets that all rays of a packet try.
     pub(super) inclined_facets: Vec<InclinedFacet>,
-    /// Those that few rays need to try; part of the rows if they are few.
+    /// The girdle facets; none if they are few, and then `inclined_facets` has them.
     pub(super) girdle: Option<GirdleFacets>,
-    /// The rows again for single rays.
+    /// The inclined facets again, for single rays.
     pub(super) inclined_blocks: Vec<PlaneBlock16>,
     pub(super) isa: Isa,
 }
@@ -40,12 +40,12 @@ pub(super) struct InclinedFacet {
 }
 
 impl ConvexStone {
-    /// Makes a solid ready, for the best instruction set of this machine.
+    /// Prepares a solid for tracing, with the best instruction set of this machine.
     pub fn new(solid: Polyhedron) -> ConvexStone {
         Self::with_isa(solid, Isa::best())
     }
 
-    /// Makes a solid ready for a given instruction set.
+    /// Prepares a solid for tracing, with a given instruction set.
     pub fn with_isa(solid: Polyhedron, isa: Isa) -> ConvexStone {
         let (centre, unit) = solid.bounding_sphere();
         let planes: Vec<Plane> = (0..solid.faces.len())
@@ -114,7 +114,7 @@ impl ConvexStone {
         direction.reflect(self.normals[facet])
     }
 
-    /// The planes as the kernel has them, `f32` values widened: the scalar twin traces the very
+    /// The planes as the kernel has them, `f32` values widened: [`super::reference`] then traces the very
     /// same stone.
     pub fn kernel_planes(&self) -> Vec<Plane> {
         self.plane_coefficients

@@ -30,6 +30,8 @@ fn gemcad_text_is_words_and_not_lines() {
         ),
         ("prose of a header", "H Square\n", "H Square\n  n of 5, G too\n"),
         ("prose of instructions", "G Meet\n", "G Meet\n  and turn it\n"),
+        ("dashes for minus signs", "-42", "\u{2013}42"),
+        ("no title", "GemCad 5.0\n", ""),
         ("stray words", "F by hand\n", "F by hand\nI made it\na nice one\n"),
         ("an end-of-file mark", "by hand\n", "by hand\n\u{1a}"),
     ] {
@@ -43,6 +45,14 @@ fn gemcad_text_is_words_and_not_lines() {
         assert!(mine.into_iter().zip(its).map(off).fold(0.0, f64::max) < 1e-15, "{what}");
         let said = |i: &Loaded| (i.design.gear, i.design.symmetry, i.design.refractive_index);
         assert_eq!(said(&plain), said(&other), "{what}");
+    }
+    // without a title, and nowhere a line that begins with a tier
+    let words = GEMCAD.replace("GemCad 5.0\n", "").replace("H Square\n", "").replace("F by hand\n", "");
+    let words = words.replace(" G Meet", "");
+    let words = words.split_whitespace().collect::<Vec<_>>();
+    for between in [" ", "\n"] {
+        let other = read("words alone", "x.asc", words.join(between).as_bytes());
+        assert_eq!(plain.design.planes(), other.design.planes());
     }
     let of = |from: &str, to: &str| read(to, "x.asc", GEMCAD.replacen(from, to, 1).as_bytes());
     let named = of("n P 24", "n Star A 24");

@@ -21,6 +21,13 @@ fn an_obj_is_read_by_what_a_stone_is_made_of() {
         ("a comment that ends in a backslash", format!("# C:\\stones\\\n{v}# \\\n{f}")),
         ("a comment behind words", format!("{v}{}", f.replace('\n', " # ok \\\n"))),
         ("continued lines", format!("{v}{}", f.replace("f ", "f \\\r\n "))),
+        ("blanks after a backslash", format!("{v}{}", f.replace("f ", "f \\ \t\n "))),
+        ("a backslash at the end", format!("{v}{f}").trim_end().to_owned() + " \\"),
+        ("a long comment first", "# by a program of many words\n".repeat(300) + &v + &f),
+        (
+            "normals of no number",
+            format!("{v}{}", rows("f", &FACES.map(|t| t.map(|c| format!("{}//x", c + 1))), "")),
+        ),
         ("normals of another library", format!("{v}vn -1.#IND 1.#QNAN 0\n{}", with_normals(1))),
         ("infinite normals", format!("{v}vn inf 0 0\n{}", with_normals(1))),
         ("short normals", format!("{v}vn 1\n{}", with_normals(1))),
@@ -65,12 +72,26 @@ fn an_stl_is_words_or_84_bytes_and_50_for_each_triangle() {
     }
     text += "endsolid cube\n";
     let mut coloured = binary.clone();
+    let counted = |n: u32| [&binary[..80], &n.to_le_bytes(), &binary[84..]].concat();
+    let headed = |text: &str| [format!("{text:<80}").as_bytes(), &binary[80..]].concat();
     coloured[..80].copy_from_slice(format!("{:<80}", "COLOR=\u{1}\u{1}\u{1}\u{1},MATERIAL=").as_bytes());
     for (what, bytes) in [
         ("one line", text.replace('\n', " ").into_bytes()),
         ("one word a line", text.replace(' ', "\n").replacen("solid\ncube", "solid cube", 1).into_bytes()),
         ("capitals, one line", text.replace('\n', "\u{b}").to_uppercase().into_bytes()),
         ("a name of its words", text.replace("cube", "facet normal of a loop").into_bytes()),
+        ("a name of its last word", text.replace("cube", "facet vertex").into_bytes()),
+        (
+            "a name of its words, one line",
+            text.replace("cube", "vertex of a facet").replace('\n', " ").into_bytes(),
+        ),
+        ("comments", text.replace("facet normal", "# a facet\nfacet normal").into_bytes()),
+        ("no number of triangles yet", counted(0)),
+        ("a number of triangles that is none", counted(u32::MAX)),
+        ("the beginning of a PLY", headed("ply\nformat ascii 1.0")),
+        ("the beginning of a GLB", headed("glTF")),
+        ("the beginning of a design", headed("GemCad 5.0\ng 96 0.0\na 1 2 3")),
+        ("the beginning of a page", headed("<!doctype html><html>")),
         ("no normals", text.replace(" normal 0 0 0", "").into_bytes()),
         (
             "normals of another library",
@@ -125,6 +146,11 @@ fn a_ply_is_read_in_all_its_forms() {
     .concat();
     for (what, bytes) in [
         ("text", plain.clone().into_bytes()),
+        ("a blank after its first word", plain.replacen("ply\n", "ply \n", 1).into_bytes()),
+        (
+            "many comments first",
+            plain.replacen("ply\n", &("ply\n".to_owned() + &"comment è\n".repeat(900)), 1).into_bytes(),
+        ),
         ("a byte-order mark", ["\u{feff}", &plain].concat().into_bytes()),
         ("a mark before binary", [b"\xEF\xBB\xBF", &big(faces, big_faces.clone().collect())[..]].concat()),
         (

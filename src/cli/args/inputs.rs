@@ -110,7 +110,11 @@ fn matching(pattern: &OsStr) -> Result<Vec<PathBuf>, CliError> {
     let path: PathBuf = Path::new(text).components().collect(); // without `//` and `/./`
     let glob =
         GlobBuilder::new(&path.to_string_lossy()).literal_separator(true).backslash_escape(false).build();
-    let glob = glob.map_err(|e| CliError::input(format!("{shown}: {}", e.kind())))?.compile_matcher();
+    let broken = |_| {
+        let why = "as a pattern of names it has a '[' or a range without its end";
+        CliError::input(format!("there is no file '{shown}', and {why}"))
+    };
+    let glob = glob.map_err(broken)?.compile_matcher();
     let is_plain = |part: &Component| !has_wildcard(part.as_os_str());
     let base: PathBuf = path.components().take_while(is_plain).collect();
     let depth = match text.contains("**") {

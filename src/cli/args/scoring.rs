@@ -135,17 +135,17 @@ impl ScoringArgs {
             Ok(imported) => {
                 orientation::note(&stone::display_name(spec), &imported);
                 let material = substance.material_of(&imported.design);
-                let size = self.size.or(stone::usual_size(&imported.design, &material));
+                let size = self.size.or(stone::usual_size(imported.design.unit, &material));
                 let design = stone::sized(imported.design, size)?;
                 return Ok((material, design.solid()?.into()));
             }
             Err(failure) => failure,
         };
-        let body = failure.shape().and_then(|shape| shape.body.clone()).filter(|body| body.shells == 1);
-        let body = body.ok_or(failure)?;
+        let body = failure.shape().and_then(|shape| Some((shape.unit, shape.body.clone()?)));
+        let (unit, body) = body.filter(|(_, body)| body.shells == 1).ok_or(failure)?;
         orientation::note_body(&stone::display_name(spec), &body);
         let material = substance.drawn_for(None);
-        let size = self.size.or((!material.is_clear()).then_some(stone::USUAL_SIZE));
+        let size = self.size.or(stone::usual_size(unit, &material));
         let scale = size.map_or(1.0, |mm| mm / body.width());
         Ok((material, StoneShape::Nonconvex(Box::new(body.scaled(scale)))))
     }

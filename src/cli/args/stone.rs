@@ -43,8 +43,19 @@ impl StoneSpec {
         };
         let Some((name, items)) = parted(argument) else { return Ok(spec) };
         let (own, rest): (Vec<&str>, Vec<&str>) = items.split(',').partition(is_own);
-        if own.is_empty() || (!rest.is_empty() && !is_cut(&name)) {
+        if own.is_empty() {
             return Ok(spec);
+        }
+        if let (Some(found), false) = (rest.first(), is_cut(&name)) {
+            if Path::new(&name).symlink_metadata().is_err() {
+                return Ok(spec);
+            }
+            let why = match own.last().filter(|_| parse::parse_number(found, parse::NumberUnit::None).is_ok())
+            {
+                Some(item) => format!("write decimals with a point, as {item}.{}", found.trim()),
+                None => format!("a file takes {MATERIAL}=NAME or {INDEX}=N"),
+            };
+            return Err(CliError::input(format!("{}, at '{found}': {why}", display_name(argument))));
         }
         for item in &own {
             let (key, value) = item.split_once('=').unwrap_or_default();
@@ -71,6 +82,11 @@ impl StoneSpec {
     /// The cut or file, without what it is of.
     pub fn base(&self) -> &OsStr {
         &self.base
+    }
+
+    /// What it is of, as written: `material=topaz`.
+    pub fn own(&self) -> &[String] {
+        &self.own
     }
 
     /// Another file of the same.
@@ -259,9 +275,9 @@ impl MaterialArgs {
 /// Girdle width of a stone of which nobody says how large it is, in millimetres.
 pub const USUAL_SIZE: f64 = USUAL_WIDTH_MM;
 
-/// [`USUAL_SIZE`] for a design without unit in a material whose colour depends on the size.
-pub fn usual_size(design: &Design, material: &Material) -> Option<f64> {
-    (design.unit == LengthUnit::Free && !material.is_clear()).then_some(USUAL_SIZE)
+/// [`USUAL_SIZE`] for a stone without unit in a material whose colour depends on the size.
+pub fn usual_size(unit: LengthUnit, material: &Material) -> Option<f64> {
+    (unit == LengthUnit::Free && !material.is_clear()).then_some(USUAL_SIZE)
 }
 
 /// The stone's design as large as its colour needs to know: with `--size` applied, or as it is, or
@@ -272,7 +288,7 @@ pub fn sized_for_colour(
     material: &Material,
     console: &Console,
 ) -> Result<Design, CliError> {
-    let usual = usual_size(&design, material).filter(|_| size.is_none());
+    let usual = usual_size(design.unit, material).filter(|_| size.is_none());
     if let Some(mm) = usual {
         console.note(&format!(
             "note: {} has no size, which its colour depends on: taken as {mm} mm wide; --size MM sets it",

@@ -303,9 +303,10 @@ fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
 
 /// `turn.png` for the caustic pass: `turn-caustic.png`.
 pub fn beside(path: &Path, pass: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{pass}.{extension}"))
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{pass}."));
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::design::proportions::Proportions;
 use crate::design::{Design, LengthUnit};
+use crate::formats;
 use crate::materials::weight::Weight;
 use serde::Serialize;
 
@@ -68,6 +69,15 @@ impl MeasuredProportions {
     pub fn in_unit_of(self, mm: f64) -> MeasuredProportions {
         let (width, length, surface) = (self.width / mm, self.length / mm, self.surface / mm.powi(2));
         MeasuredProportions { width, length, surface, ..self }
+    }
+}
+
+/// What the unit of a file's lengths is called: `mm`, `m`, or `file` if the file has none.
+pub fn unit_name(unit: LengthUnit, format: &str) -> &'static str {
+    match unit {
+        LengthUnit::Free => "file",
+        LengthUnit::Millimetre if formats::unit_mm(format).is_some() => "m",
+        LengthUnit::Millimetre => "mm",
     }
 }
 

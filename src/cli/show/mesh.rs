@@ -1,6 +1,7 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
 use crate::cli::exit_code::{CliError, MeshFacts};
+use crate::design::LengthUnit;
 use crate::storage::terminal::in_line;
 use serde::Serialize;
 
@@ -15,8 +16,10 @@ pub struct MeshSheet {
     parts: usize,
     closed: bool,
     convex: bool,
-    /// In the file's own unit cubed.
+    /// In the unit cubed.
     volume: f64,
+    /// `mm`, or `file` where the file has no unit.
+    unit: &'static str,
     /// Smallest and largest coordinates.
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
@@ -26,7 +29,7 @@ pub struct MeshSheet {
 impl MeshSheet {
     /// What is known of the file; none if it is no closed mesh.
     pub fn new(file: &str, failure: &CliError) -> Option<MeshSheet> {
-        let MeshFacts { format, closed, body: Some(mesh), .. } = failure.shape()? else { return None };
+        let MeshFacts { format, closed, body: Some(mesh), unit, .. } = failure.shape()? else { return None };
         let (low, high) = mesh.bounds();
         Some(MeshSheet {
             file: file.into(),
@@ -37,6 +40,7 @@ impl MeshSheet {
             closed: *closed,
             convex: false,
             volume: mesh.volume,
+            unit: if *unit == LengthUnit::Millimetre { "mm" } else { "file" },
             bounds: [low.to_array(), high.to_array()],
             reason: failure.message(),
         })
@@ -46,9 +50,11 @@ impl MeshSheet {
     pub fn text(&self) -> String {
         let [low, high] = self.bounds;
         let side = |a: usize| format!("{:.6}", high[a] - low[a]);
+        let (unit, of_volume) =
+            if self.unit == "file" { ("", " in the file's own unit") } else { (" mm", " mm³") };
         format!(
-            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}\n  volume          {:.6} in the \
-             file's own unit\n  closed          yes\n  convex          no\n  note            {}\n",
+            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}{unit}\n  volume          \
+             {:.6}{of_volume}\n  closed          yes\n  convex          no\n  note            {}\n",
             in_line(&self.file),
             self.format,
             self.facets,

@@ -139,6 +139,23 @@ pub fn is_keyword_line(line: &str) -> bool {
     }
 }
 
+/// Whether text is that of a design without its title: a gear first, and a tier after it, wherever lines end.
+pub fn begins(text: &str) -> bool {
+    let mut words = AscWords::new(text);
+    let is_gear = |word: AscWord, next: &str| match keyword(word.text) {
+        Some(('g', "")) => number(next).is_some(),
+        Some(('g', _)) => true,
+        _ => false,
+    };
+    let (Some(first), second) = (words.next(), words.next()) else { return false };
+    if !is_gear(first, second.map_or("", |w| w.text)) {
+        return false;
+    }
+    let said: Vec<&str> = words.map(|w| w.text).collect();
+    let is_tier = |words: &[&str]| words[0].starts_with('a') && is_keyword_line(&words.join(" "));
+    said.windows(3).any(is_tier)
+}
+
 /// Adds words to a text, after a blank if it has some.
 pub fn append(text: &mut String, more: &str) {
     if !text.is_empty() && !more.is_empty() {

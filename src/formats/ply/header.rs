@@ -80,7 +80,7 @@ pub struct Header {
 /// Whether the file begins as a PLY file does.
 pub fn begins(source: &Input) -> bool {
     let start = source.beginning();
-    start.starts_with("ply\n") || start.starts_with("ply\r")
+    lines(&start).next().is_some_and(|(_, first)| first.trim_end() == "ply" && start.len() > first.len())
 }
 
 /// Whether the header says that values are words.
@@ -178,7 +178,8 @@ fn line_at(bytes: &[u8], at: usize) -> Option<(&[u8], usize)> {
     let rest = bytes.get(at..)?;
     let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'))?;
     // where lines end in a lone CR, a byte like LF after the last is the first of the values
-    let pairs = !bytes.starts_with(b"ply\r") || bytes.starts_with(b"ply\r\n");
+    let first = bytes.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or_default();
+    let pairs = bytes[first..].starts_with(b"\n") || bytes[first..].starts_with(b"\r\n");
     let long = if pairs && rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
     Some((&rest[..end], at + end + long))
 }

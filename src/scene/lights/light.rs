@@ -13,30 +13,30 @@ use std::sync::Arc;
 /// [`crate::color::rgb_upsampling::basis`]; white is 1, 1, 1.
 pub trait Emitter: Debug + Send + Sync {
     /// Distance along a ray to the light and the colour seen there; no colour from behind, where it is
-    /// dark. What shines from infinity is at `f32::INFINITY`.
+    /// dark. A light at infinity is at `f32::INFINITY`.
     ///
     /// The origin may lie on the light itself only if the ray does not start there: every light is
     /// convex, so a ray that leaves it cannot meet it again.
     fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(f32, Option<Vec3>)>;
 
-    /// A place of the light as seen from a point, for shadow rays.
+    /// Samples a place of the light as seen from a point, for shadow rays.
     ///
     /// - `normal`: of the surface at the point; `u`: two uniforms
     fn sample_li(&self, point: Vec3, normal: Vec3, u: [f32; 2]) -> Option<LightSample>;
 
-    /// A photon's start.
+    /// Samples a photon's first ray.
     ///
     /// - `u`: five uniforms
     fn sample_le(&self, aim: &PhotonGuide, u: [f32; 5]) -> Option<EmissionSample>;
 
-    /// Roughly the power sent at the targets of `aim`, or into the world if it has none: what
-    /// decides how many photons a light gets.
+    /// Importance: about the power sent at the targets of `aim`, or into the world if it has none. Photons
+    /// are divided among lights by it.
     fn importance(&self, aim: &PhotonGuide) -> f32;
 
     /// Power emitted; none for a light at infinity.
     fn power(&self) -> Option<f32>;
 
-    /// Whether it shines from infinity: then it stands in no other light's way.
+    /// Whether it shines from infinity: then it occludes no other light.
     fn is_far(&self) -> bool {
         self.power().is_none()
     }
@@ -60,7 +60,7 @@ pub struct LightSample {
 /// A photon's first ray.
 #[derive(Debug, Clone, Copy)]
 pub struct EmissionSample {
-    /// Where.
+    /// Origin, world frame.
     pub point: Vec3,
     /// Unit direction.
     pub direction: Vec3,

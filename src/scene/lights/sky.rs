@@ -20,7 +20,7 @@ pub static KIND: LightType = LightType {
 /// Pixels of the table of the sky: a third of a degree each.
 const SIZE: (usize, usize) = (1024, 512);
 
-/// What the ground below the horizon gives back: grass, earth, paving.
+/// Reflectance of the ground below the horizon: grass, earth, paving.
 const GROUND: f32 = 0.2;
 
 /// Parts of [`rgb_upsampling::basis`] that look like an XYZ colour where the light's own spectrum looks white.

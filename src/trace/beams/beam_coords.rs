@@ -1,4 +1,4 @@
-//! Beam coordinates: of a beam's cross-section, unchanged by reflection.
+//! Beam coordinates: coordinates of a beam's cross-section that reflection leaves unchanged.
 
 use crate::geometry::Plane;
 use glam::{DVec2, DVec3};
@@ -16,7 +16,7 @@ pub struct BeamCoords {
     pub across: DVec3,
     /// v of a point, before the offset; at right angles to the direction.
     pub along: DVec3,
-    /// What is taken off.
+    /// Offset subtracted from both.
     pub offset: DVec2,
     /// Unit direction of the beam inside.
     pub direction: DVec3,
@@ -55,7 +55,7 @@ impl EntryFacet {
         DVec2::new(self.u.dot(p), self.v.dot(p))
     }
 
-    /// The frame of a beam that goes on in `direction` (unit) behind the facet.
+    /// Coordinates of the beam that goes on in `direction` (unit) behind the facet.
     pub fn coords(&self, direction: DVec3) -> BeamCoords {
         let n = self.plane.normal;
         let slant = DVec2::new(self.u.dot(direction), self.v.dot(direction)) / n.dot(direction);

@@ -1,5 +1,4 @@
-//! Light of a beam: a trait, so that a Stokes vector or a memory of the strongest exit can take
-//! the place of a number.
+//! Light of a beam: a power, a Stokes vector, or either with a record of the strongest exit.
 
 use crate::optics::fresnel::FresnelCoefficients;
 use crate::optics::stokes::Stokes;
@@ -43,7 +42,7 @@ pub trait BeamLight: Copy {
     /// Its power: 1 for all that fell on the footprint.
     fn power(&self) -> f64;
 
-    /// What passes a facet, and what is thrown back. No power is lost.
+    /// The transmitted and the reflected part at a facet; no power is lost.
     fn split(&self, at: &Interface) -> (Self, Self);
 
     /// Whether it is worth following, whatever its power.

@@ -11,7 +11,7 @@ use crate::trace::dispatch::Vectorised;
 use crate::trace::{ConvexStone, LANES, NO_FACET, NextFacets, Packet};
 use glam::DVec2;
 
-/// A beam on its way; its footprint lies beside it.
+/// A beam under way; its footprint is stored beside it.
 #[derive(Debug, Clone, Copy)]
 struct Beam<L, const K: usize> {
     frames: [BeamCoords; K],
@@ -133,7 +133,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         self.totals
     }
 
-    /// Takes up the strongest beams that wait; false if none is to be followed further.
+    /// Fills empty slots with the strongest beams of the queue; false if none is to be followed further.
     fn fill(&mut self, slots: &mut [BeamSlot<L, K>]) -> bool {
         if self.inside <= self.until.residual || self.totals.beams >= self.until.beams {
             return false;
@@ -206,7 +206,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         next
     }
 
-    /// Parts a beam among the facets that it meets, of which `guess` is likely to be one.
+    /// Divides a beam among the facets that it meets, of which `guess` is likely to be one.
     #[inline(always)]
     fn divide(
         &mut self,
@@ -226,8 +226,8 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         self.clipper = clipper;
     }
 
-    /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the
-    /// beam does not meet the facet, no facet is left in `ahead`.
+    /// From a facet that a beam meets to its neighbours, as far as the footprint goes on. If the beam does
+    /// not meet the facet, `next_facets` is left empty.
     #[inline(always)]
     fn spread(
         &mut self,
@@ -285,15 +285,15 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         let usable = |f: &usize| cosine(*f) > MIN_FACING_COS && !facets.ring(*f).is_empty();
         let start = (0..facets.count()).find(usable)?;
         locate(facets, start, frame, orientation_sign, middle).filter(usable).or_else(|| {
-            // rounding led astray: ask every plane
+            // rounding misled the search: test every plane
             let point = frame.point(middle);
             let distance = |f: &usize| -facets.planes[*f].signed_distance(point) / cosine(*f);
             (0..facets.count()).filter(usable).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         })
     }
 
-    /// A beam meets a facet: part leaves, the rest is thrown back. Returns the power that goes on, as
-    /// a share of the light on the outline.
+    /// A beam meets a facet: part leaves, the rest is reflected. Returns the power that goes on, as a share
+    /// of the light on the outline.
     #[inline(always)]
     fn interact(&mut self, beam: &mut Beam<L, K>, facet: usize, footprint: &[DVec2]) -> Option<f64> {
         let plane = &self.facets.planes[facet];
@@ -333,7 +333,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         Some(power)
     }
 
-    /// Follows a beam no further.
+    /// Hands a beam to the visitor as residual.
     fn leave(&mut self, beam: &Beam<L, K>, footprint: &[DVec2]) {
         let power = beam.light.power() * beam.share;
         self.totals.not_followed += power;

@@ -1,4 +1,4 @@
-//! Beams as they enter, leave, and are left over; what sees them.
+//! Incident, exiting and residual beams, and the visitor that sees them.
 
 use super::beam_coords::{BeamCoords, EntryFacet};
 use super::beam_light::Interface;
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 pub struct IncidentBeam<const K: usize> {
     /// Unit direction in which the light goes, stone's frame.
     pub direction: DVec3,
-    /// Refractive index of the stone for each line that goes along; the first one leads.
+    /// Refractive index of the stone for each spectral line; the first line leads.
     pub indices: [f64; K],
 }
 
@@ -53,7 +53,7 @@ impl<L, const K: usize> BeamExit<'_, L, K> {
 pub struct ResidualBeam<'a, L, const K: usize> {
     /// Where it entered.
     pub entry: &'a EntryFacet,
-    /// The facet that it leaves: thrown back by it, or entering there.
+    /// The facet that it leaves: reflected by it, or entering there.
     pub facet: usize,
     /// The facet's plane, trace frame.
     pub plane: Plane,

@@ -1,6 +1,6 @@
 //! Clipping a convex footprint by the ring of a facet.
 
-// lanes in lockstep: an index is what says so, and what vectorises
+// loops over lanes in lockstep: with an index they vectorise
 #![allow(clippy::needless_range_loop)]
 
 use super::beam_coords::BeamCoords;
@@ -121,14 +121,14 @@ impl Ring {
 }
 
 impl Clipper {
-    /// Takes a footprint up.
+    /// Loads a footprint.
     pub fn load(&mut self, corners: &[DVec2]) {
         self.ring.clear();
         self.ring.at.extend_from_slice(corners);
         self.ring.sides.resize(corners.len(), NO_NEIGHBOUR);
     }
 
-    /// Cuts away what of the footprint lies outside `facet` seen along `frame`.
+    /// Clips the footprint to `facet` seen along `frame`.
     ///
     /// - `orientation_sign`: 1 if the frame shows facets counter-clockwise, −1 after an odd number of mirrors
     ///
@@ -181,7 +181,7 @@ impl Clipper {
             }
         }
         std::mem::swap(&mut self.ring, &mut self.next);
-        // corners on the line alone are no surface
+        // corners on the line alone have no area
         if self.ring.at.len() < 3 || self.heights.iter().all(|h| *h <= ON_LINE) {
             self.ring.clear();
         }
@@ -215,9 +215,9 @@ pub fn area(corners: &[DVec2]) -> f64 {
 /// The facet that the ray `at` of a beam meets next: from facet `start`, which must face along the
 /// beam, across an edge that has the ray on its outer side, until there is none.
 ///
-/// The facets that face along the beam tile the outline of the stone, and this walk over them
-/// cannot go in a circle, because they are the lower envelope of planes (H. Edelsbrunner,
-/// *Combinatorica* 10 (1990) 251). `None` if rounding led astray.
+/// The facets that face along the beam tile the outline of the stone, and this walk over them cannot go in
+/// a circle, because they are the lower envelope of planes (H. Edelsbrunner, *Combinatorica* 10 (1990)
+/// 251). `None` if rounding misled the walk.
 pub fn locate(
     facets: &WeldedFacets,
     start: usize,

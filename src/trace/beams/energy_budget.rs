@@ -1,7 +1,7 @@
-//! When beams are no longer followed, and where the light has gone.
+//! Stop criteria and energy budget of a beam trace.
 
-/// After so many facets a beam is not followed further. Only light that total reflection keeps (a
-/// cube's) comes so far: what is partly let out at every other facet holds 1e-80 of its power.
+/// Most facets over which a beam is followed. Only light that total reflection keeps (in a cube) comes so
+/// far: light that is partly transmitted at every other facet holds 1e-80 of its power by then.
 pub const MAX_FACETS: u32 = 256;
 
 /// Stop criteria: when beams are left to the caller.
@@ -26,7 +26,7 @@ impl StopCriteria {
 
     /// Follows beams until this share of the light is left.
     pub fn at_residual(left: f64) -> StopCriteria {
-        /// Far below what adds up to any share that matters, and far above the memory of a machine.
+        /// Beams below it add up to no share that matters; those above it fit into memory.
         const LEAST: f64 = 1e-9;
         StopCriteria { power: LEAST, residual: left, facets: MAX_FACETS, beams: u64::MAX }
     }
@@ -48,8 +48,8 @@ pub struct EnergyBudget {
 }
 
 impl EnergyBudget {
-    /// All light accounted for: 1 to rounding, if the leading line goes alone. With several lines
-    /// the rest has met another facet than its company.
+    /// All light accounted for: 1 to rounding, if the leading line goes alone. With several lines the rest
+    /// has met other facets than the other lines.
     pub fn sum(&self) -> f64 {
         self.reflected + self.exited + self.not_followed
     }

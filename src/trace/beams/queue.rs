@@ -12,7 +12,7 @@ struct QueueLevel<B> {
     corners: Vec<DVec2>,
 }
 
-/// Beams that wait.
+/// A priority queue of beams.
 #[derive(Debug)]
 pub struct Queue<B> {
     levels: Vec<QueueLevel<B>>,
@@ -21,7 +21,7 @@ pub struct Queue<B> {
 }
 
 impl<B> Queue<B> {
-    /// An empty queue; one that is not `sorted` lets beams out in any order, and stays short.
+    /// An empty queue; one that is not `sorted` is a stack, which stays short.
     pub fn new(sorted: bool) -> Self {
         let levels = (0..if sorted { LEVELS } else { 1 })
             .map(|_| QueueLevel { beams: Vec::new(), corners: Vec::new() })

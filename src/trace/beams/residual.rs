@@ -1,9 +1,9 @@
 //! Residual light: beams that are not traced further, sampled as photons.
 //!
-//! Each batch draws on its own: it lays marks at equal steps of power, from a random first one, over
-//! the beams in the order in which they are left over, and puts a photon into the beam of each mark,
-//! at a random point of its footprint. A batch's photons thus stand for the whole residual without
-//! bias, and the spread of the batches is the error.
+//! Each batch samples systematically, independently of the others: marks at equal steps of power, from a
+//! random first one, over the beams in the order in which they are left over; a photon into the beam of
+//! each mark, at a random point of its footprint. A batch's photons thus stand for the whole residual
+//! without bias, and the spread of the batches is the error.
 
 use super::{BeamExit, BeamLight, BeamVisitor, ResidualBeam};
 use crate::geometry::Plane;
@@ -28,7 +28,7 @@ struct ResidualPhoton<const K: usize> {
     entrance: Plane,
     points: [Vec3; K],
     directions: [Vec3; K],
-    /// Polarisation of the leading line, if it is followed; its company is there for its directions.
+    /// Polarisation of the leading line, if it is followed; the other lines have directions alone.
     stokes: Option<Stokes>,
 }
 
@@ -56,7 +56,7 @@ pub struct ResidualPhotons<const K: usize> {
 }
 
 impl<const K: usize> ResidualPhotons<K> {
-    /// Nothing left over yet.
+    /// An empty residual.
     ///
     /// - `batches`: independent ones; `photons`: each batch draws half to all of this number (at
     ///   least 2)
@@ -134,8 +134,8 @@ impl<const K: usize> PhotonBatch<K> {
         self.next += self.step;
     }
 
-    /// Keeps every other photon, from the first or the second at random: what a step of twice the
-    /// width would have drawn.
+    /// Keeps every other photon, from the first or the second at random: the sample that a step of twice
+    /// the width would have drawn.
     fn subsample(&mut self) {
         let odd = usize::from(self.stream.unit() < 0.5);
         let last = self.photons.len() - 1;
@@ -169,7 +169,7 @@ fn point_in(corners: &[DVec2], stream: &mut Stream) -> DVec2 {
     *first + (b - first) * (root * (1.0 - along)) + (c - first) * (root * along)
 }
 
-/// What photons of the residual leave.
+/// A client that sees what residual photons leave.
 pub trait ResidualClient {
     /// A new photon is in the lanes from `lane` on; it entered the stone through a facet in the plane
     /// `entrance`.
@@ -221,7 +221,7 @@ impl<W: ResidualClient, const K: usize> RayClient for ResidualRays<'_, W, K> {
     }
 }
 
-/// A residual takes what is left over and lets exits pass.
+/// Collects residual beams; exits do not count.
 impl<L: BeamLight, const K: usize> BeamVisitor<L, K> for ResidualPhotons<K> {
     fn exit(&mut self, _: &BeamExit<L, K>) {}
 
