@@ -15,13 +15,12 @@ pub struct StoneOptions {
     /// Girdle width in millimetres; none for each stone's own.
     pub size_mm: Option<f64>,
     /// How the stones of files are turned.
-    #[serde(flatten)]
     pub orientation: Orientation,
 }
 
 /// How the stones of files are turned before anything else.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Orientation {
     /// The axis of the file that points up, through the table; none for z.
     pub up: Option<UpAxis>,
