@@ -3,6 +3,7 @@
 pub mod fingerprint;
 pub mod finished_row;
 pub mod merge;
+pub mod request;
 pub mod shard;
 pub mod sidecar;
 pub mod sweep;

@@ -24,7 +24,6 @@ mod proportion_columns;
 mod render;
 mod report;
 mod score;
-mod shell_quote;
 mod show;
 mod sweep;
 mod terminal_table;

@@ -40,6 +40,8 @@ mod wlr;
 use crate::parse;
 pub use crate::sampling::statistic::Statistic;
 pub use metric::{Better, Metric, MetricSource};
+use serde::{Deserialize, Deserializer};
+use std::borrow::Cow;
 
 impl Metric {
     /// What it tells, and which values are the better.
@@ -53,6 +55,15 @@ impl Metric {
     /// The metric called `name`, or none.
     pub fn by_name(name: &str) -> Option<&'static Metric> {
         METRICS.iter().copied().find(|m| parse::is_name(m.name, name))
+    }
+}
+
+/// By its name, which must be in the catalogue.
+impl<'de> Deserialize<'de> for &'static Metric {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<&'static Metric, D::Error> {
+        let name = Cow::<str>::deserialize(deserializer)?;
+        Metric::by_name(&name)
+            .ok_or_else(|| serde::de::Error::custom(format!("no metric is called '{name}'")))
     }
 }
 

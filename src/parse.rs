@@ -1,6 +1,7 @@
 //! Numbers and names as people type them on a command line or in a stone's parameters.
 
 pub mod plain;
+pub mod shell;
 
 use std::ops::RangeInclusive;
 

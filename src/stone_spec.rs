@@ -1,5 +1,7 @@
 //! STONE arguments, one grammar wherever a stone is named, which [`crate::manual::stones`] has.
 
+pub mod options;
+
 use crate::design::design_file::DocumentError;
 use crate::design::{Design, families, library};
 use crate::formats::error::FormatError;

@@ -12,7 +12,7 @@ use cutlab::optics::dispersion::Dispersion;
 use cutlab::optics::fresnel::FresnelCoefficients;
 use cutlab::sampling::random::{Purpose, Stream};
 use cutlab::sampling::stats::{Estimate, ratio};
-use cutlab::scoring::score::{ScoreSettings, Target, score};
+use cutlab::scoring::score::{ScoreRequest, Target, score};
 use cutlab::trace::ConvexStone;
 use cutlab::trace::reference::{ScalarInteraction, ScalarRay, trace};
 use glam::{DVec2, DVec3};
@@ -174,7 +174,7 @@ fn scored(name: &str, mm: f64, material: Material, effort: Target) -> [Estimate;
     let design = library::design(name, &Default::default()).expect("in the library").expect("solved");
     let metrics = NAMES.map(|m| Metric::by_name(m).expect("in the catalogue")).to_vec();
     let plan =
-        ScoreSettings { metrics, target: effort, polarised: false, seed: SEED, ..ScoreSettings::default() };
+        ScoreRequest { metrics, target: effort, polarised: false, seed: SEED, ..ScoreRequest::default() };
     let row = score(&subject(name, &design.sized(mm).expect("solid"), material), &plan);
     assert_eq!(row.error, None);
     std::array::from_fn(|i| row.scores[i].expect("applies"))
@@ -223,7 +223,7 @@ fn a_ruby_returns_what_the_eye_sees() {
 fn small_errors_hold_what_is_given_up() {
     let design = library::design("cube", &Default::default()).expect("in the library").expect("solved");
     let metrics = ["leakage", "lost"].map(|m| Metric::by_name(m).expect("in the catalogue")).to_vec();
-    let plan = ScoreSettings { metrics, target: Target::Error(5e-6), seed: SEED, ..ScoreSettings::default() };
+    let plan = ScoreRequest { metrics, target: Target::Error(5e-6), seed: SEED, ..ScoreRequest::default() };
     let row = score(&subject("cube", &design, brilliants::diamond()), &plan);
     assert_eq!(row.error, None);
     let [leakage, lost] = [0, 1].map(|i| row.scores[i].expect("applies"));
@@ -233,7 +233,7 @@ fn small_errors_hold_what_is_given_up() {
     assert!((leakage.value - truth).abs() < 4.0 * leakage.error.hypot(error), "{leakage:?}");
     assert!(lost.value < 5e-6, "{lost:?}");
     // where samples are asked for in place of an error, the error holds what is given up
-    let plan = ScoreSettings { target: Target::Samples(1 << 20), ..plan };
+    let plan = ScoreRequest { target: Target::Samples(1 << 20), ..plan };
     let row = score(&subject("cube", &design, brilliants::diamond()), &plan);
     let [leakage, lost] = [0, 1].map(|i| row.scores[i].expect("applies"));
     assert!(lost.value > 1e-5 && leakage.error >= lost.value, "{leakage:?} {lost:?}");

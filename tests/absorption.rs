@@ -16,7 +16,7 @@ use cutlab::sampling::random::{Purpose, Stream};
 use cutlab::sampling::warps;
 use cutlab::scene::intersection::StoneHit;
 use cutlab::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
-use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, score};
 use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
@@ -169,7 +169,7 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
             shape: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed").into()),
             tilt: None,
         };
-        let plan = ScoreSettings { target: Target::Samples(1 << 14), seed: SEED, ..ScoreSettings::default() };
+        let plan = ScoreRequest { target: Target::Samples(1 << 14), seed: SEED, ..ScoreRequest::default() };
         let row = score(&subject, &plan);
         assert_eq!(row.error, None);
         METRICS.iter().zip(row.scores).filter_map(|(m, s)| Some((m.name, s?.value))).collect()

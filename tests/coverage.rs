@@ -12,7 +12,7 @@ use brilliants::{SEED, plan, subject};
 use cutlab::design::library;
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric, MetricSource, Statistic};
-use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, Tilt, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
     let subject = ScoreInput { tilt, ..subject("single cut", &design, material) };
     let plan = plan(names, SHORT);
     let run = |seed: u64, samples: u64| {
-        let row = score(&subject, &ScoreSettings { target: Target::Samples(samples), seed, ..plan.clone() });
+        let row = score(&subject, &ScoreRequest { target: Target::Samples(samples), seed, ..plan.clone() });
         assert_eq!(row.error, None);
         row.scores.into_iter().map(|s| s.expect("applies")).collect::<Vec<_>>()
     };

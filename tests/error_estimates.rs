@@ -9,7 +9,7 @@ use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric};
 use cutlab::sampling::stats::Estimate;
 use cutlab::scoring::comparison::compare;
-use cutlab::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, Target, Tilt, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt, score};
 use std::collections::BTreeMap;
 
 fn material(name: &str) -> Material {
@@ -26,9 +26,9 @@ fn subject(cut: &str, material: Material, tilt: Option<Tilt>) -> ScoreInput {
     }
 }
 
-fn plan(metrics: &[&str], effort: Target, seed: u64) -> ScoreSettings {
+fn plan(metrics: &[&str], effort: Target, seed: u64) -> ScoreRequest {
     let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue")).collect();
-    ScoreSettings { metrics, target: effort, seed, ..ScoreSettings::default() }
+    ScoreRequest { metrics, target: effort, seed, ..ScoreRequest::default() }
 }
 
 fn only(row: ScoreRow) -> Estimate {
@@ -39,7 +39,7 @@ fn only(row: ScoreRow) -> Estimate {
 /// How many of `runs` short runs lie beyond two errors of a long one.
 fn beyond(subject: &ScoreInput, polarised: bool, runs: u64) -> usize {
     let of = |effort, seed| {
-        only(score(subject, &ScoreSettings { polarised, ..plan(&["dispersion_median"], effort, seed) }))
+        only(score(subject, &ScoreRequest { polarised, ..plan(&["dispersion_median"], effort, seed) }))
     };
     let truth = of(Target::Samples(1 << 22), 1000);
     let misses = (1..=runs).filter(|seed| {
@@ -127,7 +127,7 @@ fn nothing_seen_is_never_certain() {
     for (cut, tilt) in [("octahedron", 20.0), ("cube", 0.0), ("tolkowsky", 0.0)] {
         let tilt = Some(Tilt { degrees: tilt, azimuth: 0.0 });
         let stone = subject(cut, material("diamond"), tilt);
-        let plan = ScoreSettings { observer: Some(0.0), ..plan(&names, Target::Samples(1 << 10), 1) };
+        let plan = ScoreRequest { observer: Some(0.0), ..plan(&names, Target::Samples(1 << 10), 1) };
         let row = score(&stone, &plan);
         for (metric, e) in plan.metrics.iter().zip(&row.scores) {
             let Some(e) = e else { continue };
@@ -145,7 +145,7 @@ fn scores_never_leave_their_range() {
             let stone = subject(cut, material("diamond"), Some(Tilt { degrees, azimuth: 0.0 }));
             for observer in [None, Some(0.0), Some(90.0)] {
                 let plan =
-                    ScoreSettings { observer, target: Target::Samples(1 << 10), ..ScoreSettings::default() };
+                    ScoreRequest { observer, target: Target::Samples(1 << 10), ..ScoreRequest::default() };
                 let row = score(&stone, &plan);
                 for (metric, e) in METRICS.iter().zip(&row.scores) {
                     let Some(Estimate { value, error }) = e else { continue };

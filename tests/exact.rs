@@ -7,7 +7,7 @@ use cutlab::design::library;
 use cutlab::formats;
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric, MetricSource};
-use cutlab::scoring::score::{ScoreInput, ScoreSettings, StoneShape, Target, Tilt, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, StoneShape, Target, Tilt, score};
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
 #[test]
@@ -18,8 +18,8 @@ fn beams_agree_with_photons() {
         [("reference", None, true), ("nailhead", Some(Tilt { degrees: 12.0, azimuth: 20.0 }), false)]
     {
         let subject = ScoreInput { tilt, ..subject(stone, &named(stone), diamond()) };
-        let random = ScoreSettings { polarised, ..plan(&names, 1 << 18) };
-        let exact = ScoreSettings { exact: true, target: Target::Samples(1 << 16), ..random.clone() };
+        let random = ScoreRequest { polarised, ..plan(&names, 1 << 18) };
+        let exact = ScoreRequest { exact: true, target: Target::Samples(1 << 16), ..random.clone() };
         let [a, b] = [random, exact].map(|plan| score(&subject, &plan));
         assert_eq!((a.error, b.error), (None, None));
         for ((name, a), b) in names.iter().zip(a.scores).zip(b.scores) {
@@ -44,7 +44,7 @@ fn beams_agree_with_photons() {
 #[test]
 fn exact_scores_reach_an_error_too() {
     let asked = plan(&["aset_red", "wlr", "brightness"], 0);
-    let plan = ScoreSettings { exact: true, target: Target::Error(0.002), ..asked };
+    let plan = ScoreRequest { exact: true, target: Target::Error(0.002), ..asked };
     let row = score(&subject("reference", &named("reference"), diamond()), &plan);
     assert_eq!(row.error, None);
     for e in row.scores {
@@ -56,7 +56,7 @@ fn exact_scores_reach_an_error_too() {
 /// Where photons take the place of the beams that were asked for, the row says so and why.
 #[test]
 fn photons_in_place_of_beams_are_told() {
-    let asked = |metrics: &[&str]| ScoreSettings { exact: true, ..plan(metrics, 256) };
+    let asked = |metrics: &[&str]| ScoreRequest { exact: true, ..plan(metrics, 256) };
     let row = |material: Material, metrics: &[&str]| {
         let subject = subject("reference", &named("reference"), material);
         score(&subject, &asked(metrics))

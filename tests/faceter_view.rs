@@ -13,7 +13,7 @@ use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::materials::Material;
 use cutlab::optics::fresnel;
 use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::scoring::score::{ScoreSettings, score};
+use cutlab::scoring::score::{ScoreRequest, score};
 use cutlab::trace::{ConvexStone, reference};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ fn cut(name: &str) -> Design {
 #[test]
 fn published_cos_and_iso_come_out_without_head_shadow() {
     for (name, cos, iso) in [("classic", 40.6, 46.5), ("first-stone", 82.1, 86.9)] {
-        let plan = ScoreSettings { observer: Some(0.0), ..plan(&["cos", "iso"], 1 << 16) };
+        let plan = ScoreRequest { observer: Some(0.0), ..plan(&["cos", "iso"], 1 << 16) };
         let row = score(&subject(name, &cut(name), Material::from_index(1.54)), &plan);
         for (e, expected) in row.scores.iter().zip([cos, iso]) {
             let e = e.expect("applies");
@@ -181,7 +181,7 @@ fn brightness_and_contrast_against_a_plain_tracer() {
     }
     let mean = sum / count;
     let contrast = (square / count / (mean * mean) - 1.0f64).sqrt();
-    let plan = ScoreSettings { observer: Some(15.0), ..plan(&["brightness", "contrast"], 1 << 16) };
+    let plan = ScoreRequest { observer: Some(15.0), ..plan(&["brightness", "contrast"], 1 << 16) };
     let row = score(&subject("single cut", &design, Material::from_index(index)), &plan);
     let [b, c] = [0, 1].map(|i| row.scores[i].expect("applies"));
     println!("brightness {mean:.4}, ours {b:?}; contrast {contrast:.4}, ours {c:?}");

@@ -7,7 +7,7 @@ use cutlab::design::{Design, library};
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric};
 use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, Target, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score};
 
 /// Indices of refraction: quartz for faceters, diamond.
 const INDICES: [f64; 2] = [1.54, 2.417];
@@ -25,8 +25,8 @@ fn by_beams(whole: bool) -> Vec<&'static Metric> {
 fn both(subject: &ScoreInput, metrics: &[&'static Metric], samples: u64) -> [ScoreRow; 2] {
     let effort = Target::Samples(samples);
     let plan =
-        ScoreSettings { metrics: metrics.to_vec(), target: effort, seed: SEED, ..ScoreSettings::default() };
-    [false, true].map(|exact| score(subject, &ScoreSettings { exact, ..plan.clone() }))
+        ScoreRequest { metrics: metrics.to_vec(), target: effort, seed: SEED, ..ScoreRequest::default() };
+    [false, true].map(|exact| score(subject, &ScoreRequest { exact, ..plan.clone() }))
 }
 
 /// The errors of both and what neither holds: beams leave a few parts in 10⁵ of the outline

@@ -10,7 +10,7 @@ use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
 use cutlab::report::references::{References, STONES};
 use cutlab::report::viewer_images::{self, ASET, IDEAL_SCOPE, VIEWER_IMAGES, WINDOWS};
-use cutlab::scoring::score::{ScoreSettings, Target, score};
+use cutlab::scoring::score::{ScoreRequest, Target, score};
 
 /// Shares of the strongest path from the project's sources (reference tracer): green 6.0, red 66.7,
 /// blue 22.8, leakage 4.5, ±.5 % of the face-up area.
@@ -67,7 +67,7 @@ fn the_pictures_are_the_same_on_any_number_of_threads() {
 #[test]
 fn the_reference_stones_have_the_scores_of_this_program() {
     let references = References::read().expect("can be read");
-    let plan = ScoreSettings { target: Target::Samples(1 << 14), seed: SEED + 1, ..ScoreSettings::default() };
+    let plan = ScoreRequest { target: Target::Samples(1 << 14), seed: SEED + 1, ..ScoreRequest::default() };
     for (i, (_, _, stone)) in STONES.iter().enumerate() {
         let parameters = stone.split_once(':').map_or("", |(_, p)| p);
         let name = stone.split(':').next().expect("a name");
@@ -94,7 +94,7 @@ fn the_reference_stones_are_of_the_stones_own_material() {
     let glass = Material::from_index(1.54);
     let names = ["wlr", "leakage", "iso", "fire_streak", "absorbed"];
     let metrics = || names.iter().filter_map(|n| METRICS.iter().copied().find(|m| m.name == *n));
-    let scalar = ScoreSettings { polarised: false, ..ScoreSettings::default() };
+    let scalar = ScoreRequest { polarised: false, ..ScoreRequest::default() };
     let in_diamond = References::read().expect("can be read");
     for (material, width) in [(quartz, 8.0), (ruby, 5.0), (&glass, 6.5)] {
         let references = References::within(material, width, &scalar).expect("can be scored");

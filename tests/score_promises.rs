@@ -8,15 +8,15 @@ use cutlab::batch::table;
 use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics};
 use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
-use cutlab::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, Target, score, score_all};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score, score_all};
 use glam::DMat3;
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let subjects = [subject("a", &named("reference"), diamond()), subject("b", &named("nailhead"), n2417())];
     let plans = [
-        ScoreSettings { target: Target::Samples(5000), seed: SEED, ..ScoreSettings::default() },
-        ScoreSettings { target: Target::Error(0.01), seed: SEED, ..ScoreSettings::default() },
+        ScoreRequest { target: Target::Samples(5000), seed: SEED, ..ScoreRequest::default() },
+        ScoreRequest { target: Target::Error(0.01), seed: SEED, ..ScoreRequest::default() },
     ];
     let bytes = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -35,7 +35,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 fn turning_a_stone_about_its_axis_changes_no_score() {
     let still = named("steep-deep");
     let turned = still.clone().turned(DMat3::from_rotation_z(0.3));
-    let plan = ScoreSettings { target: Target::Samples(1 << 15), seed: SEED, ..ScoreSettings::default() };
+    let plan = ScoreRequest { target: Target::Samples(1 << 15), seed: SEED, ..ScoreRequest::default() };
     let [a, b] = [still, turned].map(|d| score(&subject("stone", &d, diamond()), &plan));
     for ((metric, a), b) in METRICS.iter().zip(a.scores).zip(b.scores) {
         let (a, b) = (a.expect("applies"), b.expect("applies"));
@@ -53,13 +53,13 @@ fn an_error_asked_for_is_reached_or_the_row_says_so() {
         let metrics = plan(&["wlr", "aset_red"], 0).metrics;
         score(
             &subject,
-            &ScoreSettings {
+            &ScoreRequest {
                 metrics,
                 target: Target::Error(target),
                 polarised: false,
                 seed: SEED,
                 cap,
-                ..ScoreSettings::default()
+                ..ScoreRequest::default()
             },
         )
     };

@@ -3,6 +3,8 @@
 use crate::formats;
 use crate::storage::text;
 use crate::storage::{limits, stdin};
+use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -12,8 +14,8 @@ use std::path::Path;
 /// any machine; another for any other, also of the same version.
 pub const BUILD: &str = env!("CUTLAB_BUILD");
 
-/// A digest of everything that a table depends on: program, settings, inputs' contents.
-/// Two tables with one identity have the same bytes.
+/// A digest of everything that a result depends on: program, request, inputs' contents.
+/// Two results with one fingerprint have the same bytes.
 #[derive(Clone)]
 pub struct Fingerprint(Sha256);
 
@@ -45,16 +47,17 @@ impl FileDigest {
 }
 
 impl Fingerprint {
-    /// The identity of what `command`, with all its settings spelled out, makes with this build.
-    pub fn of_command(command: &str) -> Fingerprint {
-        Fingerprint::with_build(command, BUILD)
+    /// The fingerprint of what this build makes of a request: that of the request's canonical JSON, in which
+    /// every field is, its keys sorted.
+    pub fn of_request(request: &impl Serialize) -> Fingerprint {
+        Fingerprint::with_build(request, BUILD)
     }
 
-    fn with_build(command: &str, build: &str) -> Fingerprint {
+    fn with_build(request: &impl Serialize, build: &str) -> Fingerprint {
         let mut identity = Fingerprint(Sha256::new());
         identity.add(env!("CARGO_PKG_VERSION"));
         identity.add(build);
-        identity.add(command);
+        identity.add(canonical(request).to_string());
         identity
     }
 
@@ -75,6 +78,12 @@ impl Fingerprint {
     }
 }
 
+/// A request as JSON with sorted keys. What has no JSON (a key that is no text) is a mistake of its type and
+/// shows in the first test that uses it: it is the same for all.
+pub fn canonical(request: &impl Serialize) -> Value {
+    serde_json::to_value(request).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,8 +91,8 @@ mod tests {
     #[test]
     fn two_builds_never_share_an_identity() {
         assert!(BUILD.len() == 12 && BUILD.bytes().all(|b| b.is_ascii_hexdigit()), "{BUILD}");
-        let of = |build| Fingerprint::with_build("cutlab score", build).hex();
-        assert_eq!(of(BUILD), Fingerprint::of_command("cutlab score").hex());
+        let of = |build| Fingerprint::with_build(&"cutlab score", build).hex();
+        assert_eq!(of(BUILD), Fingerprint::of_request(&"cutlab score").hex());
         assert_ne!(of(BUILD), of("0123456789ab"));
     }
 }

@@ -3,13 +3,15 @@
 //! The companion of `NAME.csv` is `NAME.csv.meta.json`, its own; versions before it shared
 //! `NAME.meta.json` among the tables of one name, which is still read.
 
-use super::fingerprint::BUILD;
+use super::fingerprint::{BUILD, canonical};
+use super::request::TableRequest;
 use super::shard::Shard;
 use super::table::TableFormat;
 use super::table_job::TableSummary;
-use crate::scoring::score::ScoreSettings;
+use crate::scoring::score::ScoreRequest;
 use crate::storage::{limits, text};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -29,9 +31,12 @@ pub struct TableMeta {
     pub build: String,
     /// The command with every setting spelled out, without output and shard.
     pub command: String,
+    /// The same as data: the canonical request. Absent in companions of versions before 0.2.
+    #[serde(skip_serializing_if = "Value::is_null", default)]
+    pub request: Value,
     /// Seed of the random streams: the same for every row.
     pub seed: u64,
-    /// Digest of build, command and inputs: parts of one table have it in common.
+    /// Digest of build, request and inputs: parts of one table have it in common.
     pub study: String,
     /// The table's columns.
     pub columns: Vec<String>,
@@ -94,13 +99,15 @@ pub struct Definition {
 impl TableMeta {
     /// The companion of a whole table of a plan's scores, without rows, layout and checksum.
     ///
-    /// - `study`: digest of build, command and inputs
-    pub fn new(plan: &ScoreSettings, command: String, study: String, columns: Vec<String>) -> TableMeta {
+    /// - `study`: digest of build, request and inputs
+    pub fn new(request: &TableRequest, study: String, columns: Vec<String>) -> TableMeta {
+        let plan = request.scores();
         TableMeta {
             program: "cutlab".into(),
             version: env!("CARGO_PKG_VERSION").into(),
             build: BUILD.into(),
-            command,
+            command: request.command(),
+            request: canonical(request),
             seed: plan.seed,
             study,
             columns,
@@ -139,13 +146,26 @@ impl TableMeta {
             && TableMeta::find_for(table).is_file()
     }
 
-    /// Whether the file at `table` is the table, or the part of it, that `command` made, with nothing
+    /// Whether the file at `table` is the table, or the part of it, whose companion `is_of`, with nothing
     /// changed since.
-    pub fn belongs_to(table: &Path, command: &str, shard: Option<Shard>) -> bool {
+    pub fn belongs_to(table: &Path, is_of: &dyn Fn(&TableMeta) -> bool, shard: Option<Shard>) -> bool {
         let sum = || limits::regular(table).and_then(checksum).ok();
         TableMeta::read(&TableMeta::find_for(table)).is_ok_and(|meta| {
-            meta.command == command && meta.shard == shard && sum().is_some_and(|sum| meta.crc32 == sum)
+            is_of(&meta) && meta.shard == shard && sum().is_some_and(|sum| meta.crc32 == sum)
         })
+    }
+
+    /// Whether it is a companion of the table of another, or of a part of it.
+    pub fn is_table_of(&self, other: &TableMeta) -> bool {
+        self.command == other.command && self.request == other.request
+    }
+
+    /// Whether it is a companion of the table that a request made; older ones are known by their command.
+    pub fn is_of(&self, request: &TableRequest) -> bool {
+        match self.request {
+            Value::Null => self.command == request.command(),
+            _ => self.request == canonical(request),
+        }
     }
 
     /// The companion in the file at `path`.
@@ -155,7 +175,7 @@ impl TableMeta {
     }
 
     /// The definitions of a plan's metrics.
-    pub fn definitions(plan: &ScoreSettings) -> Vec<Definition> {
+    pub fn definitions(plan: &ScoreRequest) -> Vec<Definition> {
         plan.metrics
             .iter()
             .map(|m| Definition {

@@ -6,11 +6,13 @@ use crate::parse;
 use crate::parse::{NumberError, NumberUnit, format_number};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// Values at equal steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(into = "StatedSteps", try_from = "StatedSteps")]
 pub struct Steps {
     /// The first.
     pub from: f64,
@@ -21,8 +23,33 @@ pub struct Steps {
     pub count: u64,
 }
 
+/// As a request says it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StatedSteps {
+    from: f64,
+    to: f64,
+    step: f64,
+}
+
+impl From<Steps> for StatedSteps {
+    fn from(Steps { from, to, step, .. }: Steps) -> StatedSteps {
+        StatedSteps { from, to, step }
+    }
+}
+
+impl TryFrom<StatedSteps> for Steps {
+    type Error = String;
+
+    fn try_from(StatedSteps { from, to, step }: StatedSteps) -> Result<Steps, String> {
+        Steps::new(from, to, step)
+    }
+}
+
 /// No range has more values.
 const MOST: f64 = 1e9;
+/// No value is greater.
+const GREATEST: f64 = 1e9;
 
 impl Steps {
     /// Value number `i`, from 0; decimal steps give decimal values.
@@ -56,8 +83,17 @@ impl Steps {
             [from, to, step] => (from, to, step),
             _ => return Err(wrong()),
         };
-        if ![from, to, step].iter().all(|x| x.abs() < 1e9) {
+        if ![from, to, step].iter().all(|x| x.abs() < GREATEST) {
             return Err(wrong());
+        }
+        Steps::new(from, to, step)
+    }
+
+    /// The values from `from` on, at steps of `step`, up to `to`.
+    pub fn new(from: f64, to: f64, step: f64) -> Result<Steps, String> {
+        let text = format!("{from}:{to}:{step}");
+        if ![from, to, step].iter().all(|x| x.abs() < GREATEST) {
+            return Err(format!("'{text}' is not a range of numbers"));
         }
         let steps = (to - from) / step;
         if step == 0.0 {
@@ -89,7 +125,7 @@ impl fmt::Display for Steps {
 }
 
 /// A parameter and what it runs through.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweptParameter {
     /// The parameter's key.
     pub key: String,

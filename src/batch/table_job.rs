@@ -102,7 +102,7 @@ pub enum JobEvent<'a> {
 }
 
 /// The order of a table's rows, and how many of them it has, where they are not all as they are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Order {
     /// Whether the least key comes first.
     pub ascending: bool,

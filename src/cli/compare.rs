@@ -7,15 +7,15 @@ use super::args::{inputs, orientation, stone, tables};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
-use super::shell_quote;
 use crate::batch::fingerprint::Fingerprint;
+use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
 use crate::batch::table::TableFormat;
 use crate::design::LengthUnit;
 use crate::report::{ReportRequest, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{Comparison, RUNS, compare};
-use crate::scoring::score::{ScoreInput, ScoreSettings};
+use crate::scoring::score::{ScoreInput, ScoreRequest};
 use crate::storage::atomic_write;
 use serde::Serialize;
 use std::ffi::{OsStr, OsString};
@@ -90,17 +90,23 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
     let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
     let mut outputs = Outputs::reading_stones(&specs, console);
     let command = record::own_command();
+    let request = TableRequest::Compare(ComparisonTable {
+        stones: args.stones.iter().map(stone::display_name).collect(),
+        options: args.scoring.options(),
+        scores: plan.clone(),
+    });
     match &output {
         Some(ComparisonFormat::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
         Some(ComparisonFormat::Markdown(path)) => {
             outputs.claim(path, |there| record::is_of(there, &command))?
         }
         Some(ComparisonFormat::Table(path, _)) => {
-            tables::claim_table(path, &command, None, false, &mut outputs)?
+            tables::claim_table(path, &|meta| meta.is_of(&request), None, false, &mut outputs)?
         }
         None => (),
     }
-    let requests: Vec<ReportRequest> = specs.iter().map(|s| request(s, args)).collect::<Result<_, _>>()?;
+    let requests: Vec<ReportRequest> =
+        specs.iter().map(|s| report_request(s, args)).collect::<Result<_, _>>()?;
     let subject = |r: &ReportRequest| {
         let shape = Ok(r.design.solid()?.into());
         Ok(ScoreInput { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
@@ -144,7 +150,7 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
             }
             ComparisonFormat::Table(_, form) => {
                 compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
-                write_table(&compared, path, *form, command)?;
+                write_table(&compared, path, *form, &request)?;
             }
         }
         if !atomic_write::is_stdout(path) {
@@ -196,20 +202,25 @@ impl ComparisonFormat {
 }
 
 /// Writes the table, after its companion.
-fn write_table(compared: &Compared, path: &Path, form: TableFormat, command: String) -> Result<(), CliError> {
+fn write_table(
+    compared: &Compared,
+    path: &Path,
+    form: TableFormat,
+    request: &TableRequest,
+) -> Result<(), CliError> {
     let bytes = compared.table(form)?;
     if !atomic_write::is_stream(path) {
         let (study, columns) =
-            (Fingerprint::of_command(&command).hex(), text::COLUMNS.map(String::from).into());
+            (Fingerprint::of_request(request).hex(), text::COLUMNS.map(String::from).into());
         let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
-        let meta = TableMeta { crc32, ..TableMeta::new(compared.plan, command, study, columns) };
+        let meta = TableMeta { crc32, ..TableMeta::new(request, study, columns) };
         let meta = meta.bytes().map_err(|e| CliError::input(e.to_string()))?;
         atomic_write::write(&TableMeta::path_for(path), &meta)?;
     }
     Ok(atomic_write::write(path, &bytes)?)
 }
 
-fn request(stone: &OsStr, args: &CompareArgs) -> Result<ReportRequest, CliError> {
+fn report_request(stone: &OsStr, args: &CompareArgs) -> Result<ReportRequest, CliError> {
     let imported = stone::open(stone)?;
     orientation::note(&stone::display_name(stone), &imported);
     let design = imported.design;
@@ -221,11 +232,11 @@ fn request(stone: &OsStr, args: &CompareArgs) -> Result<ReportRequest, CliError>
         design,
         material,
         seed: args.scoring.seed,
-        command: shell_quote::command_line(),
+        command: record::command_line(),
     })
 }
 
-fn entries<'a>(comparison: &'a Comparison, plan: &ScoreSettings) -> Vec<MetricEntry<'a>> {
+fn entries<'a>(comparison: &'a Comparison, plan: &ScoreRequest) -> Vec<MetricEntry<'a>> {
     let rows = &comparison.rows;
     let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| MetricEntry {
         metric: metric.name,

@@ -68,7 +68,7 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
         return Ok(tables::code(&parts.meta.summary));
     }
     let begun = Journal::belongs_to(&Journal::path_for(&args.output), &parts.identity());
-    tables::claim_table(&args.output, &command, None, begun, &mut outputs)?;
+    tables::claim_table(&args.output, &|meta| meta.is_table_of(&parts.meta), None, begun, &mut outputs)?;
     let mut files = drawn(&parts)?;
     parts.publish(form, &args.output)?;
     files.insert(0, args.output.clone());

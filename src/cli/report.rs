@@ -8,7 +8,6 @@ use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
 use super::outputs::{Outputs, record};
-use super::shell_quote;
 use crate::batch::fingerprint::BUILD;
 use crate::design::LengthUnit;
 use crate::optics::dispersion::VISIBLE_NM;
@@ -128,7 +127,7 @@ fn one(
         design,
         material,
         seed: args.seed,
-        command: shell_quote::command_line(),
+        command: record::command_line(),
     };
     let bar = console.steps(STEPS);
     let bundle = report::make(&request, &|what| {

@@ -12,7 +12,7 @@ use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use super::plot_output::{Look, Plots};
 use super::proportion_columns as proportions;
-use super::shell_quote::quoted;
+use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
 use crate::batch::sidecar::TableLayout;
 use crate::batch::sweep::Steps;
 use crate::batch::table;
@@ -89,17 +89,9 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
     let order = order(args, &plan.metrics)?;
     let specs = inputs::expanded(&args.stones)?;
     let mut outputs = Outputs::reading_stones(&specs, console);
-    let mut command = "cutlab score".to_string();
-    args.stones.iter().for_each(|stone| command += &format!(" {}", quoted(&stone::display_name(stone))));
-    command += &args.scoring.words();
     let mut leading = table::STONE_COLUMNS.to_vec();
     if args.proportions {
-        command += " --proportions";
         leading.extend(proportions::COLUMNS);
-    }
-    if let Some(sort) = &args.sort {
-        command += &format!(" --sort {}{}", if sort.ascending { "-" } else { "" }, sort.metric.name);
-        command += &args.top.map_or(String::new(), |n| format!(" --top {n}"));
     }
     let axes = match (&args.tilt_axis[..], args.plot.is_empty()) {
         ([], true) => vec![0.0],
@@ -111,20 +103,25 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
             .flat_map(|&azimuth| steps.values().map(move |degrees| Tilt { degrees, azimuth }))
             .collect()
     });
-    if let Some(steps) = &args.tilt {
-        let names: Vec<String> = axes.iter().map(f64::to_string).collect();
-        command += &format!(" --tilt {steps} --tilt-axis {}", names.join(","));
+    if args.tilt.is_some() {
         leading.push(TILT);
         leading.extend((axes.len() > 1).then_some(TILT_AXIS));
     }
+    let request = TableRequest::Score(ScoreTable {
+        stones: args.stones.iter().map(stone::display_name).collect(),
+        options: args.scoring.options(),
+        scores: plan.clone(),
+        tilt: args.tilt.map(|degrees| TiltRange { degrees, azimuths: axes.clone() }),
+        proportions: args.proportions,
+        sort: args.sort.zip(order).map(|(sort, order)| SortRequest { metric: sort.metric, order }),
+    });
     let columns = table::columns(&leading, &plan.metrics);
     let each = tilts.len().max(1) as u64;
-    let inputs = InputFiles::new(&command, specs.iter().map(OsString::as_os_str));
+    let inputs = InputFiles::new(&request, specs.iter().map(OsString::as_os_str));
     let plots = Plots::new(&args.plot, &plan.metrics, &args.look, &[TILT.into()])?;
     let study = TableCommand {
+        request: &request,
         identity: inputs.identity.clone(),
-        command,
-        plan: &plan,
         total: specs.len() as u64 * each,
         layout: args.tilt.map(|_| layout(&specs, &axes)),
         order,

@@ -10,7 +10,7 @@ use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use super::plot_output::{Look, Plots};
-use super::shell_quote::quoted;
+use crate::batch::request::{SweepTable, TableRequest};
 use crate::batch::sidecar::TableLayout;
 use crate::batch::sweep::{MOST_SCATTERED, Sweep, SweptParameter};
 use crate::batch::table;
@@ -68,14 +68,13 @@ pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> 
     let plan = args.scoring.plan();
     let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
-    let mut command = format!("cutlab sweep {}", quoted(&stone::display_name(&args.stone)));
-    for varied in &sweep.varied {
-        command += &format!(" --vary {}={}", varied.key, varied.steps);
-    }
-    if let Some(n) = sweep.scatter {
-        command += &format!(" --scatter {n}");
-    }
-    command += &args.scoring.words();
+    let request = TableRequest::Sweep(SweepTable {
+        stone: stone::display_name(&args.stone),
+        options: args.scoring.options(),
+        scores: plan.clone(),
+        vary: args.vary.clone(),
+        scatter: args.scatter,
+    });
     let mut leading: Vec<&str> = sweep.varied.iter().map(|v| v.key.as_str()).collect();
     leading.push("facets");
     let columns = table::columns(&leading, &plan.metrics);
@@ -89,11 +88,10 @@ pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> 
         curves: Vec::new(),
         scattered: sweep.scatter.is_some(),
     };
-    let inputs = InputFiles::new(&command, [args.stone.as_os_str()].into_iter());
+    let inputs = InputFiles::new(&request, [args.stone.as_os_str()].into_iter());
     let study = TableCommand {
+        request: &request,
         identity: inputs.identity.clone(),
-        command,
-        plan: &plan,
         total,
         layout: Some(layout),
         order: None,

@@ -5,7 +5,6 @@ use super::args::values;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
-use super::shell_quote;
 use crate::batch::validate;
 use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
 use crate::report::validation::{self, count, expectation, written};
@@ -91,8 +90,7 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         console.print(&text(&reports))?;
     }
     if let Some(folder) = folder {
-        let page =
-            record::recorded(validation::html(&reports, args.seed, &shell_quote::command_line()), &command);
+        let page = record::recorded(validation::html(&reports, args.seed, &record::command_line()), &command);
         let table = validate::csv(outcomes()).map_err(|e| CliError::input(e.to_string()))?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);

@@ -3,6 +3,7 @@
 use crate::estimators;
 use crate::geometry::Polyhedron;
 use crate::sampling::statistic::Statistic;
+use serde::{Serialize, Serializer};
 
 /// One score.
 #[derive(Debug)]
@@ -104,5 +105,12 @@ impl Metric {
     /// Whether the score speaks of colours, and so means nothing for a material without dispersion.
     pub fn needs_dispersion(&self) -> bool {
         matches!(self.read_from, MetricSource::PointLight(_))
+    }
+}
+
+/// As its name.
+impl Serialize for Metric {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
     }
 }

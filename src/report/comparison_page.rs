@@ -9,7 +9,7 @@ use super::stone_report::{ReportError, table_picture};
 use super::{tilt_curves, viewer_images};
 use crate::geometry::{Polyhedron, SolidError};
 use crate::scoring::comparison::Comparison;
-use crate::scoring::score::{ScoreRow, ScoreSettings};
+use crate::scoring::score::{ScoreRequest, ScoreRow};
 use crate::storage::terminal::in_line;
 use crate::trace::ConvexStone;
 use std::fmt::Write;
@@ -54,7 +54,7 @@ pub fn left_out(comparison: &Comparison) -> Vec<String> {
 pub fn html(
     requests: &[ReportRequest],
     comparison: &Comparison,
-    plan: &ScoreSettings,
+    plan: &ScoreRequest,
     step: &dyn Fn(&'static str),
 ) -> Result<String, ReportError> {
     let names: Vec<&str> = requests.iter().map(|r| r.stone.as_str()).collect();
@@ -125,7 +125,7 @@ fn listed(names: &[String]) -> String {
 }
 
 /// Scores and differences.
-fn table(names: &[String], comparison: &Comparison, plan: &ScoreSettings, out: &mut String) {
+fn table(names: &[String], comparison: &Comparison, plan: &ScoreRequest, out: &mut String) {
     *out += "<section>\n<h2>Scores</h2>\n<div class=\"wide\"><table class=\"versus\">\n<thead><tr><th></th>";
     names.iter().for_each(|name| *out += &format!("<th>{}</th>", escaped(name)));
     names[1..]

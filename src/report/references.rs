@@ -7,7 +7,7 @@ use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::sampling::stats::Estimate;
-use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreSettings, Target, score};
+use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreRequest, Target, score};
 use crate::stone_spec;
 use std::collections::BTreeMap;
 
@@ -56,16 +56,12 @@ impl References {
     /// samples.
     ///
     /// - `width_mm`: girdle width, on which the scores depend if the material absorbs
-    pub fn within(
-        material: &Material,
-        width_mm: f64,
-        plan: &ScoreSettings,
-    ) -> Result<References, TableError> {
+    pub fn within(material: &Material, width_mm: f64, plan: &ScoreRequest) -> Result<References, TableError> {
         if material == MATERIALS[0] {
             return References::read();
         }
         let plan =
-            ScoreSettings { metrics: METRICS.to_vec(), target: Target::Samples(SAMPLES), ..plan.clone() };
+            ScoreRequest { metrics: METRICS.to_vec(), target: Target::Samples(SAMPLES), ..plan.clone() };
         let scored = STONES.map(|(name, _, spec)| {
             let shape = solid(spec, width_mm).map(Into::into);
             let subject = ScoreInput { stone: name.into(), material: material.clone(), shape, tilt: None };

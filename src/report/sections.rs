@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use crate::materials::Material;
     use crate::metrics::METRICS;
-    use crate::scoring::score::{ScoreInput, ScoreSettings, score};
+    use crate::scoring::score::{ScoreInput, ScoreRequest, score};
 
     #[test]
     fn every_metric_stands_under_one_head() {
@@ -108,7 +108,7 @@ mod tests {
             shape: Err("none".into()),
             tilt: None,
         };
-        let row = score(&nothing, &ScoreSettings::default());
+        let row = score(&nothing, &ScoreRequest::default());
         let sections = sections(METRICS, &row, &References::read().expect("can be read"));
         let names: Vec<&str> = sections.iter().flat_map(|s| &s.scores).map(|s| s.name.as_str()).collect();
         for metric in METRICS {

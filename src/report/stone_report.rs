@@ -14,7 +14,7 @@ use crate::integrators::{self, PhotonMaps, Tone, image_io};
 use crate::materials::weight::Weight;
 use crate::photons::{self, PhotonSets};
 use crate::scene::{SceneError, SceneOverrides, preset};
-use crate::scoring::score::{ScoreInput, ScoreSettings, score};
+use crate::scoring::score::{ScoreInput, ScoreRequest, score};
 use crate::storage::atomic_write::{self, WriteError};
 use crate::trace::ConvexStone;
 use std::path::Path;
@@ -82,7 +82,7 @@ pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<Ston
     let stone = ConvexStone::new(solid.clone());
 
     step("scoring");
-    let plan = ScoreSettings { seed: request.seed, ..ScoreSettings::default() };
+    let plan = ScoreRequest { seed: request.seed, ..ScoreRequest::default() };
     let subject = ScoreInput {
         stone: request.stone.clone(),
         material: request.material.clone(),

@@ -4,7 +4,7 @@ use super::plot::{Curves, PlotCurve};
 use super::request::ReportRequest;
 use crate::geometry::Polyhedron;
 use crate::metrics::Metric;
-use crate::scoring::score::{ScoreInput, ScoreSettings, Target, Tilt, score};
+use crate::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
 
 /// Tilts to both sides, in degrees.
 const MOST_TILT: i32 = 20;
@@ -34,11 +34,11 @@ pub struct TiltPlot {
 /// Stones that cannot be scored at a tilt have a gap there.
 pub fn plots(
     stones: &[(&ReportRequest, &str, &Polyhedron)],
-    plan: &ScoreSettings,
+    plan: &ScoreRequest,
     step: &dyn Fn(),
 ) -> Vec<TiltPlot> {
     let metrics: Vec<&'static Metric> = TILTED.iter().filter_map(|name| Metric::by_name(name)).collect();
-    let plan = ScoreSettings {
+    let plan = ScoreRequest {
         metrics: metrics.clone(),
         target: Target::Samples(SAMPLES),
         exact: false,

@@ -1,6 +1,6 @@
 //! Adaptive sampling: a row of scores, estimator by estimator, each as far as the settings ask.
 
-use super::score::{ScoreRow, ScoreSettings, Target};
+use super::score::{ScoreRequest, ScoreRow, Target};
 use crate::estimators::weighted_exits::BeamEffort as Work;
 use crate::estimators::{BATCHES, BatchedEstimate, Estimator, EstimatorError};
 use crate::metrics::{Metric, MetricSource};
@@ -31,7 +31,7 @@ const LARGEST_STEP_OF_MEDIAN: f64 = 4.0;
 /// A row that is being filled in.
 pub(super) struct ScoreAccumulator<'a> {
     pub row: &'a mut ScoreRow,
-    pub plan: &'a ScoreSettings,
+    pub plan: &'a ScoreRequest,
     /// Whether beams are used.
     pub exact: bool,
     /// Whether the stone is not convex.

@@ -1,6 +1,6 @@
 //! Stones against each other: the same random numbers for all, differences with errors of their own.
 
-use super::score::{ScoreInput, ScoreRow, ScoreSettings, Target, score};
+use super::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score};
 use crate::metrics::{Metric, MetricSource, Statistic};
 use crate::sampling::stats::Estimate;
 use std::borrow::Cow;
@@ -51,7 +51,7 @@ pub fn is_significant(difference: Estimate, negligible: f64) -> bool {
 
 /// Differences of this metric that say nothing of the stones: those that come of the digits in which a
 /// stone is stored, and, where photons are traced, of the light that they give up.
-pub fn negligible(metric: &Metric, plan: &ScoreSettings) -> f64 {
+pub fn negligible(metric: &Metric, plan: &ScoreRequest) -> f64 {
     let closed = matches!(metric.read_from, MetricSource::Solid(_)) || (plan.exact && metric.by_beams);
     metric.scale * if closed { OF_STORAGE } else { OF_TRACING }
 }
@@ -68,7 +68,7 @@ fn is_for_long_runs(metric: &Metric) -> bool {
 ///
 /// With exact metrics there is one run, and errors of differences are those of both scores together; so
 /// it is for medians, which have a run of their own. Checked in `tests/compare.rs`.
-pub fn compare(subjects: &[ScoreInput], plan: &ScoreSettings, step: &dyn Fn()) -> Comparison {
+pub fn compare(subjects: &[ScoreInput], plan: &ScoreRequest, step: &dyn Fn()) -> Comparison {
     let runs = if plan.exact { 1 } else { RUNS };
     let effort = match plan.target {
         Target::Samples(n) => Target::Samples((n / runs).max(1)),
@@ -76,16 +76,16 @@ pub fn compare(subjects: &[ScoreInput], plan: &ScoreSettings, step: &dyn Fn()) -
     };
     let (long, short): (Vec<&Metric>, Vec<&Metric>) =
         plan.metrics.iter().copied().partition(|m| !plan.exact && is_for_long_runs(m));
-    let all = |plan: ScoreSettings| subjects.iter().map(|s| score(s, &plan)).collect::<Vec<ScoreRow>>();
+    let all = |plan: ScoreRequest| subjects.iter().map(|s| score(s, &plan)).collect::<Vec<ScoreRow>>();
     let each: Vec<Vec<ScoreRow>> = (0..runs)
         .map(|run| {
             let seed = plan.seed.wrapping_mul(RUNS).wrapping_add(run);
-            let rows = all(ScoreSettings { seed, target: effort, metrics: short.clone(), ..plan.clone() });
+            let rows = all(ScoreRequest { seed, target: effort, metrics: short.clone(), ..plan.clone() });
             step();
             rows
         })
         .collect();
-    let once = [all(ScoreSettings { metrics: long.clone(), ..plan.clone() })];
+    let once = [all(ScoreRequest { metrics: long.clone(), ..plan.clone() })];
     // where a metric's runs are, and its column there
     let place = |m: &Metric| {
         let (metrics, runs) =

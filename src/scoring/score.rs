@@ -2,7 +2,7 @@
 
 use super::adaptive::ScoreAccumulator;
 pub use super::settings::{
-    DEFAULT_SAMPLES, MAX_SAMPLES, ScoreInput, ScoreRow, ScoreSettings, StoneShape, Target, Tilt,
+    DEFAULT_SAMPLES, MAX_SAMPLES, ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt,
 };
 use crate::design::Zone;
 use crate::estimators::point_light::PointLightNeeds;
@@ -45,7 +45,7 @@ const NO_OUTLINE: &str = "the stone has no outline to compare";
 /// The result is a pure function of subject and plan: the number of threads shows in no bit.
 /// Never fails; a stone that cannot be scored says so in [`ScoreRow::error`].
 /// Checked against published and reference figures in `tests/scores.rs`.
-pub fn score(subject: &ScoreInput, plan: &ScoreSettings) -> ScoreRow {
+pub fn score(subject: &ScoreInput, plan: &ScoreRequest) -> ScoreRow {
     let mut row = ScoreRow {
         stone: subject.stone.clone(),
         material: subject.material.name.to_string(),
@@ -81,7 +81,7 @@ pub fn score(subject: &ScoreInput, plan: &ScoreSettings) -> ScoreRow {
 }
 
 /// Scores stones one after the other, each on all threads.
-pub fn score_all(subjects: &[ScoreInput], plan: &ScoreSettings) -> Vec<ScoreRow> {
+pub fn score_all(subjects: &[ScoreInput], plan: &ScoreRequest) -> Vec<ScoreRow> {
     subjects.iter().map(|s| score(s, plan)).collect()
 }
 
@@ -89,7 +89,7 @@ fn fill(
     row: &mut ScoreRow,
     stone: &ConvexStone,
     subject: &ScoreInput,
-    plan: &ScoreSettings,
+    plan: &ScoreRequest,
 ) -> Result<(), EstimatorError> {
     let (medium, view_frame) = (subject.medium(plan), subject.view_frame());
     let sky = |own: f64| plan.sky(own);
@@ -196,7 +196,7 @@ fn fill_nonconvex(
     row: &mut ScoreRow,
     stone: &MeshStone,
     subject: &ScoreInput,
-    plan: &ScoreSettings,
+    plan: &ScoreRequest,
 ) -> Result<(), EstimatorError> {
     let (medium, view_frame) = (subject.medium(plan), subject.view_frame());
     plan.metrics.iter().filter(|m| !m.nonconvex).for_each(|m| row.leave_out(m, NONCONVEX));
@@ -227,7 +227,7 @@ fn view_statistic(reading: MetricSource) -> Option<Statistic<view::ViewTally>> {
     if let MetricSource::View(f) = reading { Some(f) } else { None }
 }
 
-impl ScoreSettings {
+impl ScoreRequest {
     /// The share of a ray's light below which it is given up: no more than half of an error that is
     /// asked for, so that what is given up does not stand in the way of it.
     fn stop_power(&self) -> f32 {
@@ -250,7 +250,7 @@ impl ScoreSettings {
 }
 
 impl ScoreInput {
-    fn medium(&self, plan: &ScoreSettings) -> TraceOptics<'_> {
+    fn medium(&self, plan: &ScoreRequest) -> TraceOptics<'_> {
         TraceOptics { material: &self.material, polarised: plan.polarised }
     }
 

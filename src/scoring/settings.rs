@@ -4,6 +4,7 @@ use crate::geometry::{ClosedMesh, Polyhedron};
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::sampling::stats::Estimate;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// Points of the hemisphere and of the view when nothing else is asked: ±.0003 of `wlr` for a
@@ -15,7 +16,8 @@ pub const DEFAULT_SAMPLES: u64 = 1 << 18;
 pub const MAX_SAMPLES: u64 = 1 << 25;
 
 /// How far to trace.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Target {
     /// So many points of the hemisphere and the view, fewer of dearer estimators.
     Samples(u64),
@@ -116,9 +118,10 @@ impl ScoreRow {
     }
 }
 
-/// What to score, and how.
-#[derive(Debug, Clone)]
-pub struct ScoreSettings {
+/// What to score, and how. As JSON its metrics are names; fields that are left out have their defaults.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ScoreRequest {
     /// The metrics, in the order of the columns.
     pub metrics: Vec<&'static Metric>,
     /// How far to trace.
@@ -139,11 +142,11 @@ pub struct ScoreSettings {
     pub observer: Option<f64>,
 }
 
-impl Default for ScoreSettings {
+impl Default for ScoreRequest {
     /// Every metric, default effort and cap, polarisation followed, seed 1, no beams, each metric's
     /// own observer.
     fn default() -> Self {
-        ScoreSettings {
+        ScoreRequest {
             metrics: METRICS.to_vec(),
             target: Target::default(),
             polarised: true,

@@ -8,7 +8,7 @@ use cutlab::design::Design;
 use cutlab::materials::Material;
 use cutlab::metrics::Metric;
 use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreInput, ScoreSettings, Target, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, score};
 use cutlab::trace::ConvexStone;
 
 /// The only seed of these tests.
@@ -41,14 +41,14 @@ pub fn subject(name: &str, design: &Design, material: Material) -> ScoreInput {
 }
 
 /// Scalar Fresnel, as the reference figures have it.
-pub fn plan(metrics: &[&str], samples: u64) -> ScoreSettings {
+pub fn plan(metrics: &[&str], samples: u64) -> ScoreRequest {
     let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue")).collect();
-    ScoreSettings {
+    ScoreRequest {
         metrics,
         target: Target::Samples(samples),
         polarised: false,
         seed: SEED,
-        ..ScoreSettings::default()
+        ..ScoreRequest::default()
     }
 }
 

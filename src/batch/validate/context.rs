@@ -10,7 +10,7 @@ use crate::geometry::SolidError;
 use crate::materials::Material;
 use crate::metrics::Metric;
 use crate::sampling::stats::Estimate;
-use crate::scoring::score::{ScoreInput, ScoreSettings, Target, score};
+use crate::scoring::score::{ScoreInput, ScoreRequest, Target, score};
 use crate::storage::text;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -66,7 +66,7 @@ impl CheckContext {
             design,
             material,
             metrics,
-            ScoreSettings { target: Target::Samples(samples), ..ScoreSettings::default() },
+            ScoreRequest { target: Target::Samples(samples), ..ScoreRequest::default() },
         )
     }
 
@@ -76,11 +76,11 @@ impl CheckContext {
         design: &Design,
         material: &Material,
         metrics: &[&str],
-        plan: ScoreSettings,
+        plan: ScoreRequest,
     ) -> Result<Vec<Estimate>, CheckError> {
         let named = |name: &&str| Metric::by_name(name).ok_or_else(|| CheckError::Unknown(name.to_string()));
         let metrics = metrics.iter().map(named).collect::<Result<_, _>>()?;
-        let plan = ScoreSettings { metrics, polarised: false, seed: self.seed, ..plan };
+        let plan = ScoreRequest { metrics, polarised: false, seed: self.seed, ..plan };
         let shape = Ok(design.solid()?.into());
         let subject =
             ScoreInput { stone: design.name.clone(), material: material.clone(), shape, tilt: None };

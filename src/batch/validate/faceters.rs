@@ -5,7 +5,7 @@ use super::{Check, Figure, FigureSource, Measured, SourceKind, TRACER};
 use crate::formats;
 use crate::geometry::Plane;
 use crate::materials::Material;
-use crate::scoring::score::{ScoreSettings, Target};
+use crate::scoring::score::{ScoreRequest, Target};
 use crate::trace::reference;
 use glam::DVec3;
 
@@ -43,11 +43,8 @@ fn published((name, expected): (&'static str, [f64; 2])) -> Check {
     let figure =
         |(m, x)| Figure::near(format!("{m} of {name} at 1.54, no head shadow"), GUILD, x, 4.0).unit("%");
     Check::new(SUBJECT, metrics.into_iter().zip(expected).map(figure).collect(), move |lab| {
-        let plan = ScoreSettings {
-            observer: Some(0.0),
-            target: Target::Samples(1 << 16),
-            ..ScoreSettings::default()
-        };
+        let plan =
+            ScoreRequest { observer: Some(0.0), target: Target::Samples(1 << 16), ..ScoreRequest::default() };
         Ok(Measured::new(lab.planned(&cut(name)?, &Material::from_index(1.54), &metrics, plan)?))
     })
 }

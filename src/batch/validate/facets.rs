@@ -10,7 +10,7 @@ use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::fresnel;
 use crate::sampling::stats::Estimate;
-use crate::scoring::score::{ScoreSettings, Target};
+use crate::scoring::score::{ScoreRequest, Target};
 use crate::trace::ConvexStone;
 use crate::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, EnergyBudget, IncidentBeam, StopCriteria, UnpolarisedLight,
@@ -228,8 +228,7 @@ fn beams_against_photons() -> Check {
         let (stone, material) = (brilliant_by_name("nailhead")?, material("diamond")?);
         let names: Vec<&str> = metrics.iter().map(|m| m.name).collect();
         let photons = lab.scores(&stone, material, &names, 1 << 17)?;
-        let plan =
-            ScoreSettings { exact: true, target: Target::Samples(1 << 18), ..ScoreSettings::default() };
+        let plan = ScoreRequest { exact: true, target: Target::Samples(1 << 18), ..ScoreRequest::default() };
         let beams = lab.planned(&stone, material, &names, plan)?;
         let less = |(a, b): (&Estimate, &Estimate)| Estimate {
             value: a.value - b.value,

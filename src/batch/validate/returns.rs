@@ -5,7 +5,7 @@ use super::{Check, CheckContext, CheckError, Expected, Figure, FigureSource, Mea
 use crate::estimators::{BatchedEstimate, Hemisphere, TraceOptics, hemisphere};
 use crate::materials::Material;
 use crate::sampling::stats::Estimate;
-use crate::scoring::score::ScoreSettings;
+use crate::scoring::score::ScoreRequest;
 use crate::trace::ConvexStone;
 
 const SUBJECT: &str = "light return";
@@ -170,7 +170,7 @@ fn jump() -> Check {
         let at = |i: i32| {
             let pavilion = 40.65 + 0.1 * f64::from(i);
             let given = [("crown-angle", 35.0), ("lower-half", 80.0), ("pavilion-angle", pavilion)];
-            let plan = ScoreSettings { exact: true, ..ScoreSettings::default() };
+            let plan = ScoreRequest { exact: true, ..ScoreRequest::default() };
             let material = Material::from_index(INDEX);
             let found = lab.planned(&brilliant(&given)?, &material, &["leakage_strongest"], plan)?;
             let leakage = found.first().copied().unwrap_or(Estimate::exact(f64::NAN));

@@ -5,6 +5,7 @@ use crate::cli::exit_code::CliError;
 use crate::design::orientation;
 use crate::formats::Loaded;
 use crate::geometry::ClosedMesh;
+use crate::stone_spec::options::{Orientation, UpAxis};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, OnceLock};
@@ -15,32 +16,17 @@ pub struct OrientationArgs {
     /// The axis of a stone's file that points up, through the table [z]
     #[arg(long, global = true, value_name = "x|y|z|-x|-y|-z", value_parser = axis, allow_hyphen_values = true,
         conflicts_with = "align", display_order = 999)]
-    up: Option<Up>,
+    up: Option<UpAxis>,
     /// Stand the stone of a file upright: by its axis of symmetry, or else by its largest facet
     #[arg(long, global = true, display_order = 999)]
     align: bool,
 }
 
-/// An axis as typed.
-#[derive(Debug, Clone, Copy)]
-struct Up {
-    word: &'static str,
-    direction: DVec3,
-}
-
-fn axis(text: &str) -> Result<Up, String> {
-    let axes = [
-        ("x", DVec3::X),
-        ("y", DVec3::Y),
-        ("z", DVec3::Z),
-        ("-x", DVec3::NEG_X),
-        ("-y", DVec3::NEG_Y),
-        ("-z", DVec3::NEG_Z),
-    ];
+/// Value parser of `--up`.
+fn axis(text: &str) -> Result<UpAxis, String> {
     let text = text.to_lowercase();
-    let found = axes.iter().find(|(word, _)| *word == text.trim_start_matches('+'));
-    let &(word, direction) = found.ok_or("expected one of x, y, z, -x, -y, -z")?;
-    Ok(Up { word, direction })
+    let found = UpAxis::ALL.iter().find(|(name, _)| *name == text.trim_start_matches('+'));
+    Ok(found.ok_or("expected one of x, y, z, -x, -y, -z")?.1)
 }
 
 /// Set once, before the first stone is opened, with where remarks go.
@@ -56,11 +42,10 @@ fn asked() -> OrientationArgs {
     ASKED.get().map_or_else(OrientationArgs::default, |(standing, _)| *standing)
 }
 
-/// The options as they could be typed again, with a blank before each; nothing if there are none.
-pub fn words() -> String {
+/// What was asked for, for a request.
+pub fn requested() -> Orientation {
     let OrientationArgs { up, align } = asked();
-    let up = up.map_or(String::new(), |up| format!(" --up {}", up.word));
-    if align { up + " --align" } else { up }
+    Orientation { up, align }
 }
 
 /// The stone as it is to stand; a stone of a file that nobody turned and that does not stand table up
@@ -72,7 +57,7 @@ pub fn orient(mut imported: Loaded) -> Result<Loaded, CliError> {
     let OrientationArgs { up, align } = asked();
     let solid = imported.design.solid()?;
     let up = match (up, align) {
-        (Some(up), _) => up.direction,
+        (Some(up), _) => up.direction(),
         (None, true) => orientation::up_of(&solid),
         (None, false) => {
             imported.warnings.extend(orientation::doubt(&solid));
@@ -90,7 +75,7 @@ pub fn stood_body(failure: CliError) -> CliError {
     let OrientationArgs { up, align } = asked();
     failure.with_body(|body| {
         let up = match (up, align) {
-            (Some(up), _) => up.direction,
+            (Some(up), _) => up.direction(),
             (None, true) => orientation::up_of_body(&body),
             (None, false) => return body,
         };

@@ -2,17 +2,18 @@
 
 use super::{inputs, orientation, stone, values};
 use crate::batch::fingerprint::{FileDigest, Fingerprint};
+use crate::batch::request::TableRequest;
 use crate::batch::table_job::RowStatus;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
-use crate::cli::shell_quote::quoted;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
-use crate::scoring::score::{ScoreInput, ScoreRow, ScoreSettings, StoneShape, Target, Tilt, score};
+use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt, score};
 use crate::stone_spec::STANDARD_INPUT;
+use crate::stone_spec::options::StoneOptions;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
@@ -93,9 +94,9 @@ impl ScoringArgs {
     }
 
     /// The plan that was asked for.
-    pub fn plan(&self) -> ScoreSettings {
-        let default = ScoreSettings::default();
-        ScoreSettings {
+    pub fn plan(&self) -> ScoreRequest {
+        let default = ScoreRequest::default();
+        ScoreRequest {
             metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.once() },
             target: self.error.map_or(default.target, Target::Error),
             polarised: self.polarisation,
@@ -117,26 +118,14 @@ impl ScoringArgs {
         metrics
     }
 
-    /// The options with every setting spelled out, as they could be typed again.
-    pub fn words(&self) -> String {
-        let names: Vec<&str> = self.plan().metrics.iter().map(|m| m.name).collect();
-        let mut words = format!(" --metrics {}", names.join(","));
-        let mut option = |name: &str, value: Option<String>| {
-            if let Some(value) = value {
-                words += &format!(" --{name} {}", quoted(&value));
-            }
-        };
-        option("error", self.error.map(|e| e.to_string()));
-        option("observer", self.observer.map(|o| o.to_string()));
-        option("material", self.substance.material.map(|m| m.name.to_string()));
-        option("ri", self.substance.ri.map(|n| n.to_string()));
-        option("size", self.size.map(|mm| mm.to_string()));
-        option("polarisation", Some(if self.polarisation { "on" } else { "off" }.into()));
-        option("seed", Some(self.seed.to_string()));
-        if self.exact {
-            words += " --exact";
+    /// What is asked for of every stone.
+    pub fn options(&self) -> StoneOptions {
+        StoneOptions {
+            material: self.substance.material.map(|m| m.name.to_string()),
+            ri: self.substance.ri,
+            size_mm: self.size,
+            orientation: orientation::requested(),
         }
-        words + &orientation::words()
     }
 
     /// What the STONE `spec` is made of, and its shape as large as it is to be.
@@ -162,7 +151,7 @@ impl ScoringArgs {
     }
 
     /// Scores the STONE `spec`.
-    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &ScoreSettings) -> (ScoreRow, RowStatus) {
+    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &ScoreRequest) -> (ScoreRow, RowStatus) {
         let opened = self.shape(spec);
         let substance = self.substance.within(spec).unwrap_or(self.substance);
         let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
@@ -219,10 +208,8 @@ pub struct InputFiles {
 
 impl InputFiles {
     /// Those of a table of these stones.
-    ///
-    /// - `command`: with every setting spelled out
-    pub fn new<'a>(command: &str, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
-        let (mut identity, mut files) = (Fingerprint::of_command(command), BTreeMap::new());
+    pub fn new<'a>(request: &TableRequest, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
+        let (mut identity, mut files) = (Fingerprint::of_request(request), BTreeMap::new());
         for stone in stones {
             identity.add(stone.as_encoded_bytes());
             if stone == STANDARD_INPUT {

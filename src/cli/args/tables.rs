@@ -2,6 +2,7 @@
 
 use super::stone;
 use crate::batch::merge::TablePart;
+use crate::batch::request::TableRequest;
 use crate::batch::shard::Shard;
 use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
@@ -12,7 +13,7 @@ use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
 use crate::cli::terminal_table;
-use crate::scoring::score::{ScoreRow, ScoreSettings};
+use crate::scoring::score::ScoreRow;
 use crate::storage::atomic_write;
 use crate::storage::journal::JournalRemark;
 use indicatif::ProgressBar;
@@ -55,12 +56,10 @@ pub fn format_of(output: &Path, console: &Console) -> Result<TableFormat, CliErr
 
 /// A table to be made.
 pub struct TableCommand<'a> {
-    /// The command with every setting spelled out.
-    pub command: String,
-    /// What the table is a function of.
+    /// What was asked for.
+    pub request: &'a TableRequest,
+    /// Fingerprint of the request and its inputs.
     pub identity: String,
-    /// How the scores are made.
-    pub plan: &'a ScoreSettings,
     /// The table's columns.
     pub columns: Vec<String>,
     /// Rows of the whole table.
@@ -92,7 +91,7 @@ impl TableCommand<'_> {
     ) -> Result<ExitStatus, CliError> {
         let output = &table.output;
         let form = table.format(console)?;
-        plots.claim(&self.command, outputs)?;
+        plots.claim(&self.request.command(), outputs)?;
         let bar = console.progress(0, self.what);
         let noted = Mutex::new(BTreeSet::new());
         let waited = AtomicBool::new(false);
@@ -188,7 +187,7 @@ impl TableCommand<'_> {
         let bytes = copied.copy.unwrap_or_default();
         if to_read {
             let table = NumericColumns::read(&bytes, batch.form)?;
-            console.print(&terminal_table::text(&self.columns, &table, &self.plan.metrics))?;
+            console.print(&terminal_table::text(&self.columns, &table, &self.request.scores().metrics))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
         drawn.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
@@ -202,7 +201,7 @@ impl TableCommand<'_> {
         form: TableFormat,
     ) -> Result<Vec<PathBuf>, CliError> {
         match &self.layout {
-            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, layout, &self.command),
+            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, layout, &self.request.command()),
             _ => Ok(Vec::new()),
         }
     }
@@ -232,18 +231,17 @@ impl TableCommand<'_> {
     ///
     /// - `begun`: whether an earlier start of the same command left its progress there
     fn claim(&self, table: &TableArgs, begun: bool, outputs: &mut Outputs) -> Result<(), CliError> {
-        claim_table(&table.output, &self.command, self.shard_of(table), begun, outputs)
+        claim_table(&table.output, &|meta| meta.is_of(self.request), self.shard_of(table), begun, outputs)
     }
 
     fn meta(&self, shard: Shard, summary: &TableSummary, crc32: u32) -> TableMeta {
-        let (command, study) = (self.command.clone(), self.identity.clone());
         TableMeta {
             layout: self.layout.clone(),
             total: self.total,
             shard: (shard != Shard::WHOLE).then_some(shard),
             summary: summary.clone(),
             crc32: format!("{crc32:08x}"),
-            ..TableMeta::new(self.plan, command, study, self.columns.clone())
+            ..TableMeta::new(self.request, self.identity.clone(), self.columns.clone())
         }
     }
 }
@@ -268,20 +266,21 @@ impl Write for Tee {
     }
 }
 
-/// Takes the places of a table that `command` makes and of its companion.
+/// Takes the places of a table and of its companion.
 ///
+/// - `is_of`: whether a companion that is there is one of this table
 /// - `begun`: whether an earlier start of the same command left its progress there
 pub fn claim_table(
     output: &Path,
-    command: &str,
+    is_of: &dyn Fn(&TableMeta) -> bool,
     shard: Option<Shard>,
     begun: bool,
     outputs: &mut Outputs,
 ) -> Result<(), CliError> {
     // a kill may have come between the new companion and the new table
-    let says_so = |companion: &Path| TableMeta::read(companion).is_ok_and(|meta| meta.command == command);
+    let says_so = |companion: &Path| TableMeta::read(companion).is_ok_and(|meta| is_of(&meta));
     let is_own = |there: &Path| {
-        TableMeta::belongs_to(there, command, shard) || (begun && says_so(&TableMeta::find_for(there)))
+        TableMeta::belongs_to(there, is_of, shard) || (begun && says_so(&TableMeta::find_for(there)))
     };
     outputs.claim(output, is_own)?;
     outputs.claim(&TableMeta::path_for(output), says_so)

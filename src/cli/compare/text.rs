@@ -9,7 +9,7 @@ use crate::report::estimates::estimate_text;
 use crate::report::{ReportRequest, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::Comparison;
-use crate::scoring::score::ScoreSettings;
+use crate::scoring::score::ScoreRequest;
 use crate::storage::terminal::in_line;
 
 /// Up to so many stones have a column each and a line for each metric, else a line each.
@@ -22,7 +22,7 @@ pub struct Compared<'a> {
     /// Their scores.
     pub comparison: &'a Comparison,
     /// What was scored.
-    pub plan: &'a ScoreSettings,
+    pub plan: &'a ScoreRequest,
 }
 
 /// A measure of every stone that has no error.

@@ -4,7 +4,7 @@
 //! as a processing instruction behind their end.
 
 use crate::cli::args::stone;
-use crate::cli::shell_quote;
+use crate::parse::shell;
 use crate::report::page::escaped;
 use crate::storage::limits;
 use exr::meta::MetaData;
@@ -24,6 +24,12 @@ const AFTER: &str = "?>\n";
 /// No record is longer, in bytes.
 const LONGEST: u64 = 1 << 16;
 
+/// The process's command line as typed.
+pub fn command_line() -> String {
+    let words = std::env::args_os().skip(1).map(|word| shell::quoted(&word.to_string_lossy()));
+    std::iter::once("cutlab".to_string()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
 /// The process's command line as records have it: without what does not change the results.
 pub fn own_command() -> String {
     command_of(std::env::args_os().skip(1))
@@ -39,7 +45,7 @@ fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
         }
         let with_value = argument.starts_with("-o") || argument.starts_with("-j");
         if !with_value && !WHERE.contains(&name) && !HOW.contains(&&*argument) {
-            said.push(shell_quote::quoted(&argument));
+            said.push(shell::quoted(&argument));
         }
     }
     said.join(" ")

@@ -1,0 +1,161 @@
+//! Requests for tables of scores: everything that a table follows from, beside what its stones' files hold.
+//!
+//! A request is data. Its canonical JSON is hashed for the table's identity ([`super::fingerprint`]), so no
+//! field can be left out of it; the command line that would make it again is written from it.
+
+use super::sweep::{Steps, SweptParameter};
+use super::table_job::Order;
+use crate::metrics::Metric;
+use crate::parse::shell::quoted;
+use crate::scoring::settings::{ScoreRequest, Target};
+use crate::stone_spec::options::StoneOptions;
+use serde::{Deserialize, Serialize};
+
+/// A request for a table of scores.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(tag = "command", rename_all = "snake_case")]
+pub enum TableRequest {
+    /// A row for each stone, or for each stone and tilt.
+    Score(ScoreTable),
+    /// A row for each point of a grid of parameters.
+    Sweep(SweepTable),
+    /// A row for each metric and stone.
+    Compare(ComparisonTable),
+}
+
+/// A table with a row for each stone, or for each stone and tilt.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScoreTable {
+    /// The stones as they are named: cuts, files, folders, patterns.
+    pub stones: Vec<String>,
+    /// What they are made of, how large they are and how they stand.
+    pub options: StoneOptions,
+    /// What is scored, and how.
+    pub scores: ScoreRequest,
+    /// How each stone is tilted; none for face-up.
+    pub tilt: Option<TiltRange>,
+    /// Whether there are columns of each stone's proportions.
+    pub proportions: bool,
+    /// By what the rows are sorted, if they are.
+    pub sort: Option<SortRequest>,
+}
+
+/// Tilts about horizontal axes.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TiltRange {
+    /// Degrees, right-handed about each axis.
+    pub degrees: Steps,
+    /// Azimuths of the axes, in degrees from +x towards +y.
+    pub azimuths: Vec<f64>,
+}
+
+/// A metric that rows are sorted by.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SortRequest {
+    /// The metric, one of those that are scored.
+    pub metric: &'static Metric,
+    /// Which rows come first, and how many are kept.
+    pub order: Order,
+}
+
+/// A table with a row for each point of a grid of parameters, or of points scattered over it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SweepTable {
+    /// The stone that is varied.
+    pub stone: String,
+    /// What it is made of, how large it is and how it stands.
+    pub options: StoneOptions,
+    /// What is scored, and how.
+    pub scores: ScoreRequest,
+    /// What is varied, the first slowest.
+    pub vary: Vec<SweptParameter>,
+    /// So many scattered points in place of the grid.
+    pub scatter: Option<u64>,
+}
+
+/// A table with a row for each metric and stone, with differences from the first stone.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparisonTable {
+    /// The stones as they are named: cuts, files, folders, patterns.
+    pub stones: Vec<String>,
+    /// What they are made of, how large they are and how they stand.
+    pub options: StoneOptions,
+    /// What is scored, and how.
+    pub scores: ScoreRequest,
+}
+
+impl TableRequest {
+    /// What is scored, and how.
+    pub fn scores(&self) -> &ScoreRequest {
+        match self {
+            TableRequest::Score(table) => &table.scores,
+            TableRequest::Sweep(table) => &table.scores,
+            TableRequest::Compare(table) => &table.scores,
+        }
+    }
+
+    /// The command line that makes the table, every setting spelled out, without output and shard.
+    pub fn command(&self) -> String {
+        match self {
+            TableRequest::Score(table) => {
+                let mut words = command_of("score", &table.stones, &table.scores, &table.options);
+                if table.proportions {
+                    words += " --proportions";
+                }
+                if let Some(SortRequest { metric, order }) = table.sort {
+                    words += &format!(" --sort {}{}", if order.ascending { "-" } else { "" }, metric.name);
+                    words += &order.top.map_or(String::new(), |n| format!(" --top {n}"));
+                }
+                if let Some(TiltRange { degrees, azimuths }) = &table.tilt {
+                    let azimuths: Vec<String> = azimuths.iter().map(f64::to_string).collect();
+                    words += &format!(" --tilt {degrees} --tilt-axis {}", azimuths.join(","));
+                }
+                words
+            }
+            TableRequest::Sweep(table) => {
+                let mut words = format!("cutlab sweep {}", quoted(&table.stone));
+                for varied in &table.vary {
+                    words += &format!(" --vary {}={}", varied.key, varied.steps);
+                }
+                words += &table.scatter.map_or(String::new(), |n| format!(" --scatter {n}"));
+                words + &settings(&table.scores, &table.options)
+            }
+            TableRequest::Compare(table) => {
+                command_of("compare", &table.stones, &table.scores, &table.options)
+            }
+        }
+    }
+}
+
+fn command_of(name: &str, stones: &[String], scores: &ScoreRequest, options: &StoneOptions) -> String {
+    let stones: String = stones.iter().map(|stone| format!(" {}", quoted(stone))).collect();
+    format!("cutlab {name}{stones}{}", settings(scores, options))
+}
+
+/// The options of a scoring command, with a blank before each.
+fn settings(scores: &ScoreRequest, options: &StoneOptions) -> String {
+    let names: Vec<&str> = scores.metrics.iter().map(|m| m.name).collect();
+    let mut words = format!(" --metrics {}", names.join(","));
+    let mut option = |name: &str, value: Option<String>| {
+        if let Some(value) = value {
+            words += &format!(" --{name} {}", quoted(&value));
+        }
+    };
+    option("error", if let Target::Error(e) = scores.target { Some(e.to_string()) } else { None });
+    option("observer", scores.observer.map(|o| o.to_string()));
+    option("material", options.material.clone());
+    option("ri", options.ri.map(|n| n.to_string()));
+    option("size", options.size_mm.map(|mm| mm.to_string()));
+    option("polarisation", Some(if scores.polarised { "on" } else { "off" }.into()));
+    option("seed", Some(scores.seed.to_string()));
+    if scores.exact {
+        words += " --exact";
+    }
+    words += &options.orientation.up.map_or(String::new(), |up| format!(" --up {}", up.name()));
+    if options.orientation.align { words + " --align" } else { words }
+}

@@ -1,0 +1,81 @@
+//! Stone options: what a STONE is made of, how large it is and how it stands, where it does not say so itself.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// What is asked for of every stone of a request. A stone that says it itself (`D.asc:material=topaz`) is as
+/// it says.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct StoneOptions {
+    /// A material of the catalogue, by name; none for what each design is drawn for, or diamond.
+    pub material: Option<String>,
+    /// One refractive index, without dispersion, in place of a material.
+    pub ri: Option<f64>,
+    /// Girdle width in millimetres; none for each stone's own.
+    pub size_mm: Option<f64>,
+    /// How the stones of files are turned.
+    pub orientation: Orientation,
+}
+
+/// How the stones of files are turned before anything else.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Orientation {
+    /// The axis of the file that points up, through the table; none for z.
+    pub up: Option<UpAxis>,
+    /// Whether a stone is stood upright by its axis of symmetry, or else by its largest facet.
+    pub align: bool,
+}
+
+/// An axis of a file's frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum UpAxis {
+    /// +x
+    #[serde(rename = "x")]
+    X,
+    /// +y
+    #[serde(rename = "y")]
+    Y,
+    /// +z
+    #[serde(rename = "z")]
+    Z,
+    /// −x
+    #[serde(rename = "-x")]
+    NegX,
+    /// −y
+    #[serde(rename = "-y")]
+    NegY,
+    /// −z
+    #[serde(rename = "-z")]
+    NegZ,
+}
+
+impl UpAxis {
+    /// Every axis with its name.
+    pub const ALL: [(&str, UpAxis); 6] = [
+        ("x", UpAxis::X),
+        ("y", UpAxis::Y),
+        ("z", UpAxis::Z),
+        ("-x", UpAxis::NegX),
+        ("-y", UpAxis::NegY),
+        ("-z", UpAxis::NegZ),
+    ];
+
+    /// As a unit vector.
+    pub fn direction(self) -> DVec3 {
+        match self {
+            UpAxis::X => DVec3::X,
+            UpAxis::Y => DVec3::Y,
+            UpAxis::Z => DVec3::Z,
+            UpAxis::NegX => DVec3::NEG_X,
+            UpAxis::NegY => DVec3::NEG_Y,
+            UpAxis::NegZ => DVec3::NEG_Z,
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        UpAxis::ALL.iter().find(|(_, axis)| *axis == self).map_or("z", |(name, _)| name)
+    }
+}
