@@ -8,7 +8,7 @@ use crate::optics::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
 
 /// The lines between which the laws are drawn, nm.
-pub(super) const VALID_NM: (f64, f64) = (430.8, 686.7);
+pub(super) const VALID_NM: (f64, f64) = (lines::G, lines::B);
 
 /// How many there are.
 pub(super) const COUNT: usize = 33;

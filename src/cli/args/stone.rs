@@ -37,10 +37,10 @@ impl StoneSpec {
         if Path::new(argument).symlink_metadata().is_ok() {
             return Ok(spec);
         }
-        let is_own = |item: &&str| {
-            let key = item.split('=').next().unwrap_or_default().trim();
-            item.contains('=') && (key == MATERIAL || key == INDEX)
+        let has_key = |item: &str, name: &str| {
+            item.split_once('=').is_some_and(|(key, _)| key.trim().eq_ignore_ascii_case(name))
         };
+        let is_own = |item: &&str| has_key(item, MATERIAL) || has_key(item, INDEX);
         let Some((name, items)) = parted(argument) else { return Ok(spec) };
         let (own, rest): (Vec<&str>, Vec<&str>) = items.split(',').partition(is_own);
         if own.is_empty() {
@@ -58,16 +58,17 @@ impl StoneSpec {
             return Err(CliError::input(format!("{}, at '{found}': {why}", display_name(argument))));
         }
         for item in &own {
-            let (key, value) = item.split_once('=').unwrap_or_default();
+            let (_, value) = item.split_once('=').unwrap_or_default();
             let given_twice =
                 || CliError::input(format!("{}: one material or index", display_name(argument)));
             if spec.substance.material.is_some() || spec.substance.ri.is_some() {
                 return Err(given_twice());
             }
             let wrong = |why: String| CliError::input(format!("{}: {why}", display_name(argument)));
-            match key.trim() {
-                MATERIAL => spec.substance.material = Some(material(value.trim()).map_err(wrong)?),
-                _ => spec.substance.ri = Some(refractive_index(value.trim()).map_err(wrong)?),
+            if has_key(item, MATERIAL) {
+                spec.substance.material = Some(material(value.trim()).map_err(wrong)?);
+            } else {
+                spec.substance.ri = Some(refractive_index(value.trim()).map_err(wrong)?);
             }
         }
         spec.own = own.iter().map(|item| item.trim().to_owned()).collect();
@@ -335,6 +336,8 @@ mod tests {
             ("C:/x y/D.asc: material = topaz ", "C:/x y/D.asc", Some("topaz"), None),
             ("D.asc:ri=1.62", "D.asc", None, Some(1.62)),
             ("oval:material=ruby", "oval", Some("ruby"), None),
+            ("oval:Material=Ruby", "oval", Some("ruby"), None),
+            ("D.asc:RI=1.62", "D.asc", None, Some(1.62)),
             ("oval:table=57,ri=2,star=50", "oval:table=57,star=50", None, Some(2.0)),
             ("oval:table=57", "oval:table=57", None, None),
             ("D.asc:table=57", "D.asc:table=57", None, None),
