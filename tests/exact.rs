@@ -102,7 +102,7 @@ fn what_is_given_up_counts_for_every_share_of_a_view() {
     let cube = library::design("cube", &Default::default()).expect("in the library").expect("solved");
     let subject = subject("cube", &cube, diamond());
     let random = plan(&names, 1 << 13);
-    let exact = ScoreSettings { exact: true, ..random.clone() };
+    let exact = ScoreRequest { exact: true, ..random.clone() };
     let [a, b] = [random, exact].map(|plan| score(&subject, &plan).scores);
     for ((name, a), b) in names.iter().zip(a).zip(b) {
         let (a, b) = (a.expect("applies"), b.expect("applies"));
