@@ -285,3 +285,21 @@ fn an_input_that_is_replaced_meanwhile_has_no_scores() {
     assert!(table.lines().nth(12).expect("its row").contains(",,"), "{table}");
     bench.good(&["score", "in", "--metrics", "wlr", "--error", "0.01", "-o", "t.csv", "-q", "--force"]);
 }
+
+/// What may not be looked at is not taken for a name that leads nowhere.
+#[cfg(unix)]
+#[test]
+fn what_there_is_no_right_to_look_at_is_an_error_of_reading() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    bench.good(&["generate", "-q", "octahedron", "-o", "closed/a.asc"]);
+    let close = |mode| {
+        std::fs::set_permissions(bench.path("closed"), PermissionsExt::from_mode(mode)).expect("sets");
+    };
+    close(0o000);
+    let said = bench.ends_for_a_user(3, &["show", "closed/a.asc"]);
+    close(0o755);
+    if let Some((out, said)) = said {
+        assert!(out.is_empty() && said.contains("closed/a.asc: Permission denied"), "{said}");
+    }
+}

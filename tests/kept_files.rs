@@ -69,7 +69,8 @@ fn what_a_command_did_not_make_is_not_overwritten_and_its_own_is() {
         assert!(made[Path::new(file)] != b"mine", "{command:?}");
         // again, by the same command, whatever it may say on the way
         bench.good(&command);
-        bench.good(&[&["--quiet"], &command[..]].concat());
+        let said = bench.ends(0, &[&["--quiet"], &command[..]].concat());
+        assert_eq!(said, Default::default(), "{command:?} --quiet says something");
         assert!(bench.files() == made, "{command:?}");
     }
 }
@@ -79,6 +80,7 @@ fn an_input_is_never_an_output_whatever_leads_to_it() {
     let bench = Bench::new();
     inputs(&bench);
     bench.good(&["generate", "-q", "octahedron", "-o", "g.gltf"]);
+    bench.good(&["generate", "-q", "octahedron", "-o", "r/stone.toml"]);
     std::fs::copy(bench.path("g.gltf"), bench.path("g.json")).expect("copies");
     #[cfg(unix)]
     std::os::unix::fs::symlink("g.json", bench.path("link.json")).expect("links");
@@ -108,6 +110,7 @@ fn an_input_is_never_an_output_whatever_leads_to_it() {
         "merge p1.csv p2.csv -o p1.csv --force",
         "merge p1.csv p2.csv -o ./p2.csv",
         "plot whole.csv -o whole.csv --force",
+        "report r/stone.toml -o r --force",
     ] {
         commands.push(line.split(' ').map(String::from).collect());
     }

@@ -228,3 +228,18 @@ fn long_work_in_a_pipe_tells_how_far_it_is() {
     assert!(said.contains("noise ") && said.contains("about ") && said.contains(" left"), "{said}");
     assert_eq!(bench.good(&[&long[..], &["-q"]].concat()), "");
 }
+
+/// Without a stop of its own it ends at 2 % of noise, or after 100 rounds.
+#[test]
+fn a_progressive_picture_ends_by_itself() {
+    let bench = Bench::new();
+    let tiny = ["--width", "8", "--height", "6", "--photons", "50", "--nearest", "5", "-o", "a.png"];
+    let said = bench.good(&[&["render", "cube", "--progressive"], &tiny[..]].concat());
+    let told: Vec<f64> = said
+        .lines()
+        .find(|line| line.contains(" rounds, noise "))
+        .map(|line| line.split([' ', ',']).filter_map(|word| word.parse().ok()).collect())
+        .unwrap_or_default();
+    let &[rounds, noise] = &told[..] else { panic!("{said}") };
+    assert!((8.0..=100.0).contains(&rounds) && (noise <= 2.0 || rounds == 100.0), "{said}");
+}

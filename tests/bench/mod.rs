@@ -41,7 +41,7 @@ impl Bench {
         (text(&out.stdout), said)
     }
 
-    /// As [`MeetPointSolver::ends`], by a user to whom modes of files apply: to root they do not, and another user
+    /// As [`Bench::ends`], by a user to whom modes of files apply: to root they do not, and another user
     /// takes root's place. None, said in the test's output, where that cannot be.
     #[cfg(unix)]
     pub fn ends_for_a_user(&self, code: i32, arguments: &[&str]) -> Option<(String, String)> {
