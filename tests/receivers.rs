@@ -6,6 +6,7 @@ use cutlab::formats::{self};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::materials::Material;
 use cutlab::stone_spec;
+use base64::Engine;
 use glam::DVec3;
 use std::path::Path;
 
@@ -239,14 +240,23 @@ fn gem_cut_studio_gets_its_frame() {
     }
 }
 
+/// The one buffer of a `.gltf`, which stands in its address.
+fn embedded(document: &gltf::Document) -> Vec<u8> {
+    let buffer = document.buffers().next().expect("a buffer");
+    let gltf::buffer::Source::Uri(uri) = buffer.source() else { panic!("no address") };
+    let text = uri.strip_prefix("data:application/octet-stream;base64,").expect("inside the file");
+    base64::engine::general_purpose::STANDARD.decode(text).expect("base64")
+}
+
 /// Corners as a viewer places them, in metres, and the document.
 fn viewed(bytes: &[u8]) -> (DVec3, gltf::Document) {
-    let (document, buffers, _) = gltf::import_slice(bytes).expect("a valid file");
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(bytes).expect("a valid file");
+    let data = blob.unwrap_or_else(|| embedded(&document));
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for node in document.nodes() {
         let place = glam::DMat4::from_cols_array_2d(&node.transform().matrix().map(|c| c.map(f64::from)));
         for primitive in node.mesh().into_iter().flat_map(|m| m.primitives().collect::<Vec<_>>()) {
-            for p in primitive.reader(|b| Some(&buffers[b.index()])).read_positions().expect("positions") {
+            for p in primitive.reader(|_| Some(&data)).read_positions().expect("positions") {
                 let p = place.transform_point3(DVec3::from_array(p.map(f64::from)));
                 (low, high) = (low.min(p), high.max(p));
             }
