@@ -33,7 +33,6 @@ mod wrap;
 
 use crate::manual::TOPICS;
 use crate::storage::limits;
-use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
 use exit_code::{CliError, ExitStatus};
@@ -47,8 +46,6 @@ use std::process::ExitCode;
 struct Cli {
     #[command(flatten)]
     console: Console,
-    #[command(flatten)]
-    standing: OrientationArgs,
     #[command(subcommand)]
     command: Command,
 }
@@ -184,7 +181,6 @@ pub fn run() -> ExitCode {
         Err(error) => return exit_code::usage(&error, &self::command()),
     };
     cli.console.start_threads();
-    args::orientation::set(cli.standing, cli.console);
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),

@@ -33,7 +33,7 @@ mod windows_1252;
 use crate::storage::text;
 pub use error::FormatError;
 pub use format::{Format, Parsed, Writer};
-use format::{ReadOutcome, read_file, within_limit};
+use format::{ParsedShape, ReadOutcome, read_file, within_limit};
 pub use input::Input;
 pub use mesh_export::MeshExport;
 
@@ -64,6 +64,40 @@ pub static FORMATS: &[&Format] = &[
     &perfect_diamond::LIST,
 ];
 
+/// What a file of a stone holds.
+#[derive(Debug)]
+pub enum Content {
+    /// A convex stone, as a design.
+    Design(Loaded),
+    /// A closed mesh that is no convex stone.
+    Mesh(LoadedMesh),
+}
+
+/// A closed mesh from outside that is no convex stone: it has concavities, or comes in several parts.
+#[derive(Debug)]
+pub struct LoadedMesh {
+    /// The surface.
+    pub mesh: Box<ClosedMesh>,
+    /// Its unit of length.
+    pub unit: LengthUnit,
+    /// Name of the format it came in.
+    pub format: &'static str,
+    /// What had to be overlooked, one line each.
+    pub warnings: Vec<String>,
+    /// Why it is no convex stone: the error of whoever needs one.
+    pub problem: FormatError,
+}
+
+impl Content {
+    /// The design of a convex stone; for other meshes the error says why they are none.
+    pub fn into_design(self) -> Result<Loaded, FormatError> {
+        match self {
+            Content::Design(loaded) => Ok(loaded),
+            Content::Mesh(mesh) => Err(mesh.problem),
+        }
+    }
+}
+
 /// A design from outside.
 #[derive(Debug)]
 pub struct Loaded {
@@ -78,23 +112,23 @@ pub struct Loaded {
 /// Reads the file at `path`, whatever its extension. It may be a pipe.
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
-pub fn read(path: &Path) -> Result<Loaded, FormatError> {
+pub fn read(path: &Path) -> Result<Content, FormatError> {
     read_as(path, limits::FILE.read(path))
 }
 
 /// As [`read`], for what a file names: only a regular file is read.
-pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
+pub fn read_regular(path: &Path) -> Result<Content, FormatError> {
     read_as(path, limits::FILE.read_regular(path))
 }
 
 /// Reads standard input; files that it refers to are refused.
-pub fn read_standard_input() -> Result<Loaded, FormatError> {
+pub fn read_standard_input() -> Result<Content, FormatError> {
     let path = Path::new("standard input");
     let bytes = within_limit(path, stdin::bytes())?;
     read_bytes("standard input", &bytes, None)
 }
 
-fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
+fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Content, FormatError> {
     let name = text::display_name(path);
     let bytes = within_limit(path, bytes)?;
     read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
@@ -104,7 +138,7 @@ fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
 ///
 /// - `name`: shown in errors; its extension only tells apart formats that are refused
 /// - `folder`: where files that it refers to must lie; none refuses them
-pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
+pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Content, FormatError> {
     let source = Input { name, bytes, folder };
     let found = FORMATS
         .iter()
@@ -121,11 +155,20 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loa
     if sure < GUESS && unsupported::is_known(&source) {
         return Err(unsupported::error(&source));
     }
-    let Parsed { design, mut warnings } =
+    let Parsed { shape, mut warnings } =
         (format.read)(&source).map_err(|e| e.in_format(format.name, None))?;
-    let facets = design.facets().count();
-    warnings.extend(check_closed(name, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
-    Ok(Loaded { design, format: format.name, warnings })
+    let format = format.name;
+    match shape {
+        ParsedShape::Design(design) => {
+            let facets = design.facets().count();
+            warnings.extend(check_closed(name, &design).map_err(|e| e.in_format(format, Some(facets)))?);
+            Ok(Content::Design(Loaded { design, format, warnings }))
+        }
+        ParsedShape::Mesh { mesh, unit, reason } => {
+            let problem = source.no_stone(reason).in_format(format, Some(mesh.facets.len()));
+            Ok(Content::Mesh(LoadedMesh { mesh, unit, format, warnings, problem }))
+        }
+    }
 }
 
 /// Whether a file of this content may name others, which then belong to the stone.

@@ -5,7 +5,7 @@
 //! `tests/house.rs` keeps:
 //!
 //! `sampling parse storage` → `color optics geometry` → `materials design trace` →
-//! `formats estimators` → `stone_spec metrics` → `scene scoring` → `photons batch` → `integrators` →
+//! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →
 //! `report manual` → `cli`
 
 pub mod batch;
@@ -26,6 +26,6 @@ pub mod report;
 pub mod sampling;
 pub mod scene;
 pub mod scoring;
-pub mod stone_spec;
+pub mod stone;
 pub mod storage;
 pub mod trace;

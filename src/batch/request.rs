@@ -8,7 +8,7 @@ use super::table_job::Order;
 use crate::metrics::Metric;
 use crate::parse::shell::quoted;
 use crate::scoring::settings::{ScoreRequest, Target};
-use crate::stone_spec::options::StoneOptions;
+use crate::stone::StoneOptions;
 use serde::{Deserialize, Serialize};
 
 /// A request for a table of scores.

@@ -2,7 +2,6 @@
 
 pub(in crate::cli) mod family;
 pub(in crate::cli) mod inputs;
-pub(in crate::cli) mod orientation;
 pub(in crate::cli) mod scoring;
 pub(in crate::cli) mod stone;
 pub(in crate::cli) mod tables;

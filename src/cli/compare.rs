@@ -3,7 +3,7 @@
 mod text;
 
 use super::args::scoring::ScoringArgs;
-use super::args::{inputs, orientation, stone, tables};
+use super::args::{inputs, stone, tables};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::{Outputs, record};
@@ -11,7 +11,6 @@ use crate::batch::fingerprint::Fingerprint;
 use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
 use crate::batch::table::TableFormat;
-use crate::design::LengthUnit;
 use crate::report::{ReportRequest, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{Comparison, RUNS, compare};
@@ -106,7 +105,7 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
         None => (),
     }
     let requests: Vec<ReportRequest> =
-        specs.iter().map(|s| report_request(s, args)).collect::<Result<_, _>>()?;
+        specs.iter().map(|s| report_request(s, args, console)).collect::<Result<_, _>>()?;
     let subject = |r: &ReportRequest| {
         let shape = Ok(r.design.solid()?.into());
         Ok(ScoreInput { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
@@ -220,17 +219,12 @@ fn write_table(
     Ok(atomic_write::write(path, &bytes)?)
 }
 
-fn report_request(stone: &OsStr, args: &CompareArgs) -> Result<ReportRequest, CliError> {
-    let imported = stone::open(stone)?;
-    orientation::note(&stone::display_name(stone), &imported);
-    let design = imported.design;
-    let material = args.scoring.substance.within(stone)?.material_of(&design);
-    let size = args.scoring.size.or((design.unit == LengthUnit::Free).then_some(stone::USUAL_SIZE));
-    let design = stone::sized(design, size)?;
+fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Result<ReportRequest, CliError> {
+    let stone = args.scoring.open(stone, console)?.with_usual_width()?;
     Ok(ReportRequest {
-        stone: stone::display_name(stone),
-        design,
-        material,
+        stone: stone.name().into(),
+        design: stone.convex_design()?.clone(),
+        material: stone.material().clone(),
         seed: args.scoring.seed,
         command: record::command_line(),
     })

@@ -6,10 +6,12 @@ use super::exit_code::{CliError, complain};
 use super::heartbeat;
 use crate::storage::terminal::{in_line, printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::collections::BTreeSet;
 use std::io::Write;
+use std::sync::{Arc, Mutex};
 
 /// The options that every command has.
-#[derive(Debug, Clone, Copy, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct Console {
     /// No notes and no progress, errors only
     #[arg(long, short, global = true, display_order = 1000)]
@@ -24,6 +26,9 @@ pub struct Console {
     /// same on any number
     #[arg(long, short = 'j', global = true, display_order = 1000, value_name = "N", value_parser = values::whole_number(1..=MOST_THREADS, "threads are a whole number"))]
     threads: Option<u32>,
+    /// What was said already, of what is said once.
+    #[arg(skip)]
+    said: Arc<Mutex<BTreeSet<String>>>,
 }
 
 /// More threads than that only take memory, and minutes to start.
@@ -73,6 +78,22 @@ impl Console {
         if !self.quiet {
             let _ = writeln!(std::io::stderr(), "{}", in_line(text));
         }
+    }
+
+    /// A remark that is made once.
+    ///
+    /// - `key`: what tells it from others
+    pub fn note_once(&self, text: &str, key: &str) {
+        if self.said.lock().is_ok_and(|mut said| said.insert(key.to_owned())) {
+            self.note(text);
+        }
+    }
+
+    /// A remark about one stone, made once for all stones of which the same is to be said.
+    ///
+    /// - `key`: what is the same
+    pub fn note_of_one(&self, said: &str, key: &str) {
+        self.note_once(&format!("note: {said} (not said of others)"), key);
     }
 
     /// Something went wrong with one stone of several: one line on standard error.

@@ -1,12 +1,12 @@
 //! Exit codes, and errors of one line.
 
-use crate::design::{CutError, LengthUnit};
+use crate::design::CutError;
 use crate::formats::FormatError;
-use crate::geometry::ClosedMesh;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::photons::map_file::MapFileError;
 use crate::scene::SceneError;
+use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
 pub use crate::storage::terminal::printable;
 use crate::storage::text::display_name;
@@ -75,10 +75,6 @@ pub struct MeshFacts {
     pub closed: bool,
     /// Whether it is convex, if that can be said.
     pub convex: Option<bool>,
-    /// The mesh, if it is closed.
-    pub body: Option<ClosedMesh>,
-    /// The mesh's unit.
-    pub unit: LengthUnit,
 }
 
 impl CliError {
@@ -137,14 +133,6 @@ impl CliError {
         self.shape.as_deref()
     }
 
-    /// The same with the mesh that it holds, if it is closed, changed.
-    pub fn with_body(mut self, change: impl FnOnce(ClosedMesh) -> ClosedMesh) -> CliError {
-        if let Some(shape) = &mut self.shape {
-            shape.body = shape.body.take().map(change);
-        }
-        self
-    }
-
     /// Says it on standard error and gives the exit code.
     pub fn report(&self) -> ExitCode {
         if !self.message.is_empty() {
@@ -184,7 +172,6 @@ fn code_of(cause: &std::io::Error) -> ExitStatus {
 
 fn shape_of(error: &FormatError) -> Option<MeshFacts> {
     let FormatError::NoStone { format, facets, cause } = error else { return None };
-    let unit = if let FormatError::Mesh { unit, .. } = **cause { unit } else { LengthUnit::Free };
     let (closed, convex) = match &**cause {
         FormatError::Solid { cause: SolidError::Open { .. }, .. } => (false, Some(true)),
         FormatError::Mesh { cause: RecoverError::Open(_), .. } => (false, None),
@@ -193,9 +180,19 @@ fn shape_of(error: &FormatError) -> Option<MeshFacts> {
         }
         _ => return None,
     };
-    let body = error.closed_mesh().map(|(_, body)| body.clone());
-    let facets = facets.or(body.as_ref().map(|b| b.facets.len()));
-    Some(MeshFacts { format, facets, closed, convex, body, unit })
+    Some(MeshFacts { format, facets: *facets, closed, convex })
+}
+
+impl From<StoneError> for CliError {
+    fn from(error: StoneError) -> CliError {
+        match error {
+            StoneError::Format(error) => error.into(),
+            StoneError::NotConvex(ref cause) => {
+                CliError { shape: shape_of(cause).map(Box::new), ..CliError::input(error.to_string()) }
+            }
+            _ => CliError::input(error.to_string()),
+        }
+    }
 }
 
 impl From<MapFileError> for CliError {

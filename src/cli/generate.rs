@@ -1,8 +1,7 @@
 //! `cutlab generate`: a stone from its parameters.
 
 use super::args::family::FamilyArgs;
-use super::args::stone;
-use super::args::stone::DEFAULT_STONE;
+use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use super::args::values;
 use super::console::Console;
 use super::diagram_output;
@@ -15,6 +14,7 @@ use crate::design::families;
 use crate::formats::Encoded;
 use crate::materials::weight::Weight;
 use crate::report::diagram::Paper;
+use crate::stone::grammar;
 use crate::storage::atomic_write;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ pub struct GenerateArgs {
     /// What the stone is made of: the index of refraction that design files state and the material in
     /// glTF
     #[command(flatten)]
-    substance: stone::MaterialArgs,
+    stone_args: StoneArgs,
     #[command(flatten)]
     parameters: FamilyArgs,
 }
@@ -93,11 +93,11 @@ pub fn run(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliErro
         parameters.0.insert("facets".into(), n.into());
     }
     let is_given = |key: &str| parameters.0.contains_key(key);
-    let has_size = args.stone.to_str().is_some_and(|stone| stone::size_is_parameter(stone, is_given));
+    let has_size = args.stone.to_str().is_some_and(|stone| grammar::size_is_parameter(stone, is_given));
     if let (true, Some(mm)) = (has_size, args.size) {
         parameters.0.insert("size".into(), mm);
     }
-    if let (false, Some(flag)) = (stone::is_cut(&args.stone), parameters.0.keys().next())
+    if let (false, Some(flag)) = (grammar::is_cut(&args.stone), parameters.0.keys().next())
         && Path::new(&args.stone).exists()
     {
         return Err(CliError::input(format!(
@@ -105,34 +105,36 @@ pub fn run(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliErro
             stone::display_name(&args.stone)
         )));
     }
-    let imported = match args.stone.to_str() {
-        Some(text) => stone::open(parameters.applied_to(text))?,
-        None => stone::open(&args.stone)?,
+    let stone = match args.stone.to_str() {
+        Some(text) => args.stone_args.open_convex(parameters.applied_to(text))?,
+        None => args.stone_args.open_convex(&args.stone)?,
     };
-    let mut notes: Vec<String> = imported.warnings.iter().map(|w| format!("note: {w}")).collect();
+    let mut notes: Vec<String> = stone.warnings().iter().map(|w| format!("note: {w}")).collect();
     let mut size = args.size.filter(|_| !has_size);
-    let substance = args.substance.within(&args.stone)?;
     if let Some(carats) = args.carat {
-        let weight = Weight::new(&substance.material_of(&imported.design));
-        let mm = weight::width_mm(&weight, &imported.design, carats)?;
+        let weight = Weight::new(stone.material());
+        let mm = weight::width_mm(&weight, stone.convex_design()?, carats)?;
         let name = weight.name().unwrap_or_default();
         notes.push(format!("note: {carats} ct in {name} is {mm:.3} mm wide"));
         size = Some(mm);
     }
-    let design = stone::sized(imported.design, size)?;
-    let (made_up_of, facets) = families::facet_summary(&design)?;
+    let stone = match size {
+        Some(mm) => stone.with_width(mm)?,
+        None => stone,
+    };
+    let design = stone.convex_design()?;
+    let (made_up_of, facets) = families::facet_summary(design)?;
 
-    let asked = substance.asked();
     let mut files = args.output.clone();
     if files.is_empty() {
-        let mut name = stone::file_stem(&args.stone);
+        let mut name = grammar::file_stem(&args.stone);
         name.push(format!("-{facets}.{}", usual.extension()));
         files.push(name.into());
         forms.push(usual);
     }
     let mut encoded: Vec<Vec<u8>> = Vec::new();
     for form in forms {
-        let Encoded { bytes, remarks } = form.encoded(&design, asked.as_ref(), args.paper)?;
+        let Encoded { bytes, remarks } = form.encoded(design, stone.given_material(), args.paper)?;
         notes.extend(remarks.iter().map(|said| format!("note: {}: {said}", form.extension())));
         encoded.push(bytes);
     }
@@ -152,7 +154,7 @@ pub fn run(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliErro
         console.note(&summary);
     } else if console.json {
         let files = files.iter().map(stone::display_name).collect();
-        console.print_json(&GeneratedStone { name: design.name, facets, made_up_of, files })?;
+        console.print_json(&GeneratedStone { name: design.name.clone(), facets, made_up_of, files })?;
     } else {
         console.tell(&summary)?;
     }
@@ -169,7 +171,7 @@ fn folder(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliError
         return Err(CliError::input(format!("{stone} is a folder: its stones have no parameters to set")));
     }
     let made =
-        import::GenerateSettings { carat: args.carat, paper: Some(args.paper), substance: args.substance };
+        import::GenerateSettings { carat: args.carat, paper: Some(args.paper), stone_args: args.stone_args };
     let to = args.to.as_deref().unwrap_or(USUAL_FORMAT);
     let args = import::ImportArgs::for_folder(args.stone.clone(), output.clone(), to, args.size, made);
     import::run(&args, console)

@@ -3,16 +3,16 @@
 pub mod plan;
 
 use super::args::stone;
-use super::args::stone::MaterialArgs;
+use super::args::stone::{OrientationArgs, StoneArgs};
 use super::console::Console;
 use super::exit_code::{self, CliError, ExitStatus};
 use super::form::TargetFormat;
 use super::outputs::{self, Outputs};
 use super::weight;
-use crate::design::LengthUnit;
 use crate::formats::{self, Encoded};
 use crate::materials::weight::Weight;
 use crate::report::diagram::Paper;
+use crate::stone::grammar;
 use crate::storage::terminal::in_line;
 use crate::storage::{atomic_write, output_path};
 use plan::Job;
@@ -42,6 +42,8 @@ pub struct ImportArgs {
     /// Scale to this girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     size: Option<f64>,
+    #[command(flatten)]
+    orientation: OrientationArgs,
     /// What `generate` sets beside, for the stones of a folder.
     #[arg(skip)]
     made: GenerateSettings,
@@ -55,7 +57,7 @@ pub struct GenerateSettings {
     /// Paper of cutting diagrams.
     pub paper: Option<Paper>,
     /// What the stones are made of.
-    pub substance: MaterialArgs,
+    pub stone_args: StoneArgs,
 }
 
 /// What happened to one file.
@@ -84,7 +86,8 @@ impl ImportArgs {
         size: Option<f64>,
         made: GenerateSettings,
     ) -> ImportArgs {
-        ImportArgs { files: vec![folder], output, to: Some(to.to_owned()), size, made }
+        let orientation = made.stone_args.orientation;
+        ImportArgs { files: vec![folder], output, to: Some(to.to_owned()), size, orientation, made }
     }
 }
 
@@ -183,57 +186,36 @@ fn import(
             output_path::check_writable(&job.target)?;
         }
     }
-    let (bytes, read) = match stone::open(&job.stone) {
-        Err(failure) => match failure.shape().and_then(|s| Some((s.format, s.unit, s.body.as_ref()?))) {
-            Some((of, unit, body)) => {
-                let unit = if args.size.is_some() { LengthUnit::Millimetre } else { unit };
-                let scale = args.size.map_or(1.0, |mm| mm / body.width());
-                let name = stone::display_name(stone::file_stem(&job.stone));
-                let (TargetFormat::Format(format), None) = (form, args.made.carat) else {
-                    return Err(failure);
-                };
-                let bytes = formats::encode_mesh(&name, &body.clone().scaled(scale), unit, format.name)?;
-                let said = failure.message();
-                let said = said.strip_prefix(&format!("{file}: ")).unwrap_or(&said).to_owned();
-                (
-                    bytes,
-                    ImportRow {
-                        format: Some(of),
-                        facets: Some(body.facets.len()),
-                        warnings: vec![said],
-                        ..ImportRow::default()
-                    },
-                )
-            }
-            None => return Err(failure),
-        },
-        Ok(imported) => {
-            let facets = imported.design.solid()?.faces.len();
-            let GenerateSettings { carat, paper, substance } = args.made;
-            let substance = substance.within(&job.stone)?;
-            let size = match carat {
-                Some(carats) => {
-                    let weight = Weight::new(&substance.material_of(&imported.design));
-                    Some(weight::width_mm(&weight, &imported.design, carats)?)
-                }
-                None => args.size,
-            };
-            let design = stone::sized(imported.design, size)?;
+    let GenerateSettings { carat, paper, stone_args } = args.made;
+    let stone = StoneArgs { orientation: args.orientation, ..stone_args }.open(&job.stone)?;
+    let size = match (carat, stone.design()) {
+        (Some(carats), Some(design)) => {
+            Some(weight::width_mm(&Weight::new(stone.material()), design, carats)?)
+        }
+        _ => args.size,
+    };
+    let stone = match size {
+        Some(mm) => stone.with_width(mm)?,
+        None => stone,
+    };
+    let mut warnings = stone.warnings().to_vec();
+    let bytes = match (stone.mesh(), form) {
+        (Some(mesh), TargetFormat::Format(format)) if carat.is_none() => {
+            let name = stone::display_name(grammar::file_stem(&job.stone));
+            let why = stone.why_not_convex().map_or_else(String::new, ToString::to_string);
+            warnings = vec![why.strip_prefix(&format!("{file}: ")).unwrap_or(&why).to_owned()];
+            formats::encode_mesh(&name, mesh, stone.unit(), format.name)?
+        }
+        _ => {
+            let design = stone.convex_design()?;
             let paper = paper.unwrap_or(Paper::A4);
-            let mut warnings = imported.warnings;
-            let Encoded { bytes, remarks } = form.encoded(&design, substance.asked().as_ref(), paper)?;
+            let Encoded { bytes, remarks } = form.encoded(design, stone.given_material(), paper)?;
             warnings.extend(remarks);
-            (
-                bytes,
-                ImportRow {
-                    format: Some(imported.format),
-                    facets: Some(facets),
-                    warnings,
-                    ..ImportRow::default()
-                },
-            )
+            bytes
         }
     };
+    let (format, facets) = (Some(stone.format()), Some(stone.facets()));
+    let read = ImportRow { format, facets, warnings, ..ImportRow::default() };
     if to_stream || console.force {
         atomic_write::write(&job.target, &bytes)?;
     } else if job.target.symlink_metadata().is_ok() || !atomic_write::create(&job.target, &bytes)? {

@@ -11,6 +11,7 @@ use crate::batch::table::{NumericColumns, TableFormat};
 use crate::metrics::Metric;
 use crate::report::plot::{Axis, ScorePlot, Style};
 use crate::report::{pdf, raster};
+use crate::stone::grammar;
 use crate::storage::atomic_write;
 use std::path::{Path, PathBuf};
 
@@ -93,7 +94,7 @@ impl Plots {
             return Ok(Vec::new());
         }
         let table = NumericColumns::read(bytes, form)?;
-        let family = stone::family(&layout.stone);
+        let family = grammar::family(&layout.stone);
         let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::new(key, family)).collect();
         for (path, metric) in &self.files {
             let (stone, is_diamond, style) = (&layout.stone, layout.is_diamond, &self.style);

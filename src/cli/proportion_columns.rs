@@ -1,8 +1,6 @@
 //! Columns of a table of scores that say what each stone is: name, proportions and weight.
 
-use super::args::scoring;
 use super::args::scoring::ScoringArgs;
-use super::args::stone;
 use super::console::Console;
 use crate::batch::table::TableCell;
 use crate::design::{LengthUnit, proportions};
@@ -31,17 +29,17 @@ pub fn cells(spec: &OsStr, scoring: &ScoringArgs, console: &Console) -> Vec<Tabl
 }
 
 fn measured_cells(spec: &OsStr, scoring: &ScoringArgs, console: &Console) -> Option<Vec<TableCell>> {
-    let design = stone::open(spec).ok()?.design;
-    let material = scoring.substance.within(spec).ok()?.material_of(&design);
-    let p = proportions::of_design(&design).ok()?;
+    let stone = scoring.stone_args.open(spec).ok()?;
+    let design = stone.design()?;
+    let p = proportions::of_design(design).ok()?;
     let to_mm =
         scoring.size.map(|mm| mm / p.width).or((design.unit == LengthUnit::Millimetre).then_some(1.0));
-    let weight = Weight::new(&material);
+    let weight = Weight::new(stone.material());
     let carats = to_mm.and_then(|k| weight.carats(p.volume * k.powi(3)));
     if to_mm.is_some()
         && let Some(note) = weight.note()
     {
-        scoring::once(&format!("weight of {}: {note}", stone::display_name(spec)), &note, console);
+        console.note_of_one(&format!("weight of {}: {note}", stone.name()), &note);
     }
     let number = |x: Option<f64>| x.map_or(TableCell::Empty(()), TableCell::number);
     Some(vec![

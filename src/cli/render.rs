@@ -12,13 +12,15 @@ mod progressive;
 mod remaining_time;
 mod target;
 
-use super::args::{scoring, stone};
+use super::args::stone;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use crate::integrators::{self, Tone, ToneCurve};
+use crate::design::USUAL_WIDTH_MM;
 use crate::parse;
 use crate::scene::{self, SCENES, SceneFile, SceneOverrides};
+use crate::stone::{Stone, StoneSpec, grammar};
 use crate::storage::atomic_write;
 pub use options::RenderArgs;
 use std::ffi::{OsStr, OsString};
@@ -66,8 +68,8 @@ fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
     let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
     let stones = args.stones.iter().map(OsString::as_os_str).chain(first.map(OsStr::new));
     let mut parts: Vec<OsString> = stones.map(stone_name).collect();
-    parts.extend(args.substance.material.map(|m| m.name.as_ref().into()));
-    parts.extend(args.substance.ri.map(|n| format!("n{n}").into()));
+    parts.extend(args.stone_args.material.map(|m| m.name.as_ref().into()));
+    parts.extend(args.stone_args.ri.map(|n| format!("n{n}").into()));
     parts.extend(args.size.map(|mm| format!("{mm}mm").into()));
     parts.push(file.name.clone().into());
     let mut name = parts.join(OsStr::new("-"));
@@ -77,15 +79,15 @@ fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
 
 /// `round-brilliant:table=60` as `round-brilliant-table60`, `D.asc:material=topaz` as `D-materialtopaz`.
 fn stone_name(spec: &OsStr) -> OsString {
-    let text = spec.to_str().filter(|_| stone::is_cut(spec));
+    let text = spec.to_str().filter(|_| grammar::is_cut(spec));
     let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
     let of_file =
-        || stone::StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
+        || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
     let given = parameters.unwrap_or_else(of_file);
     let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
     let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
     let told = told.filter(|p| !p.is_empty()).map(OsString::from);
-    std::iter::once(stone::file_stem(spec)).chain(told).collect::<Vec<_>>().join(OsStr::new("-"))
+    std::iter::once(grammar::file_stem(spec)).chain(told).collect::<Vec<_>>().join(OsStr::new("-"))
 }
 
 /// A scene of the catalogue, or a file.
@@ -107,25 +109,26 @@ fn scene_file(name: &OsStr) -> Result<SceneFile, CliError> {
 fn scene_overrides(args: &RenderArgs, console: &Console) -> Result<SceneOverrides, CliError> {
     let (mut designs, mut materials) = (Vec::new(), Vec::new());
     for spec in &args.stones {
-        let imported = stone::open(spec)?;
-        imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-        let substance = args.substance.within(spec)?;
-        let material = substance.material_of(&imported.design);
-        if substance.asked().is_none() && material.bare_index().is_some() {
-            let why = material.no_dispersion();
-            scoring::once(
-                &format!("{}: a picture without fire and colour, for {why}", stone::display_name(spec)),
-                &why,
-                console,
-            );
+        let mut stone = Stone::open(spec, &args.stone_args.options(args.size))?;
+        stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
+        if stone.given_material().is_none() && stone.material().bare_index().is_some() {
+            let why = stone.material().no_dispersion();
+            console.note_of_one(&format!("{}: a picture without fire and colour, for {why}", stone.name()), &why);
         }
-        materials.push(substance.asked());
-        designs.push(stone::sized_for_colour(imported.design, args.size, &material, console)?);
+        if stone.lacks_size() {
+            console.note(&format!(
+                "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
+                stone.convex_design()?.name
+            ));
+            stone = stone.with_usual_width()?;
+        }
+        materials.push(stone.given_material().cloned());
+        designs.push(stone.convex_design()?.clone());
     }
     Ok(SceneOverrides {
         designs,
         materials,
-        material: args.substance.asked(),
+        material: args.stone_args.asked(),
         size_mm: args.size,
         pose: args.pose,
         polarisation: args.polarisation,

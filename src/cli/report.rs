@@ -1,21 +1,20 @@
 //! `cutlab report`: everything about one stone, on one page.
 
 use super::args::inputs;
-use super::args::stone;
-use super::args::stone::DEFAULT_STONE;
+use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use super::args::values;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
 use super::outputs::{Outputs, record};
 use crate::batch::fingerprint::BUILD;
-use crate::design::LengthUnit;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
 use crate::report::{self, ReportError, ReportRequest};
 use crate::sampling::stats::Estimate;
+use crate::stone::Stone;
 use crate::storage::journal::Journal;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -44,7 +43,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     size: Option<f64>,
     #[command(flatten)]
-    substance: stone::MaterialArgs,
+    stone_args: StoneArgs,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
@@ -74,7 +73,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     for folder in &folders {
         claim(folder, &mut outputs)?;
     }
-    let range = args.substance.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
+    let range = args.stone_args.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
@@ -117,15 +116,13 @@ fn one(
     args: &ReportArgs,
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
-    let imported = stone::open(stone)?;
-    imported.warnings.iter().for_each(|w| console.note(&format!("note: {w}")));
-    let material = args.substance.within(stone)?.material_of(&imported.design);
-    let size = args.size.or((imported.design.unit == LengthUnit::Free).then_some(stone::USUAL_SIZE));
-    let design = stone::sized(imported.design, size)?;
+    let stone = Stone::open(stone, &args.stone_args.options(args.size))?.with_usual_width()?;
+    let design = stone.convex_design()?.clone();
+    stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
     let request = ReportRequest {
-        stone: stone::display_name(stone),
+        stone: stone.name().into(),
         design,
-        material,
+        material: stone.material().clone(),
         seed: args.seed,
         command: record::command_line(),
     };

@@ -130,7 +130,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
         line: &|i, form| {
             let spec = &specs[(i / each) as usize];
             let tilt = tilts.get((i % each) as usize).copied();
-            let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan));
+            let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan, console));
             scoring::tell(&stone::display_name(spec), &row, console);
             let mut leading = table::stone_cells(&row);
             if args.proportions {

@@ -5,22 +5,25 @@ mod mesh;
 mod tiers;
 
 use super::args::inputs;
-use super::args::stone;
+use super::args::stone::{self, StoneArgs};
 use super::console::Console;
 use super::diagram_output::{self, DiagramFormat};
 use super::exit_code::{CliError, ExitStatus, MeshFacts};
 use super::outputs::{self, Outputs};
 use super::weight;
-use crate::design::LengthUnit;
 use crate::design::gia_envelopes;
 use crate::design::proportions::{self, Ratios};
 use crate::design::round_brilliant_measures::FacetLengths;
 use crate::design::symmetry::Symmetry;
+use crate::design::{Design, LengthUnit};
 use crate::formats;
+use crate::geometry::Polyhedron;
+use crate::materials::Material;
 use crate::materials::weight::Weight;
 use crate::optics::fresnel::critical_angle_deg;
 use crate::report::diagram::Paper;
 use crate::report::virtual_facets;
+use crate::stone::Stone;
 use crate::storage::atomic_write;
 use crate::storage::terminal::in_line;
 use crate::trace::ConvexStone;
@@ -53,7 +56,7 @@ pub struct ShowArgs {
     #[arg(long, value_name = "CT", value_parser = weight::carats, conflicts_with = "size")]
     carat: Option<f64>,
     #[command(flatten)]
-    substance: stone::MaterialArgs,
+    stone_args: StoneArgs,
     /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]
@@ -177,10 +180,7 @@ pub fn run(args: &ShowArgs, console: &Console) -> Result<ExitStatus, CliError> {
     if drawn.iter().any(|d| atomic_write::is_stdout(&d.path)) {
         return Ok(ExitStatus::Done); // standard output is the drawing
     }
-    let results = stone::open_each(&stones, console, "reading", |spec| match sheet(spec, args) {
-        Ok(sheet) => Ok(Shown::Stone(Box::new(sheet))),
-        Err(failure) => MeshSheet::new(&stone::display_name(spec), &failure).map(Shown::Mesh).ok_or(failure),
-    });
+    let results = stone::open_each(&stones, console, "reading", |spec| shown(spec, args));
     let names = stones.iter().map(stone::display_name);
     let pairs = names.zip(&results);
     if console.json {
@@ -239,10 +239,10 @@ fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
             return Err(CliError::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
         }
     };
-    let design = stone::open(spec)?.design;
-    let substance = args.substance.within(spec)?;
-    let asked = substance.ri.or(substance.material.map(|m| m.index_d()));
-    let bytes = drawing.bytes(&design, asked.or(design.refractive_index), args.paper)?;
+    let stone = args.stone_args.open(spec)?;
+    let design = stone.convex_design()?;
+    let asked = stone.given_material().map(Material::index_d);
+    let bytes = drawing.bytes(design, asked.or(design.refractive_index), args.paper)?;
     Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stone::display_name(path)) })
 }
 
@@ -252,52 +252,59 @@ fn draw_beams(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("svg")) && !atomic_write::is_stream(path) {
         return Err(CliError::input(format!("{}: --beams draws SVG alone", stone::display_name(path))));
     }
-    let design = stone::open(spec)?.design;
-    let index = args.substance.within(spec)?.material_of(&design).index_d();
-    let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
-    let pattern = virtual_facets::draw(&ConvexStone::new(solid), index, LEAST_POWER);
+    let stone = args.stone_args.open(spec)?;
+    let solid = stone.convex_design()?.solid()?;
+    let pattern = virtual_facets::draw(&ConvexStone::new(solid), stone.material().index_d(), LEAST_POWER);
     let said = format!("{}: {} virtual facets", stone::display_name(path), pattern.polygons);
     Ok(Drawn { path: path.into(), bytes: pattern.svg.into_bytes(), said })
 }
 
-fn sheet(spec: &OsStr, args: &ShowArgs) -> Result<StoneSheet, CliError> {
-    let imported = stone::open(spec)?;
-    let design = imported.design;
-    let substance = args.substance.within(spec)?;
-    let material = substance.material_of(&design);
-    let index = material.index_d();
-    let solid = design.solid().map_err(|e| CliError::input(format!("{}: {e}", stone::display_name(spec))))?;
-    let p = proportions::measure(&solid);
+fn shown(spec: &OsStr, args: &ShowArgs) -> Result<Shown, CliError> {
+    let stone = args.stone_args.open(spec)?;
+    match (stone.design(), stone.solid()) {
+        (Some(design), Some(solid)) => Ok(Shown::Stone(Box::new(sheet(&stone, design, solid, args)?))),
+        _ => MeshSheet::new(&stone).map(Shown::Mesh).ok_or_else(|| CliError::input("neither solid nor mesh")),
+    }
+}
+
+fn sheet(
+    stone: &Stone,
+    design: &Design,
+    solid: &Polyhedron,
+    args: &ShowArgs,
+) -> Result<StoneSheet, CliError> {
+    let index = stone.material().index_d();
+    let p = proportions::measure(solid);
     // a glTF too wide for metres has its own numbers
     let in_mm = design.unit == LengthUnit::Millimetre;
-    let unit_mm = formats::unit_mm(imported.format).filter(|_| in_mm).unwrap_or(1.0);
-    let weight = Weight::new(&material);
+    let unit_mm = formats::unit_mm(stone.format()).filter(|_| in_mm).unwrap_or(1.0);
+    let weight = Weight::new(stone.material());
     let size = match args.carat {
-        Some(carats) => Some(weight::width_mm(&weight, &design, carats)?),
+        Some(carats) => Some(weight::width_mm(&weight, design, carats)?),
         None => args.size,
     };
     Ok(StoneSheet {
-        file: stone::display_name(spec),
-        format: imported.format.to_string(),
+        file: stone.name().into(),
+        format: stone.format().into(),
         name: design.name.clone(),
         facets: p.facets,
         closed: true,
         convex: true, // what the readers let through is the solid of its planes
         volume: p.volume / unit_mm.powi(3),
-        unit: measured::unit_name(design.unit, imported.format),
+        unit: measured::unit_name(design.unit, stone.format()),
         unit_mm,
         facets_by_kind: p.by_zone.iter().copied().collect(),
-        measured: MeasuredProportions::new(&p, &design, size, &weight).in_unit_of(unit_mm),
-        tiers: TierRow::all(&design, &solid),
+        measured: MeasuredProportions::new(&p, design, size, &weight).in_unit_of(unit_mm),
+        tiers: TierRow::all(design, solid),
         brilliant: p.brilliant,
         proportion_envelope: gia_envelopes::envelope(&p).filter(|_| weight.is_diamond()),
         graded: weight.is_diamond(),
         ratios: Ratios { w: p.ratios.w / unit_mm, ..p.ratios },
         symmetry: p.symmetry,
-        material: material.name.into_owned(),
+        material: stone.material().name.to_string(),
         refractive_index: index,
         critical_angle_deg: critical_angle_deg(index),
-        warnings: imported.warnings,
+        warnings: stone.warnings().to_vec(),
     })
 }
 

@@ -18,6 +18,7 @@ use crate::batch::table::TableCell;
 use crate::batch::table_job::FinishedRow;
 use crate::materials::weight::Weight;
 use crate::parse;
+use crate::stone::grammar;
 use crate::storage::atomic_write;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
@@ -100,7 +101,7 @@ pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> 
         line: &|i, form| {
             let point = sweep.point(i);
             let (spec, scoring) = at_point(args, &point);
-            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan));
+            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan, console));
             let shown = stone::display_name(&spec);
             scoring::tell(&shown, &row, console);
             let mut leading: Vec<TableCell> = point.iter().map(|x| TableCell::number(*x)).collect();
@@ -122,7 +123,7 @@ pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> 
 /// The stone at a point, and how to score it.
 fn at_point(args: &SweepArgs, point: &[f64]) -> (OsString, ScoringArgs) {
     let is_varied = |key: &str| args.vary.iter().any(|v| v.key == key);
-    let has_size = args.stone.to_str().is_some_and(|stone| stone::size_is_parameter(stone, is_varied));
+    let has_size = args.stone.to_str().is_some_and(|stone| grammar::size_is_parameter(stone, is_varied));
     let mut scoring = args.scoring.clone();
     let mut given = FamilyArgs::default();
     for (varied, &value) in args.vary.iter().zip(point) {
@@ -143,26 +144,25 @@ fn at_point(args: &SweepArgs, point: &[f64]) -> (OsString, ScoringArgs) {
 
 /// Whether the stone is of diamond at every point.
 fn is_diamond(args: &SweepArgs) -> Result<bool, CliError> {
-    let design = stone::open(&args.stone)?.design;
-    let material = args.scoring.substance.within(&args.stone)?.material_of(&design);
-    Ok(Weight::new(&material).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
+    let stone = args.scoring.stone_args.open(&args.stone)?;
+    Ok(Weight::new(stone.material()).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
 }
 
 /// Whether the stone's family has the parameter `key`.
 fn has(stone: &OsStr, key: &str) -> bool {
-    stone.to_str().and_then(stone::family).is_some_and(|f| f.keys().any(|p| p.key == key))
+    stone.to_str().and_then(grammar::family).is_some_and(|f| f.keys().any(|p| p.key == key))
 }
 
 /// Refuses what cannot be swept or drawn, before anything is scored.
 fn check(args: &SweepArgs) -> Result<(), CliError> {
-    stone::open(&args.stone)?;
+    args.scoring.stone_args.open(&args.stone)?;
     for (i, varied) in args.vary.iter().enumerate() {
         let key = varied.key.as_str();
         if args.vary[..i].iter().any(|v| v.key == key) {
             return Err(CliError::input(format!("--vary {key} is given twice")));
         }
         if ![SIZE, INDEX].contains(&key) && !has(&args.stone, key) {
-            let own = args.stone.to_str().and_then(stone::family).map_or(&[][..], |f| f.parameters);
+            let own = args.stone.to_str().and_then(grammar::family).map_or(&[][..], |f| f.parameters);
             let mut known: Vec<&str> = own.iter().map(|p| p.key).filter(|k| *k != SIZE).collect();
             known.extend([SIZE, INDEX]);
             return Err(CliError::input(format!(
@@ -172,7 +172,7 @@ fn check(args: &SweepArgs) -> Result<(), CliError> {
             )));
         }
         let (from, to) = (varied.steps.from, varied.steps.to);
-        if key == INDEX && (args.scoring.substance.material.is_some() || args.scoring.substance.ri.is_some())
+        if key == INDEX && (args.scoring.stone_args.material.is_some() || args.scoring.stone_args.ri.is_some())
         {
             return Err(CliError::input("--vary ri does not go with --material and --ri"));
         }

@@ -6,7 +6,7 @@
 use super::asc_triangles::{first_count, records};
 use super::error::FormatError;
 use super::input::Input;
-use super::mesh_import::{PolygonMesh, design_from_mesh};
+use super::mesh_import::{PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::geometry::facet_recovery::Polygon;
 use glam::DVec3;
@@ -36,7 +36,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
         vertices.extend(record.numbers.chunks_exact(8).map(|c| DVec3::new(c[0], c[1], c[2])));
         polygons.push(Polygon { corners: (first..first + 3).collect(), ..Polygon::default() });
     }
-    design_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, records.digits))
+    stone_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, records.digits))
 }
 
 /// Every triangle with its facet's normal at all three corners, without texture.

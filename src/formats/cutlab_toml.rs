@@ -56,7 +56,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
     if design.name.is_empty() {
         design.name = source.stem();
     }
-    Ok(Parsed { design, warnings: Vec::new() })
+    Ok(Parsed::new(design, Vec::new()))
 }
 
 /// The document; TOML's own several-line complaint is brought into one line.

@@ -1,10 +1,8 @@
 //! The one error of every reader and writer. Each is one line.
 
-use crate::design::LengthUnit;
 use crate::design::design_file::DocumentError;
 use crate::geometry::facet_recovery::RecoverError;
-use crate::geometry::{ClosedMesh, SolidError};
-use crate::parse::did_you_mean;
+use crate::geometry::SolidError;
 use crate::storage::atomic_write::WriteError;
 use crate::storage::limits::Exceeded;
 
@@ -103,8 +101,6 @@ pub enum FormatError {
         file: String,
         /// What is wrong with it.
         cause: RecoverError,
-        /// Unit of the mesh that the cause may hold.
-        unit: LengthUnit,
     },
     /// Planes that bound no stone.
     #[error("{file}: {cause}")]
@@ -121,40 +117,6 @@ pub enum FormatError {
         file: String,
         /// What is wrong with it.
         cause: DocumentError,
-    },
-    /// `name:key=value` with something else in place of a `key=value`.
-    #[error("stone '{spec}', at '{found}': {why}")]
-    Parameter {
-        /// The stone as asked for.
-        spec: String,
-        /// The part that is not understood.
-        found: String,
-        /// Why not.
-        why: String,
-    },
-    /// Neither a cut nor a file.
-    #[error("no cut and no file is called '{spec}'{} (all cuts: cutlab list cuts)", did_you_mean(*.nearest))]
-    NoSuchStone {
-        /// The stone as asked for.
-        spec: String,
-        /// The library's name that is probably meant.
-        nearest: Option<&'static str>,
-    },
-    /// What can only be the name of a file, and is not.
-    #[error("there is no file '{spec}'")]
-    NoSuchFile {
-        /// The file as asked for.
-        spec: String,
-    },
-    /// A cut that cannot be made.
-    #[error("there is no cut '{spec}': {why}; the nearest is '{nearest}'")]
-    Impossible {
-        /// The stone as asked for.
-        spec: String,
-        /// Why it cannot be made.
-        why: &'static str,
-        /// The library's nearest cut.
-        nearest: &'static str,
     },
     /// A format or extension that is not written.
     #[error(
@@ -222,17 +184,6 @@ fn cut(text: &str, most: usize) -> String {
 }
 
 impl FormatError {
-    /// The mesh that the file holds, if that is closed but no convex stone, and the file's format.
-    pub fn closed_mesh(&self) -> Option<(&'static str, &ClosedMesh)> {
-        match self {
-            FormatError::NoStone { format, cause, .. } => match &**cause {
-                FormatError::Mesh { cause, .. } => Some((format, cause.closed_mesh()?)),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
-
     /// Adds to a stone that is none what is known of its file; leaves other errors as they are.
     pub(super) fn in_format(self, format: &'static str, facets: Option<usize>) -> FormatError {
         match self {

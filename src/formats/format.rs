@@ -3,7 +3,9 @@
 use super::error::FormatError;
 use super::input::Input;
 use super::mesh_export::MeshExport;
-use crate::design::Design;
+use crate::design::{Design, LengthUnit};
+use crate::geometry::ClosedMesh;
+use crate::geometry::facet_recovery::RecoverError;
 use crate::storage::limits;
 use crate::storage::text;
 use std::path::Path;
@@ -27,19 +29,51 @@ pub struct Format {
     pub about: &'static str,
     /// How surely a file is of this format, 0 (not at all) to 100 (a magic number).
     pub sniff: fn(&Input) -> u8,
-    /// Reads a design.
+    /// Reads a stone.
     pub read: fn(&Input) -> Result<Parsed, FormatError>,
     /// Writes a design, if the format can be written.
     pub write: Option<Writer>,
 }
 
-/// A design as a reader found it, and what it had to overlook.
+/// A stone as a reader found it, and what it had to overlook.
 #[derive(Debug)]
 pub struct Parsed {
-    /// The design.
-    pub design: Design,
+    /// Its shape.
+    pub shape: ParsedShape,
     /// One line each.
     pub warnings: Vec<String>,
+}
+
+/// The shape of a stone as a reader found it.
+#[derive(Debug)]
+pub enum ParsedShape {
+    /// Facets of a convex stone.
+    Design(Design),
+    /// A closed mesh that is no convex stone.
+    Mesh {
+        /// The surface.
+        mesh: Box<ClosedMesh>,
+        /// Its unit of length.
+        unit: LengthUnit,
+        /// Why it is no convex stone.
+        reason: RecoverError,
+    },
+}
+
+impl Parsed {
+    /// A design that was read.
+    pub fn new(design: Design, warnings: Vec<String>) -> Parsed {
+        Parsed { shape: ParsedShape::Design(design), warnings }
+    }
+
+    /// The same in another unit of length: of its numbers as they are.
+    pub fn in_unit(mut self, known: LengthUnit) -> Parsed {
+        match &mut self.shape {
+            ParsedShape::Design(design) => design.unit = known,
+            ParsedShape::Mesh { unit, .. } => *unit = known,
+        }
+        self
+    }
 }
 
 /// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is

@@ -154,7 +154,7 @@ impl GcsFile<'_> {
         if design.tiers.is_empty() {
             return Err(self.wrong(root, "tiers with facets", "none"));
         }
-        Ok(Parsed { design, warnings })
+        Ok(Parsed::new(design, warnings))
     }
 
     fn tier(&self, node: Node, gear: Gear, warnings: &mut Vec<String>) -> Result<Tier, FormatError> {

@@ -213,7 +213,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
     }
     design.refractive_index = raw.refractive_index.filter(|n| *n >= 1.0 && n.is_finite());
     design.tiers = tiers(raw.facets, design.gear);
-    Ok(Parsed { design, warnings })
+    Ok(Parsed::new(design, warnings))
 }
 
 /// Facets grouped by the file's key, and by angle and distance where one key is used for all.

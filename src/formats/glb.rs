@@ -9,7 +9,7 @@ mod document;
 use super::error::{FormatError, counted, quoted_excerpt};
 pub use super::glb_write::{FacetExtras, UNIT_MM};
 use super::input::Input;
-use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, Parsed, Writer, glb_write};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::Polygon;
@@ -78,14 +78,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
         mesh.warnings.push(format!("{widest:.3} m wide, as no stone is: the unit is taken as unknown"));
     }
     let known = if is_in_metres { LengthUnit::Millimetre } else { LengthUnit::Free };
-    match design_from_mesh(source, &mesh) {
-        Ok(mut reading) => {
-            reading.design.unit = known;
-            Ok(reading)
-        }
-        Err(FormatError::Mesh { file, cause, .. }) => Err(FormatError::Mesh { file, cause, unit: known }),
-        Err(other) => Err(other),
-    }
+    Ok(stone_from_mesh(source, &mesh)?.in_unit(known))
 }
 
 /// The mesh as it stands in the file, +z up.

@@ -1,7 +1,6 @@
 //! Input of a reader: a file's bytes, its name for errors, and the text in it.
 
 use super::error::{FormatError, quoted_excerpt, shortened};
-use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::RecoverError;
 pub use crate::parse::MINUS_SIGNS;
 use crate::storage::limits::Limit;
@@ -59,9 +58,9 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// An error of a mesh without a unit that is no convex stone.
+    /// An error of a mesh that is no convex stone.
     pub fn no_stone(&self, cause: RecoverError) -> FormatError {
-        FormatError::Mesh { file: self.name.into(), cause, unit: LengthUnit::Free }
+        FormatError::Mesh { file: self.name.into(), cause }
     }
 
     /// Refuses a file with `n` of something in all, if that is more than its limit.

@@ -1,9 +1,9 @@
 //! Mesh import: a design from the polygons that a mesh format has read.
 
-use super::Parsed;
+use super::format::{Parsed, ParsedShape};
 use super::error::{FormatError, counted};
 use super::input::Input;
-use crate::design::Design;
+use crate::design::{Design, LengthUnit};
 use crate::geometry::facet_recovery::{Polygon, RecoverError, Stored, facets_of_polygons};
 use glam::DVec3;
 
@@ -106,18 +106,26 @@ impl PolygonMesh {
 /// A merge tolerance beyond this is worth telling: the mesh is coarser than `f32`.
 const COARSE: f64 = 2e-6;
 
-/// The design of a mesh's facets. Facets keep their names; the design gets the file's.
-pub fn design_from_mesh(source: &Input, mesh: &PolygonMesh) -> Result<Parsed, FormatError> {
-    let (design, warnings) = recover(&source.stem(), mesh).map_err(|cause| source.no_stone(cause))?;
-    Ok(Parsed { design, warnings })
+/// The design of a mesh's facets, or the mesh where it is closed but no convex stone. Facets keep their
+/// names; the design gets the file's.
+pub fn stone_from_mesh(source: &Input, mesh: &PolygonMesh) -> Result<Parsed, FormatError> {
+    recover(&source.stem(), mesh).map_err(|cause| source.no_stone(cause))
 }
 
-/// As [`design_from_mesh`], for a reader that has several meshes to try.
-pub fn recover(name: &str, mesh: &PolygonMesh) -> Result<(Design, Vec<String>), RecoverError> {
-    let found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored())?;
-    let (tolerance, divided) = (found.tolerance, found.divided_edges);
-    let design = Design::from_facets(name, found.into_facets()?);
+/// As [`stone_from_mesh`], for a reader that has several meshes to try.
+pub fn recover(name: &str, mesh: &PolygonMesh) -> Result<Parsed, RecoverError> {
+    let mut found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored())?;
+    let (tolerance, divided, nonconvex) = (found.tolerance, found.divided_edges, found.take_mesh());
     let mut warnings = mesh.warnings.clone();
+    let facets = match (found.into_facets(), nonconvex) {
+        (Ok(facets), _) => facets,
+        (Err(reason), Some(mesh)) => {
+            let shape = ParsedShape::Mesh { mesh: Box::new(mesh), unit: LengthUnit::Free, reason };
+            return Ok(Parsed { shape, warnings });
+        }
+        (Err(reason), None) => return Err(reason),
+    };
+    let design = Design::from_facets(name, facets);
     if divided > 0 {
         let edges = counted(divided, "corner");
         warnings.push(format!("{edges} on edges of other faces: closed as a set of points"));
@@ -126,7 +134,7 @@ pub fn recover(name: &str, mesh: &PolygonMesh) -> Result<(Design, Vec<String>), 
         warnings
             .push(format!("coarse mesh: faces were taken as coplanar within {tolerance:.0e} of its size"));
     }
-    Ok((design, warnings))
+    Ok(Parsed::new(design, warnings))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 
 use super::error::FormatError;
 use super::input::{Input, lines, number, without_comment};
-use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::Polygon;
@@ -39,7 +39,7 @@ fn sniff(source: &Input) -> u8 {
 }
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {
-    design_from_mesh(source, &mesh(source)?)
+    stone_from_mesh(source, &mesh(source)?)
 }
 
 /// How many there are of what faces name: corners, texture, normals.

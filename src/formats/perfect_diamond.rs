@@ -15,7 +15,7 @@ mod words;
 use super::error::FormatError;
 use super::input::Input;
 use super::mesh_import::{PolygonMesh, recover};
-use super::{Format, Parsed};
+use super::format::{Format, Parsed, ParsedShape};
 use crate::design::Design;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::Polygon;
@@ -55,20 +55,23 @@ fn stone(source: &Input, (shapes, digits): PolygonShapes) -> Result<Parsed, Form
     });
     let as_stone = |(v, p): PolygonShape| recover(&source.stem(), &PolygonMesh::from_text(v, p, digits));
     let (design, mut warnings) = match as_stone(together) {
-        Ok(found) => found,
-        Err(cause) => {
+        Ok(Parsed { shape: ParsedShape::Design(design), warnings }) => (design, warnings),
+        other => {
             let count = shapes.len();
-            let alone = shapes.into_iter().take(MOST_SHAPES);
-            let alone: Vec<_> = alone.filter_map(|s| as_stone(s).ok()).collect();
-            let [found] = <[_; 1]>::try_from(alone).map_err(|_| source.no_stone(cause))?;
-            let (design, mut warnings) = found;
-            warnings.push(format!("the stone is one of {} shapes; the others were left out", count));
+            let alone = shapes.into_iter().take(MOST_SHAPES).filter_map(|s| match as_stone(s) {
+                Ok(Parsed { shape: ParsedShape::Design(design), warnings }) => Some((design, warnings)),
+                _ => None,
+            });
+            let Ok([(design, mut warnings)]) = <[_; 1]>::try_from(alone.collect::<Vec<_>>()) else {
+                return other.map_err(|cause| source.no_stone(cause));
+            };
+            warnings.push(format!("the stone is one of {count} shapes; the others were left out"));
             (design, warnings)
         }
     };
     let upright = upright(&design).map_err(|cause| source.no_stone(cause.into()))?;
     warnings.push("Perfect Diamond data: the file's form is reconstructed and unverified".into());
-    Ok(Parsed { design: upright, warnings })
+    Ok(Parsed::new(upright, warnings))
 }
 
 /// Shapes that are tried one by one when all together are no stone.

@@ -8,7 +8,7 @@ mod values;
 
 use super::error::FormatError;
 use super::input::Input;
-use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::geometry::facet_recovery::Polygon;
 use crate::storage::limits;
@@ -40,7 +40,7 @@ pub static TEXT: Format = Format {
 };
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {
-    design_from_mesh(source, &mesh(source)?)
+    stone_from_mesh(source, &mesh(source)?)
 }
 
 /// Whether the file begins as a PLY file does.

@@ -8,7 +8,7 @@
 use super::asc_triangles::{TriangleRecords, first_count, records};
 use super::error::FormatError;
 use super::input::Input;
-use super::mesh_import::{PolygonMesh, design_from_mesh};
+use super::mesh_import::{PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::geometry::facet_recovery::Polygon;
 use glam::DVec3;
@@ -61,7 +61,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
         return Err(source.at_line(1, "triangles of kind T, the stone", &found.join(", ")));
     }
     let others = all.len() - polygons.len();
-    let mut reading = design_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, digits))?;
+    let mut reading = stone_from_mesh(source, &PolygonMesh::from_text(vertices, polygons, digits))?;
     if others > 0 {
         reading.warnings.push(format!("{others} triangles of room and lights left out"));
     }

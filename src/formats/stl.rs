@@ -4,7 +4,7 @@
 
 use super::error::{FormatError, counted};
 use super::input::{Input, lines, number, without_comment};
-use super::mesh_import::{Digits, PolygonMesh, design_from_mesh};
+use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Writer};
 use crate::geometry::facet_recovery::Polygon;
 use crate::storage::limits;
@@ -17,7 +17,7 @@ pub static BINARY: Format = Format {
     extensions: &["stl"],
     about: "STL mesh in binary: triangles in f32",
     sniff: sniff_binary,
-    read: |source| design_from_mesh(source, &binary_mesh(source)?),
+    read: |source| stone_from_mesh(source, &binary_mesh(source)?),
     write: Some(Writer::Mesh(write_binary)),
 };
 
@@ -27,7 +27,7 @@ pub static TEXT: Format = Format {
     extensions: &["stl"],
     about: "STL mesh as text: triangles; written for `--to stl-text`",
     sniff: sniff_text,
-    read: |source| design_from_mesh(source, &text_mesh(source)?),
+    read: |source| stone_from_mesh(source, &text_mesh(source)?),
     write: Some(Writer::Mesh(write_text)),
 };
 

@@ -70,6 +70,8 @@ pub struct Recovered {
     pub tolerance: f64,
     /// Whether the facets make a stone: closed, convex, in one piece and of the mesh's volume.
     verdict: Result<(), RecoverError>,
+    /// The surface, where it is closed but no convex stone.
+    mesh: Option<Box<ClosedMesh>>,
 }
 
 /// A mesh of which no convex stone can be made.
@@ -98,13 +100,13 @@ pub enum RecoverError {
     #[error("the mesh is open: {0} edges are not shared by exactly two faces; only closed meshes are read")]
     Open(usize),
     /// Several surfaces.
-    #[error("the mesh holds {} separate closed surfaces: it is a mesh, not one convex stone", .0.shells)]
-    Shells(Box<ClosedMesh>),
-    /// A concavity.
+    #[error("the mesh holds {0} separate closed surfaces: it is a mesh, not one convex stone")]
+    Shells(usize),
+    /// A concavity: how far the farthest corner stands out of a facet's plane, in parts of the diagonal.
     #[error(
-        "the mesh is not convex: a corner stands out of a facet's plane by {:.1e} of its size; it is a mesh, not a convex stone", .0.max_protrusion
+        "the mesh is not convex: a corner stands out of a facet's plane by {0:.1e} of its size; it is a mesh, not a convex stone"
     )]
-    NotConvex(Box<ClosedMesh>),
+    NotConvex(f64),
     /// The planes leave another solid than the mesh.
     #[error("the facet planes enclose a volume of {planes}, the mesh one of {mesh}")]
     Volume {
@@ -236,13 +238,14 @@ fn classify(
         facets.push((name_of(surface, polygons, region), plane));
     }
     let volume = if surface.open_edges == 0 { surface.volume() } else { 0.0 };
-    let body = || Box::new(surface.body(polygons, &regions, stands_out, size));
     let verdict = match (surface.open_edges, surface.shells, convex) {
         (1.., ..) => Err(RecoverError::Open(surface.open_edges)),
-        (_, 2.., _) => Err(RecoverError::Shells(body())),
-        (_, _, false) => Err(RecoverError::NotConvex(body())),
+        (_, 2.., _) => Err(RecoverError::Shells(surface.shells)),
+        (_, _, false) => Err(RecoverError::NotConvex(stands_out)),
         _ => check_encloses(&facets, volume, tolerance),
     };
+    let is_closed_mesh = matches!(verdict, Err(RecoverError::Shells(_) | RecoverError::NotConvex(_)));
+    let mesh = is_closed_mesh.then(|| Box::new(surface.body(polygons, &regions, stands_out, size)));
     let divided_edges = surface.divided_edges;
     Ok(Recovered {
         facets,
@@ -253,6 +256,7 @@ fn classify(
         volume,
         tolerance,
         verdict,
+        mesh,
     })
 }
 
@@ -273,16 +277,6 @@ fn check_encloses(facets: &[(String, Plane)], mesh: f64, tolerance: f64) -> Resu
     }
 }
 
-impl RecoverError {
-    /// The closed surface that is no convex stone; none where there is no closed surface.
-    pub fn closed_mesh(&self) -> Option<&ClosedMesh> {
-        match self {
-            RecoverError::Shells(body) | RecoverError::NotConvex(body) => Some(body),
-            _ => None,
-        }
-    }
-}
-
 impl Recovered {
     /// Whether every edge is shared by two polygons.
     pub fn closed(&self) -> bool {
@@ -297,10 +291,15 @@ impl Recovered {
     /// The same, of which no corner stands out further than that.
     fn with_protrusion_at_most(mut self, most: f64) -> Recovered {
         self.max_protrusion = self.max_protrusion.min(most);
-        if let Err(RecoverError::NotConvex(body)) = &mut self.verdict {
-            body.max_protrusion = self.max_protrusion;
+        if let (Err(RecoverError::NotConvex(protrusion)), Some(mesh)) = (&mut self.verdict, &mut self.mesh) {
+            (*protrusion, mesh.max_protrusion) = (self.max_protrusion, self.max_protrusion);
         }
         self
+    }
+
+    /// The surface where it is closed but has concavities or comes in several parts; taken out.
+    pub fn take_mesh(&mut self) -> Option<ClosedMesh> {
+        self.mesh.take().map(|mesh| *mesh)
     }
 
     /// The facets, if the mesh is one closed convex surface whose planes enclose its volume.

@@ -16,7 +16,7 @@ pub use style::{ColourScale, Style};
 use super::page::escaped;
 use crate::batch::table::NumericColumns;
 use crate::design::library;
-use crate::stone_spec;
+use crate::stone::grammar;
 
 /// Pixels across a plot that becomes a picture.
 pub const PIXELS: u32 = 1600;
@@ -96,7 +96,7 @@ impl ScorePlot<'_> {
     /// The value of a parameter in the stone that the plot is about.
     fn held(&self, key: &str) -> Option<f64> {
         let (name, items) = self.stone.split_once(':').unwrap_or((self.stone, ""));
-        let given = stone_spec::parameters_of(items).ok()?.get(key).copied();
+        let given = grammar::parameters_of(items).ok()?.get(key).copied();
         let document = library::document(name).and_then(Result::ok);
         given.or_else(|| document?.parameters.get(key).copied()).or_else(|| self.default_of(key))
     }

@@ -1,14 +1,13 @@
 //! The reference stones that a report sets scores beside: their table, made by the program.
 
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
-use crate::design::library;
 use crate::geometry::Polyhedron;
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::sampling::stats::Estimate;
 use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreRequest, Target, score};
-use crate::stone_spec;
+use crate::stone::Stone;
 use std::collections::BTreeMap;
 
 /// Made with `cutlab score STONES -o reports/references.csv`, STONES as [`STONES`] names them, in
@@ -82,11 +81,8 @@ impl References {
 
 /// The solid of a stone of [`STONES`], so many millimetres wide, or why there is none.
 fn solid(spec: &str, width_mm: f64) -> Result<Polyhedron, String> {
-    let (name, parameters) = spec.split_once(':').unwrap_or((spec, ""));
-    let parameters = stone_spec::parameters_of(parameters).map_err(|e| e.to_string())?;
-    let design = library::design(name, &parameters).ok_or_else(|| format!("no cut is called '{name}'"))?;
-    let design = design.map_err(|e| e.to_string())?.sized(width_mm).map_err(|e| e.to_string())?;
-    design.solid().map_err(|e| e.to_string())
+    let stone = Stone::parse(spec).and_then(|stone| stone.with_width(width_mm)).map_err(|e| e.to_string())?;
+    stone.solid().cloned().ok_or_else(|| format!("{spec} is no solid"))
 }
 
 #[cfg(test)]

@@ -11,10 +11,10 @@ use crate::color::illuminants::ILLUMINANTS;
 use crate::color::{Illuminant, rgb_upsampling};
 use crate::design::Design;
 use crate::design::{families, library};
-use crate::formats::{self, FormatError, triangle_mesh};
+use crate::formats::{self, Content, triangle_mesh};
 use crate::materials::MATERIALS;
 use crate::materials::Material;
-use crate::stone_spec;
+use crate::stone::{StoneError, grammar};
 use crate::trace::ConvexStone;
 use glam::{DMat3, Vec3};
 use serde::Deserialize;
@@ -227,13 +227,13 @@ impl StoneEntry {
         let name = cut.split(':').next().unwrap_or_default();
         let known = library::names().any(|n| n == name) || families::family(name).is_ok();
         let opened = if known {
-            stone_spec::open_regular(cut)
+            grammar::load_regular(cut)
         } else {
             let path = files.find("cut", cut)?;
             if path.exists() {
-                formats::read_regular(&path)
+                formats::read_regular(&path).and_then(Content::into_design).map_err(StoneError::from)
             } else {
-                Err(FormatError::NoSuchStone { spec: cut.into(), nearest: library::nearest(name) })
+                Err(StoneError::NoSuchStone { spec: cut.into(), nearest: library::nearest(name) })
             }
         };
         Ok(opened.map_err(|e| field_error("cut", e.to_string()))?.design)

@@ -4,6 +4,7 @@ use crate::geometry::{ClosedMesh, Polyhedron};
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::sampling::stats::Estimate;
+use crate::stone::Stone;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -92,7 +93,34 @@ pub struct ScoreRow {
     pub left_out: Vec<(&'static str, Cow<'static, str>)>,
 }
 
+impl ScoreInput {
+    /// The input of a stone as it is, and how it is turned. A mesh of several parts has no shape that can be
+    /// scored: the message says why.
+    pub fn from_stone(stone: &Stone, tilt: Option<Tilt>) -> ScoreInput {
+        let shape = match (stone.solid(), stone.mesh(), stone.why_not_convex()) {
+            (Some(solid), ..) => Ok(StoneShape::Convex(solid.clone())),
+            (_, Some(mesh), _) if mesh.shells == 1 => Ok(StoneShape::Nonconvex(Box::new(mesh.clone()))),
+            (.., why) => Err(why.map_or_else(String::new, ToString::to_string)),
+        };
+        ScoreInput { stone: stone.name().into(), material: stone.material().clone(), shape, tilt }
+    }
+}
+
 impl ScoreRow {
+    /// The row of a stone that could not be opened.
+    pub fn failed(stone: String, material: String, error: String, plan: &ScoreRequest) -> ScoreRow {
+        ScoreRow {
+            stone,
+            material,
+            facets: None,
+            scores: vec![None; plan.metrics.len()],
+            samples: Vec::new(),
+            note: None,
+            error: Some(error),
+            left_out: Vec::new(),
+        }
+    }
+
     /// Leaves the score of a metric empty, for a reason.
     pub(super) fn leave_out(&mut self, metric: &Metric, why: impl Into<Cow<'static, str>>) {
         self.left_out.push((metric.name, why.into()));

@@ -173,7 +173,8 @@ fn corpus() -> Check {
             .filter_map(|row| Some((row.get(file)?.to_string(), row.get(volume)?.parse().ok()?)))
             .collect();
         let volume = |name: &str| {
-            formats::read(&folder.join(name)).ok().and_then(|r| r.design.solid().ok()).map(|s| s.volume())
+            let read = formats::read(&folder.join(name)).ok()?.into_design().ok()?;
+            Some(read.design.solid().ok()?.volume())
         };
         let volumes: Vec<_> = known.par_iter().map(|(name, known)| (volume(name), known)).collect();
         if volumes.is_empty() {

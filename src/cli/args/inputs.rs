@@ -1,11 +1,10 @@
 //! Input files: those that a folder, or a pattern of file names, stands for.
 
 use super::stone;
-use super::stone::StoneSpec;
 use crate::batch::sidecar::TableMeta;
 use crate::cli::exit_code::CliError;
 use crate::formats;
-use crate::stone_spec::STANDARD_INPUT;
+use crate::stone::StoneSpec;
 use globset::{GlobBuilder, GlobMatcher};
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -177,8 +176,5 @@ fn designs(folder: &Path) -> Result<Vec<OsString>, CliError> {
 
 /// The file that a STONE is read from, if it is one.
 pub fn file_of(stone: &OsStr) -> Option<PathBuf> {
-    let spec = StoneSpec::parse(stone).ok()?;
-    let path = PathBuf::from(spec.base());
-    let is_file = spec.base() != STANDARD_INPUT && !stone::is_cut(spec.base()) && path.is_file();
-    is_file.then_some(path)
+    StoneSpec::parse(stone).ok()?.file()
 }

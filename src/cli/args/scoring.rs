@@ -1,23 +1,23 @@
 //! Arguments of every command that scores: metrics, accuracy, light, material.
 
-use super::{inputs, orientation, stone, values};
+use super::stone::{self, StoneArgs};
+use super::{inputs, values};
 use crate::batch::fingerprint::{FileDigest, Fingerprint};
 use crate::batch::request::TableRequest;
 use crate::batch::table_job::RowStatus;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
-use crate::materials::Material;
+use crate::design::USUAL_WIDTH_MM;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
-use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt, score};
-use crate::stone_spec::STANDARD_INPUT;
-use crate::stone_spec::options::StoneOptions;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt, score};
+use crate::stone::grammar::STANDARD_INPUT;
+use crate::stone::{Stone, StoneOptions, StoneSpec};
+use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 #[derive(Debug, Clone, clap::Args)]
 pub struct ScoringArgs {
@@ -43,7 +43,7 @@ pub struct ScoringArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     pub seed: u64,
     #[command(flatten)]
-    pub substance: stone::MaterialArgs,
+    pub stone_args: StoneArgs,
     /// Girdle width in millimetres; the scores depend on it if the material absorbs
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     pub size: Option<f64>,
@@ -52,7 +52,7 @@ pub struct ScoringArgs {
 impl ScoringArgs {
     /// The same with another index in place of material and index.
     pub fn with_index(mut self, ri: f64) -> ScoringArgs {
-        self.substance = stone::MaterialArgs { material: None, ri: Some(ri) };
+        self.stone_args = StoneArgs { material: None, ri: Some(ri), ..self.stone_args };
         self
     }
 
@@ -73,22 +73,21 @@ impl ScoringArgs {
     /// - `sized`: whether all stones have a size
     pub fn notes(&self, sized: bool) -> Vec<String> {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
-        let coloured = self.substance.material.is_some_and(|m| !m.is_clear());
+        let coloured = self.stone_args.material.is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
             (true, _) => VISIBLE_NM,
             (false, true) => (lines::G, lines::B),
             (false, false) => (lines::D, lines::D),
         };
-        let range = self.substance.range_note(from, to);
-        let high = self.substance.ri.filter(|n| *n > HIGH_INDEX).map(|n| {
+        let range = self.stone_args.range_note(from, to);
+        let high = self.stone_args.ri.filter(|n| *n > HIGH_INDEX).map(|n| {
             format!(
                 "note: light stays in a stone of n = {n} for thousands of facets: its scores take long, a tenth as \
                  long with --error 0.01"
             )
         });
         let size = (!sized && self.size.is_none() && coloured).then(|| {
-            let mm = stone::USUAL_SIZE;
-            format!("note: stones without a size are taken as {mm} mm wide; --size MM sets it")
+            format!("note: stones without a size are taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it")
         });
         range.into_iter().chain(high).chain(size).collect()
     }
@@ -120,53 +119,36 @@ impl ScoringArgs {
 
     /// What is asked for of every stone.
     pub fn options(&self) -> StoneOptions {
-        StoneOptions {
-            material: self.substance.material.map(|m| m.name.to_string()),
-            ri: self.substance.ri,
-            size_mm: self.size,
-            orientation: orientation::requested(),
-        }
+        self.stone_args.options(self.size)
     }
 
-    /// What the STONE `spec` is made of, and its shape as large as it is to be.
-    fn shape(&self, spec: &OsStr) -> Result<(Material, StoneShape), CliError> {
-        let substance = self.substance.within(spec)?;
-        let failure = match stone::open(spec) {
-            Ok(imported) => {
-                orientation::note(&stone::display_name(spec), &imported);
-                let material = substance.material_of(&imported.design);
-                let size = self.size.or(stone::usual_size(imported.design.unit, &material));
-                let design = stone::sized(imported.design, size)?;
-                return Ok((material, design.solid()?.into()));
-            }
-            Err(failure) => failure,
-        };
-        let body = failure.shape().and_then(|shape| Some((shape.unit, shape.body.clone()?)));
-        let (unit, body) = body.filter(|(_, body)| body.shells == 1).ok_or(failure)?;
-        orientation::note_body(&stone::display_name(spec), &body);
-        let material = substance.drawn_for(None);
-        let size = self.size.or(stone::usual_size(unit, &material));
-        let scale = size.map_or(1.0, |mm| mm / body.width());
-        Ok((material, StoneShape::Nonconvex(Box::new(body.scaled(scale)))))
+    /// Opens a stone to be scored: as large as it is asked for, or as its colour needs it.
+    pub fn open(&self, spec: &OsStr, console: &Console) -> Result<Stone, CliError> {
+        let stone = Stone::open(spec, &self.options())?;
+        if let Some(doubt) = stone.orientation_doubt() {
+            console.note_once(&format!("note: {}: {doubt}", stone.name()), stone.name());
+        }
+        Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
     }
 
     /// Scores the STONE `spec`.
-    pub fn score(&self, spec: &OsStr, tilt: Option<Tilt>, plan: &ScoreRequest) -> (ScoreRow, RowStatus) {
-        let opened = self.shape(spec);
-        let substance = self.substance.within(spec).unwrap_or(self.substance);
-        let known = opened.is_ok() || substance.material.is_some() || substance.ri.is_some();
-        let (material, shape, code) = match opened {
-            Ok((material, shape)) => (material, Ok(shape), None),
+    pub fn score(
+        &self,
+        spec: &OsStr,
+        tilt: Option<Tilt>,
+        plan: &ScoreRequest,
+        console: &Console,
+    ) -> (ScoreRow, RowStatus) {
+        let (row, code) = match self.open(spec, console) {
+            Ok(stone) => (score(&ScoreInput::from_stone(&stone, tilt), plan), None),
             Err(failure) => {
-                let of_index = || Material::from_index(substance.ri.unwrap_or(1.0));
-                let material = substance.material.cloned().unwrap_or_else(of_index);
-                (material, Err(failure.message()), Some(failure.code()))
+                let own = StoneSpec::parse(spec).ok().and_then(|parts| parts.material().cloned());
+                let material = own.or(self.stone_args.asked()).map(|m| m.name.to_string());
+                let name = stone::display_name(spec);
+                let row = ScoreRow::failed(name, material.unwrap_or_default(), failure.message(), plan);
+                (row, Some(failure.code()))
             }
         };
-        let mut row = score(&ScoreInput { stone: stone::display_name(spec), material, shape, tilt }, plan);
-        if !known {
-            row.material.clear();
-        }
         let outcome = match &row.error {
             None => RowStatus::Ok,
             Some(_) if row.scores.iter().any(Option::is_some) => RowStatus::TargetMissed,
@@ -183,18 +165,7 @@ const HIGH_INDEX: f64 = 4.0;
 /// Says what is to be said of a row's scores, once for all rows of which it is.
 pub fn tell(stone: &str, row: &ScoreRow, console: &Console) {
     if let Some(note) = row.note {
-        once(&format!("{stone}: {note}"), note, console);
-    }
-}
-
-/// Says something of one stone, once for all of which the same is to be said.
-///
-/// - `key`: what is the same
-pub fn once(said: &str, key: &str, console: &Console) {
-    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let first = TOLD.lock().is_ok_and(|mut told| told.insert(key.to_owned()));
-    if first {
-        console.note(&format!("note: {said} (not said of others)"));
+        console.note_of_one(&format!("{stone}: {note}"), note);
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::cli::args::inputs;
 use crate::cli::args::stone;
 use crate::cli::exit_code::CliError;
+use crate::stone::grammar;
 use std::collections::{HashMap, HashSet};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -71,7 +72,7 @@ pub fn into_folder(arguments: &[OsString], output: &Path, extension: &str) -> Re
             }
         } else {
             let folder = path.parent().and_then(Path::file_name).map(OsStr::to_owned);
-            let below = stone::file_stem(argument).into();
+            let below = grammar::file_stem(argument).into();
             found.push(FoundStone { stone: argument.clone(), below, folder, by_chance: false });
         }
     }
@@ -91,7 +92,7 @@ pub fn into_folder(arguments: &[OsString], output: &Path, extension: &str) -> Re
 pub fn places_of(stones: &[OsString]) -> Vec<PathBuf> {
     let found = |stone: &OsString| {
         let folder = Path::new(stone).parent().and_then(Path::file_name).map(OsStr::to_owned);
-        FoundStone { stone: stone.clone(), below: stone::file_stem(stone).into(), folder, by_chance: false }
+        FoundStone { stone: stone.clone(), below: grammar::file_stem(stone).into(), folder, by_chance: false }
     };
     places(&stones.iter().map(found).collect::<Vec<_>>())
 }

@@ -85,8 +85,8 @@ fn of_scene(args: &RenderArgs, scene: &SceneFile) -> Option<String> {
         );
     }
     let of_stones = [
-        ("--material", args.substance.material.is_some()),
-        ("--ri", args.substance.ri.is_some()),
+        ("--material", args.stone_args.material.is_some()),
+        ("--ri", args.stone_args.ri.is_some()),
         ("--size", args.size.is_some()),
         ("--pose", args.pose.is_some()),
         ("--polarisation", args.polarisation.is_some()),

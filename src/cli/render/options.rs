@@ -41,7 +41,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     pub hdr: Option<PathBuf>,
     #[command(flatten)]
-    pub substance: stone::MaterialArgs,
+    pub stone_args: stone::StoneArgs,
     /// Girdle width in millimetres
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     pub size: Option<f64>,

@@ -1,7 +1,7 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
-use crate::cli::exit_code::{CliError, MeshFacts};
 use crate::design::LengthUnit;
+use crate::stone::Stone;
 use crate::storage::terminal::in_line;
 use serde::Serialize;
 
@@ -27,22 +27,22 @@ pub struct MeshSheet {
 }
 
 impl MeshSheet {
-    /// What is known of the file; none if it is no closed mesh.
-    pub fn new(file: &str, failure: &CliError) -> Option<MeshSheet> {
-        let MeshFacts { format, closed, body: Some(mesh), unit, .. } = failure.shape()? else { return None };
+    /// What is known of a mesh; none of a convex stone.
+    pub fn new(stone: &Stone) -> Option<MeshSheet> {
+        let mesh = stone.mesh()?;
         let (low, high) = mesh.bounds();
         Some(MeshSheet {
-            file: file.into(),
-            format,
+            file: stone.name().into(),
+            format: stone.format(),
             facets: mesh.facets.len(),
             triangles: mesh.triangles.len(),
             parts: mesh.shells,
-            closed: *closed,
+            closed: true,
             convex: false,
             volume: mesh.volume,
-            unit: if *unit == LengthUnit::Millimetre { "mm" } else { "file" },
+            unit: if stone.unit() == LengthUnit::Millimetre { "mm" } else { "file" },
             bounds: [low.to_array(), high.to_array()],
-            reason: failure.message(),
+            reason: stone.why_not_convex().map_or_else(String::new, ToString::to_string),
         })
     }
 

@@ -45,7 +45,7 @@ impl AscFile<'_> {
             // blank lines after the last say nothing, and the binary form cannot tell them from none
             kept.truncate(kept.iter().rposition(|l| !l.is_empty()).map_or(0, |last| last + 1));
         }
-        Ok(Parsed { design, warnings: self.warnings })
+        Ok(Parsed::new(design, self.warnings))
     }
 }
 impl TierLine {

@@ -1,5 +1,7 @@
 //! Stone options: what a STONE is made of, how large it is and how it stands, where it does not say so itself.
 
+use super::grammar;
+use crate::materials::Material;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,17 @@ pub struct StoneOptions {
     pub size_mm: Option<f64>,
     /// How the stones of files are turned.
     pub orientation: Orientation,
+}
+
+impl StoneOptions {
+    /// The material or bare index asked for, if any; the error says that there is no such material.
+    pub fn asked_material(&self) -> Result<Option<Material>, String> {
+        match (&self.material, self.ri) {
+            (Some(name), _) => Ok(Some(grammar::material(name)?.clone())),
+            (None, Some(index)) => Ok(Some(Material::from_index(index))),
+            (None, None) => Ok(None),
+        }
+    }
 }
 
 /// How the stones of files are turned before anything else.

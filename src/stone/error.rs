@@ -1,0 +1,90 @@
+//! The error of a STONE that is no stone.
+
+use crate::formats::FormatError;
+use crate::geometry::SolidError;
+use crate::parse::did_you_mean;
+use std::sync::Arc;
+
+/// A STONE that could not be opened: what was asked for, what was expected, what was found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StoneError {
+    /// A file that could not be read, or a cut with a wrong parameter.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// A closed mesh with concavities or in several parts, where a convex stone is needed.
+    #[error(transparent)]
+    NotConvex(Arc<FormatError>),
+    /// Planes that bound no stone.
+    #[error("{stone}: {cause}")]
+    Solid {
+        /// The stone.
+        stone: String,
+        /// What is wrong with them.
+        cause: SolidError,
+    },
+    /// `name:key=value` with something else in place of a `key=value`.
+    #[error("stone '{spec}', at '{found}': {why}")]
+    Parameter {
+        /// The stone as asked for.
+        spec: String,
+        /// The part that is not understood.
+        found: String,
+        /// Why not.
+        why: String,
+    },
+    /// A file with something behind its colon that is neither its material nor its index.
+    #[error("{spec}, at '{found}': {why}")]
+    Item {
+        /// The stone as asked for.
+        spec: String,
+        /// The part that is not understood.
+        found: String,
+        /// What to write.
+        why: String,
+    },
+    /// A material or an index that does not exist, or two of them.
+    #[error("{spec}: {why}")]
+    Material {
+        /// The stone as asked for.
+        spec: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// Neither a cut nor a file.
+    #[error("no cut and no file is called '{spec}'{} (all cuts: cutlab list cuts)", did_you_mean(*.nearest))]
+    NoSuchStone {
+        /// The stone as asked for.
+        spec: String,
+        /// The library's name that is probably meant.
+        nearest: Option<&'static str>,
+    },
+    /// What can only be the name of a file, and is not.
+    #[error("there is no file '{spec}'")]
+    NoSuchFile {
+        /// The file as asked for.
+        spec: String,
+    },
+    /// A cut that cannot be made.
+    #[error("there is no cut '{spec}': {why}; the nearest is '{nearest}'")]
+    Impossible {
+        /// The stone as asked for.
+        spec: String,
+        /// Why it cannot be made.
+        why: &'static str,
+        /// The library's nearest cut.
+        nearest: &'static str,
+    },
+    /// A folder where one stone is named.
+    #[error("{spec} is a folder, and here one stone is named: name a file in it")]
+    Folder {
+        /// The folder.
+        spec: String,
+    },
+    /// A girdle width that is none.
+    #[error("a girdle width is a number of millimetres above 0, found {found}")]
+    Width {
+        /// The number given.
+        found: f64,
+    },
+}

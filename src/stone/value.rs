@@ -1,0 +1,276 @@
+//! A stone: shape, material, size and orientation as one value.
+
+use super::error::StoneError;
+use super::grammar::StoneSpec;
+use super::options::{Orientation, StoneOptions};
+use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM, orientation};
+use crate::formats::{self, Content, FormatError, Loaded, LoadedMesh};
+use crate::geometry::{ClosedMesh, Plane, Polyhedron};
+use crate::materials::Material;
+use crate::storage::text::display_name;
+use glam::{DMat3, DVec3};
+use std::ffi::OsStr;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The shape of a stone.
+#[derive(Debug, Clone)]
+enum Shape {
+    /// A convex solid, which the design's facets bound.
+    Convex { design: Design, solid: Polyhedron },
+    /// Closed surfaces with concavities, or several, and why they are no convex stone.
+    Nonconvex { mesh: Box<ClosedMesh>, problem: Arc<FormatError> },
+}
+
+/// A stone: its shape, what it is made of, how large it is, how it stands, and where it came from.
+///
+/// The table faces +z. Lengths are in [`Stone::unit`]: millimetres, or a file's own unit of which nobody says
+/// how large it is.
+///
+/// ```
+/// use cutlab::stone::Stone;
+///
+/// let stone = Stone::parse("round-brilliant:crown-angle=35,material=quartz")?.with_width(8.0)?;
+/// assert_eq!(stone.facets(), 73);
+/// assert_eq!(stone.material().name, "quartz");
+/// # Ok::<(), cutlab::stone::StoneError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Stone {
+    name: String,
+    shape: Shape,
+    unit: LengthUnit,
+    material: Material,
+    is_material_given: bool,
+    format: &'static str,
+    warnings: Vec<String>,
+    doubt: Option<String>,
+}
+
+impl Stone {
+    /// The stone that a STONE argument names: a cut of the library or a family, with parameters or not, or a
+    /// file of any format, which may be a mesh with concavities; each may say its material.
+    ///
+    /// Errors name the part of the argument, or the file and the place in it, with what was expected and found.
+    pub fn parse(spec: &str) -> Result<Stone, StoneError> {
+        Stone::open(spec, &StoneOptions::default())
+    }
+
+    /// As [`Stone::parse`], with what is asked for where the stone does not say so itself.
+    ///
+    /// - `spec`: may be the name of a file that is not UTF-8; `-` is standard input
+    pub fn open(spec: impl AsRef<OsStr>, options: &StoneOptions) -> Result<Stone, StoneError> {
+        let spec = spec.as_ref();
+        let parts = StoneSpec::parse(spec)?;
+        let stone = Stone::from_content(display_name(spec), parts.load()?, options.orientation)?;
+        stone.made_of(parts.material(), options)
+    }
+
+    /// The stone in the bytes of a file, of any format that is read.
+    ///
+    /// - `name`: shown in errors, and its stem names the stone
+    /// - `folder`: where files that it refers to must lie; none refuses them
+    pub fn from_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Stone, StoneError> {
+        let content = formats::read_bytes(name, bytes, folder)?;
+        let stone = Stone::from_content(name.into(), content, Orientation::default())?;
+        stone.made_of(None, &StoneOptions::default())
+    }
+
+    /// The stone of a design, made of what it is drawn for, or of diamond.
+    pub fn from_design(design: Design) -> Result<Stone, StoneError> {
+        let content = Content::Design(Loaded { design, format: "design", warnings: Vec::new() });
+        let name = String::new();
+        Stone::from_content(name, content, Orientation::default())?.made_of(None, &StoneOptions::default())
+    }
+
+    /// The convex stone that the half-spaces behind `planes` have in common, of diamond.
+    pub fn from_planes(name: &str, planes: &[Plane]) -> Result<Stone, StoneError> {
+        Stone::from_design(Design::from_facets(name, planes.iter().map(|p| (String::new(), *p))))
+    }
+
+    fn from_content(name: String, content: Content, turned: Orientation) -> Result<Stone, StoneError> {
+        let (name, shape, unit, format, warnings) = match content {
+            Content::Design(Loaded { design, format, warnings }) => {
+                let name = if name.is_empty() { design.name.clone() } else { name };
+                let unit = design.unit;
+                (name.clone(), convex(&name, design)?, unit, format, warnings)
+            }
+            Content::Mesh(LoadedMesh { mesh, unit, format, warnings, problem }) => {
+                (name, Shape::Nonconvex { mesh, problem: Arc::new(problem) }, unit, format, warnings)
+            }
+        };
+        let material = Material::drawn_for(None);
+        let stone =
+            Stone { name, shape, unit, material, is_material_given: false, format, warnings, doubt: None };
+        stone.oriented(turned)
+    }
+
+    /// Stood as it is asked for; a stone of a file that nobody turned and that does not stand table up is doubted.
+    fn oriented(mut self, Orientation { up, align }: Orientation) -> Result<Stone, StoneError> {
+        if self.format == "library" {
+            return Ok(self);
+        }
+        let up = match (up, align, &self.shape) {
+            (Some(up), ..) => up.direction(),
+            (None, true, Shape::Convex { solid, .. }) => orientation::up_of(solid),
+            (None, true, Shape::Nonconvex { mesh, .. }) => orientation::up_of_body(mesh),
+            (None, false, shape) => {
+                self.doubt = match shape {
+                    Shape::Convex { solid, .. } => orientation::doubt(solid),
+                    Shape::Nonconvex { mesh, .. } => orientation::doubt_of_body(mesh),
+                };
+                self.warnings.extend(self.doubt.clone());
+                return Ok(self);
+            }
+        };
+        if up.distance(DVec3::Z) > 1e-9 { self.turned(orientation::turned_up(up)) } else { Ok(self) }
+    }
+
+    /// Of its own material, else of what is asked for, else of what its design is drawn for, else of diamond; and
+    /// as large as it is asked for.
+    fn made_of(mut self, own: Option<&Material>, options: &StoneOptions) -> Result<Stone, StoneError> {
+        if let (Some(own), Shape::Convex { design, .. }) = (own, &mut self.shape) {
+            design.refractive_index = Some(own.index_d());
+        }
+        let wrong = |why| StoneError::Material { spec: self.name.clone(), why };
+        let asked = match own {
+            Some(own) => Some(own.clone()),
+            None => options.asked_material().map_err(wrong)?,
+        };
+        self.is_material_given = asked.is_some();
+        self.material = asked
+            .unwrap_or_else(|| Material::drawn_for(self.design().and_then(|design| design.refractive_index)));
+        match options.size_mm {
+            Some(mm) => self.with_width(mm),
+            None => Ok(self),
+        }
+    }
+
+    /// The same stone of another material.
+    pub fn with_material(mut self, material: Material) -> Stone {
+        self.material = material;
+        self.is_material_given = true;
+        self
+    }
+
+    /// The same shape with a girdle width of `mm`. A width that is not above 0 is refused.
+    pub fn with_width(mut self, mm: f64) -> Result<Stone, StoneError> {
+        if !(mm > 0.0 && mm.is_finite()) {
+            return Err(StoneError::Width { found: mm });
+        }
+        let k = mm / self.width();
+        self.shape = match self.shape {
+            Shape::Convex { design, .. } => convex(&self.name, design.scaled_to_mm(k))?,
+            Shape::Nonconvex { mesh, problem } => Shape::Nonconvex { mesh: Box::new(mesh.scaled(k)), problem },
+        };
+        self.unit = LengthUnit::Millimetre;
+        Ok(self)
+    }
+
+    /// As wide as a stone usually is, [`USUAL_WIDTH_MM`], if nobody says how wide it is.
+    pub fn with_usual_width(self) -> Result<Stone, StoneError> {
+        if self.unit == LengthUnit::Free { self.with_width(USUAL_WIDTH_MM) } else { Ok(self) }
+    }
+
+    /// The same stone turned by `rotation` about the origin; its indices and angles no longer hold and go.
+    pub fn turned(mut self, rotation: DMat3) -> Result<Stone, StoneError> {
+        self.shape = match self.shape {
+            Shape::Convex { design, .. } => convex(&self.name, design.turned(rotation))?,
+            Shape::Nonconvex { mesh, problem } => {
+                Shape::Nonconvex { mesh: Box::new(mesh.turned(rotation)), problem }
+            }
+        };
+        Ok(self)
+    }
+
+    /// The STONE that it was opened by, or its file's or design's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its tiers, names and texts; none for a mesh that is no convex stone.
+    pub fn design(&self) -> Option<&Design> {
+        if let Shape::Convex { design, .. } = &self.shape { Some(design) } else { None }
+    }
+
+    /// The solid that its facets bound; none for a mesh that is no convex stone.
+    pub fn solid(&self) -> Option<&Polyhedron> {
+        if let Shape::Convex { solid, .. } = &self.shape { Some(solid) } else { None }
+    }
+
+    /// The surface of a mesh that is no convex stone; none for one that is.
+    pub fn mesh(&self) -> Option<&ClosedMesh> {
+        if let Shape::Nonconvex { mesh, .. } = &self.shape { Some(mesh) } else { None }
+    }
+
+    /// The design of a convex stone; for a mesh that is none the error says why.
+    pub fn convex_design(&self) -> Result<&Design, StoneError> {
+        match &self.shape {
+            Shape::Convex { design, .. } => Ok(design),
+            Shape::Nonconvex { problem, .. } => Err(StoneError::NotConvex(problem.clone())),
+        }
+    }
+
+    /// Why it is no convex stone; none if it is one.
+    pub fn why_not_convex(&self) -> Option<&FormatError> {
+        if let Shape::Nonconvex { problem, .. } = &self.shape { Some(problem) } else { None }
+    }
+
+    /// Number of its facets.
+    pub fn facets(&self) -> usize {
+        match &self.shape {
+            Shape::Convex { solid, .. } => solid.faces.len(),
+            Shape::Nonconvex { mesh, .. } => mesh.facets.len(),
+        }
+    }
+
+    /// Girdle width, in [`Stone::unit`].
+    pub fn width(&self) -> f64 {
+        match &self.shape {
+            Shape::Convex { solid, .. } => solid.width(),
+            Shape::Nonconvex { mesh, .. } => mesh.width(),
+        }
+    }
+
+    /// The unit of its lengths.
+    pub fn unit(&self) -> LengthUnit {
+        self.unit
+    }
+
+    /// What it is made of.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// What somebody said that it is made of; none if nobody did: it is then of what its design is drawn for, or of
+    /// diamond.
+    pub fn given_material(&self) -> Option<&Material> {
+        self.is_material_given.then_some(&self.material)
+    }
+
+    /// Whether its colour depends on a size that nobody says.
+    pub fn lacks_size(&self) -> bool {
+        self.unit == LengthUnit::Free && !self.material.is_clear()
+    }
+
+    /// Name of the format that it came in, or `library`.
+    pub fn format(&self) -> &'static str {
+        self.format
+    }
+
+    /// What had to be overlooked or may surprise, one line each.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Why it seems not to stand table up; none if it does, if nothing tells, or if it was turned.
+    pub fn orientation_doubt(&self) -> Option<&str> {
+        self.doubt.as_deref()
+    }
+}
+
+/// The shape of a design that another was made into.
+fn convex(stone: &str, design: Design) -> Result<Shape, StoneError> {
+    let solid = design.solid().map_err(|cause| StoneError::Solid { stone: stone.into(), cause })?;
+    Ok(Shape::Convex { design, solid })
+}
