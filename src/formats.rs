@@ -32,8 +32,8 @@ mod windows_1252;
 
 use crate::storage::text;
 pub use error::FormatError;
-pub use format::{Format, Parsed, Writer};
-use format::{ParsedShape, ReadOutcome, read_file, within_limit};
+pub use format::{Format, Parsed, ParsedShape, Writer};
+use format::{ReadOutcome, read_file, within_limit};
 pub use input::Input;
 pub use mesh_export::MeshExport;
 
@@ -109,36 +109,46 @@ pub struct Loaded {
     pub warnings: Vec<String>,
 }
 
-/// Reads the file at `path`, whatever its extension. It may be a pipe.
+/// Reads the design in the file at `path`, whatever its extension. It may be a pipe.
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
-pub fn read(path: &Path) -> Result<Content, FormatError> {
-    read_as(path, limits::FILE.read(path))
+pub fn read(path: &Path) -> Result<Loaded, FormatError> {
+    read_content(path)?.into_design()
 }
 
 /// As [`read`], for what a file names: only a regular file is read.
-pub fn read_regular(path: &Path) -> Result<Content, FormatError> {
-    read_as(path, limits::FILE.read_regular(path))
+pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
+    content_of(path, limits::FILE.read_regular(path))?.into_design()
 }
 
-/// Reads standard input; files that it refers to are refused.
-pub fn read_standard_input() -> Result<Content, FormatError> {
-    let path = Path::new("standard input");
-    let bytes = within_limit(path, stdin::bytes())?;
-    read_bytes("standard input", &bytes, None)
-}
-
-fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Content, FormatError> {
-    let name = text::display_name(path);
-    let bytes = within_limit(path, bytes)?;
-    read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
-}
-
-/// Reads a file from memory.
+/// Reads a design from memory.
 ///
 /// - `name`: shown in errors; its extension only tells apart formats that are refused
 /// - `folder`: where files that it refers to must lie; none refuses them
-pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Content, FormatError> {
+pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
+    read_content_bytes(name, bytes, folder)?.into_design()
+}
+
+/// As [`read`], also of a closed mesh that is no convex stone.
+pub fn read_content(path: &Path) -> Result<Content, FormatError> {
+    content_of(path, limits::FILE.read(path))
+}
+
+/// As [`read_content`], of standard input; files that it refers to are refused.
+pub fn read_content_standard_input() -> Result<Content, FormatError> {
+    let path = Path::new("standard input");
+    let bytes = within_limit(path, stdin::bytes())?;
+    read_content_bytes("standard input", &bytes, None)
+}
+
+fn content_of(path: &Path, bytes: ReadOutcome) -> Result<Content, FormatError> {
+    let name = text::display_name(path);
+    let bytes = within_limit(path, bytes)?;
+    read_content_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+}
+
+/// As [`read_bytes`], also of a closed mesh that is no convex stone.
+pub fn read_content_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Content, FormatError> {
     let source = Input { name, bytes, folder };
     let found = FORMATS
         .iter()

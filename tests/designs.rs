@@ -3,7 +3,7 @@
 use cutlab::design::{Design, Facet, Gear, Tier};
 use cutlab::formats::{self, Loaded};
 use cutlab::geometry::Plane;
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use glam::DVec3;
 use std::path::Path;
 
@@ -144,7 +144,7 @@ fn tiers_names_and_texts_survive_in_every_design_format() {
 
 #[test]
 fn gemcad_text_is_written_as_gemcad_reads_it() {
-    let mut design = stone_spec::open("round-brilliant").expect("a library cut").design;
+    let mut design = Stone::parse("round-brilliant").and_then(Stone::into_design).expect("a library cut");
     design.headers = (1..=6).map(|i| format!("header {i}")).collect();
     design.tiers[0].instructions = "a word ".repeat(120);
     for tier in &mut design.tiers {
@@ -185,7 +185,7 @@ fn a_mesh_gets_angles_and_indices_from_its_normals() {
 
 #[test]
 fn a_design_whose_origin_lies_outside_is_moved_for_gemcad() {
-    let mut design = stone_spec::open("octahedron").expect("a library cut").design;
+    let mut design = Stone::parse("octahedron").and_then(Stone::into_design).expect("a library cut");
     let before = shape(&design);
     for f in design.tiers.iter_mut().flat_map(|t| &mut t.facets) {
         f.plane = f.plane.moved(DVec3::new(0.0, 0.0, 100.0));

@@ -4,10 +4,10 @@ mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
 use cutlab::design::library;
-use cutlab::formats;
 use cutlab::materials::Material;
 use cutlab::metrics::{METRICS, Metric, MetricSource};
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, StoneShape, Target, Tilt, score};
+use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
+use cutlab::stone::Stone;
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
 #[test]
@@ -77,14 +77,8 @@ fn photons_in_place_of_beams_are_told() {
     let (corners, faces) = CUBE_WITH_A_DENT;
     let mesh = corners.iter().map(|v| format!("v {} {} {}\n", v[0], v[1], v[2])).collect::<String>()
         + &faces.iter().map(|f| format!("f {f}\n")).collect::<String>();
-    let error = formats::read_bytes("dented.obj", mesh.as_bytes(), None).expect_err("has a dent");
-    let body = error.closed_mesh().expect("it is closed").1.clone();
-    let subject = ScoreInput {
-        stone: "dented".into(),
-        material: diamond(),
-        shape: Ok(StoneShape::Nonconvex(Box::new(body))),
-        tilt: None,
-    };
+    let stone = Stone::from_bytes("dented.obj", mesh.as_bytes(), None).expect("it is closed");
+    let subject = ScoreInput::from_stone(&stone.with_material(diamond()), None);
     let row = score(&subject, &asked(&["light_return"]));
     assert!(row.note.is_some_and(|said| said.starts_with("beams need a convex stone")), "{row:?}");
     assert_eq!(score(&subject, &plan(&["light_return"], 256)).note, None);

@@ -5,7 +5,7 @@ use cutlab::design::{Design, LengthUnit};
 use cutlab::formats::{self, FORMATS, Loaded};
 use cutlab::geometry::Plane;
 use cutlab::geometry::polyhedron::PlaneStatus;
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use glam::{DMat3, DVec3};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -79,7 +79,7 @@ fn what_is_written_reads_back_to_the_same_planes() {
             1e-12
         };
         for spec in STONES {
-            let design = stone_spec::open(spec).expect("a library stone").design;
+            let design = Stone::parse(spec).and_then(Stone::into_design).expect("a library stone");
             let bytes = formats::encode(&design, format.name).expect("every stone can be written");
             let back = formats::read_bytes("back", &bytes, None).unwrap_or_else(|e| panic!("{spec}: {e}"));
             assert_eq!(back.format, format.name);
@@ -104,7 +104,7 @@ fn what_is_written_reads_back_to_the_same_planes() {
 #[test]
 fn a_file_is_written_by_its_extension_and_read_by_its_bytes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let design = stone_spec::open("prism:sides=5").expect("a library stone").design;
+    let design = Stone::parse("prism:sides=5").and_then(Stone::into_design).expect("a library stone");
     for format in FORMATS.iter().filter(|f| f.write.is_some()) {
         let path = folder.path().join("stone").with_extension(format.extensions[0]);
         formats::write(&design, &path).expect("is written");
@@ -264,7 +264,7 @@ fn perfect_diamond(design: &Design) -> (String, String) {
 
 #[test]
 fn the_perfect_diamond_stands_up_again_in_both_forms() {
-    let design = stone_spec::open("original-brilliant").expect("a library stone").design;
+    let design = Stone::parse("original-brilliant").and_then(Stone::into_design).expect("a library stone");
     let (scene, list) = perfect_diamond(&design);
     let before = design.solid().expect("closed");
     for (text, format) in [(scene, "perfect-diamond"), (list, "perfect-diamond-list")] {
@@ -282,11 +282,11 @@ fn the_perfect_diamond_stands_up_again_in_both_forms() {
 
 #[test]
 fn stones_are_named_in_one_grammar() {
-    assert_eq!(stone_spec::open("round-brilliant").expect("a library cut").format, "library");
-    let stone_of = |spec: &str| stone_spec::open(spec).map(|i| i.design.planes().len());
+    assert_eq!(Stone::parse("round-brilliant").expect("a library cut").format(), "library");
+    let stone_of = |spec: &str| Stone::parse(spec).map(|i| i.facets());
     assert!(stone_of("prism:sides=9,").is_ok_and(|n| n == 11));
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/good/square.asc");
-    assert_eq!(stone_spec::open(file.display().to_string()).expect("a file").format, "gemcad");
+    assert_eq!(Stone::parse(file.display().to_string()).expect("a file").format(), "gemcad");
     for (spec, said) in [
         ("round-briliant", "no cut and no file is called 'round-briliant'; did you mean 'round-brilliant'?"),
         ("round-briliant:table=55", "did you mean 'round-brilliant'?"),
@@ -298,7 +298,7 @@ fn stones_are_named_in_one_grammar() {
         ("", "no cut and no file is called ''"),
         ("no/such/file.asc", "there is no file 'no/such/file.asc'"),
     ] {
-        let error = stone_spec::open(spec).map(|i| i.format).expect_err(spec).to_string();
+        let error = Stone::parse(spec).map(|i| i.format()).expect_err(spec).to_string();
         assert!(error.contains(said) && !error.contains('\n'), "{error}");
     }
 }
@@ -352,7 +352,7 @@ fn samples() -> Vec<(String, Vec<u8>)> {
         .into_iter()
         .map(|path| (path.display().to_string(), fs::read(&path).expect("a test file")))
         .collect();
-    let octahedron = stone_spec::open("octahedron").expect("a library cut").design;
+    let octahedron = Stone::parse("octahedron").and_then(Stone::into_design).expect("a library cut");
     for format in FORMATS.iter().filter(|f| f.write.is_some()) {
         let bytes = formats::encode(&octahedron, format.name).expect("can be written");
         samples.push((format!("octahedron as {}", format.name), bytes));

@@ -20,7 +20,7 @@ mod targets;
 
 use cutlab::formats::{self, FORMATS};
 use cutlab::scene::SCENES;
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ use std::sync::LazyLock;
 
 /// For each format that is written, its number and an octahedron in it; then every small good file.
 static SAMPLES: LazyLock<Vec<(u8, Vec<u8>)>> = LazyLock::new(|| {
-    let octahedron = stone_spec::open("octahedron").expect("a library cut").design;
+    let octahedron = Stone::parse("octahedron").and_then(Stone::into_design).expect("a library cut");
     let written = FORMATS.iter().enumerate().filter(|(_, f)| f.write.is_some());
     let mut samples: Vec<(u8, Vec<u8>)> = written
         .map(|(i, f)| (i as u8, formats::encode(&octahedron, f.name).expect("can be written")))

@@ -11,7 +11,7 @@ const ROWS: &[&[&str]] = &[
     &["color", "optics", "geometry"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],
-    &["stone_spec", "metrics"],
+    &["stone", "metrics"],
     &["scene", "scoring"],
     &["photons", "batch"],
     &["integrators"],

@@ -146,7 +146,7 @@ fn the_ratios_of_a_stone_drawn_out_are_those_of_the_round_one() {
 
 #[test]
 fn there_is_no_heart_and_it_is_said_why() {
-    let error = cutlab::stone_spec::open("heart").map(|i| i.format).expect_err("no heart").to_string();
+    let error = cutlab::stone::Stone::parse("heart").map(|i| i.format()).expect_err("no heart").to_string();
     assert!(error.contains("dent") && error.contains("'pear'"), "{error}");
 }
 

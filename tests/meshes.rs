@@ -149,10 +149,12 @@ fn assert_sound(what: &str, surface: &MeshExport) {
 #[test]
 fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
     let drawn =
-        library::names().filter(|n| cutlab::stone_spec::open(format!("{n}:length-to-width=2")).is_ok());
+        library::names().filter(|n| cutlab::stone::Stone::parse(format!("{n}:length-to-width=2")).is_ok());
     let specs = library::names().map(String::from).chain(drawn.map(|n| format!("{n}:length-to-width=2")));
     for spec in specs {
-        let design = cutlab::stone_spec::open(&spec).unwrap_or_else(|e| panic!("{e}")).design;
+        let design = cutlab::stone::Stone::parse(&spec)
+            .and_then(cutlab::stone::Stone::into_design)
+            .unwrap_or_else(|e| panic!("{e}"));
         let facets = design.facets().count();
         let surface = MeshExport::from_design(&design, None).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(surface.facets.len(), facets, "{spec}: a facet is too small to be written");
@@ -166,7 +168,9 @@ fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
 /// of the four that it cuts is as far from the next as `f32` can tell.
 #[test]
 fn corners_that_nearly_meet_are_written_as_one() {
-    let mut design = cutlab::stone_spec::open("octahedron").expect("a library cut").design;
+    let mut design = cutlab::stone::Stone::parse("octahedron")
+        .and_then(cutlab::stone::Stone::into_design)
+        .expect("a library cut");
     let top = design.solid().expect("closed").bounds().1.z;
     let plane = Plane { normal: DVec3::Z, distance: top * (1.0 - 1e-9) };
     let facet = Facet { name: "table".into(), index: None, plane };

@@ -3,13 +3,13 @@
 use cutlab::design::orientation::{doubt, turned_up, up_of};
 use cutlab::design::{Design, library};
 use cutlab::formats::{self};
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use glam::{DMat3, DVec3};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn cut(name: &str) -> Design {
-    stone_spec::open(name).unwrap_or_else(|e| panic!("{e}")).design
+    Stone::parse(name).and_then(Stone::into_design).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn doubted(design: &Design) -> Option<String> {
@@ -20,8 +20,8 @@ fn doubted(design: &Design) -> Option<String> {
 fn every_cut_of_the_library_stands_upright() {
     for name in library::names() {
         assert_eq!(doubted(&cut(name)), None, "{name}");
-        let long = stone_spec::open(format!("{name}:length-to-width=1.6"));
-        assert_eq!(long.ok().and_then(|i| doubted(&i.design)), None, "{name}");
+        let long = Stone::parse(format!("{name}:length-to-width=1.6"));
+        assert_eq!(long.ok().and_then(|stone| doubted(stone.design()?)), None, "{name}");
     }
 }
 

@@ -1,12 +1,12 @@
 //! What the programs that read our files accept: a stand-in of each receiver's limits, because a round
 //! trip through cutlab's own readers cannot show them.
 
+use base64::Engine;
 use cutlab::design::{Design, Gear, Tier, library};
 use cutlab::formats::{self};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::materials::Material;
-use cutlab::stone_spec;
-use base64::Engine;
+use cutlab::stone::Stone;
 use glam::DVec3;
 use std::path::Path;
 
@@ -16,7 +16,9 @@ const ROUGH: f64 = 2.2;
 fn library_designs() -> impl Iterator<Item = (String, Design)> {
     let extra = ["round-brilliant:size=0.5", "emerald:size=80", "prism:sides=7,size=100"];
     let names = library::names().map(String::from).chain(extra.map(String::from));
-    names.map(|spec| (spec.clone(), stone_spec::open(&spec).unwrap_or_else(|e| panic!("{e}")).design))
+    names.map(|spec| {
+        (spec.clone(), Stone::parse(&spec).and_then(Stone::into_design).unwrap_or_else(|e| panic!("{e}")))
+    })
 }
 
 fn data(name: &str) -> Design {
@@ -152,8 +154,9 @@ fn gemcad_cuts_every_stone_whole_out_of_its_rough_from_binary() {
         assert!(texts.iter().all(|t| t.len() <= 79), "{name}");
         assert!((1.0..3.5).contains(&index), "{name}");
     }
-    let (.., index) =
-        gemcad_binary(&encoded(&stone_spec::open("tolkowsky").expect("a cut").design, "gem").bytes);
+    let (.., index) = gemcad_binary(
+        &encoded(&Stone::parse("tolkowsky").and_then(Stone::into_design).expect("a cut"), "gem").bytes,
+    );
     assert_eq!(index, 2.417);
 }
 
@@ -267,7 +270,7 @@ fn viewed(bytes: &[u8]) -> (DVec3, gltf::Document) {
 
 #[test]
 fn gltf_is_in_metres_upright_and_of_its_material() {
-    let design = stone_spec::open("tolkowsky").expect("a cut").design;
+    let design = Stone::parse("tolkowsky").and_then(Stone::into_design).expect("a cut");
     let (low, high) = design.solid().expect("closed").bounds();
     for format in ["glb", "gltf"] {
         let (size, document) = viewed(&encoded(&design, format).bytes);
@@ -299,7 +302,7 @@ fn gltf_is_in_metres_upright_and_of_its_material() {
     assert!(r > 2.0 * g && r > 2.0 * b && volume.attenuation_distance() == 0.01, "{r} {g} {b}");
     assert_eq!(material.name(), Some("ruby"));
     // a shape without size gets one, and that is said
-    let classic = stone_spec::open("classic").expect("a cut").design;
+    let classic = Stone::parse("classic").and_then(Stone::into_design).expect("a cut");
     let written = encoded(&classic, "glb");
     assert!(written.remarks[0].contains("6.5 mm wide"), "{:?}", written.remarks);
     assert!((viewed(&written.bytes).0.x - 0.0065).abs() < 2e-4);
@@ -313,8 +316,8 @@ fn every_design_file_states_an_index_of_refraction() {
         let text = String::from_utf8_lossy(&bytes).into_owned();
         text.lines().find(|l| l.starts_with("I ")).map(String::from).unwrap_or_default()
     };
-    let classic = stone_spec::open("classic").expect("a cut").design;
-    let tolkowsky = stone_spec::open("tolkowsky").expect("a cut").design;
+    let classic = Stone::parse("classic").and_then(Stone::into_design).expect("a cut");
+    let tolkowsky = Stone::parse("tolkowsky").and_then(Stone::into_design).expect("a cut");
     assert_eq!(line(&classic, None), "I 1.54");
     assert_eq!(line(&tolkowsky, None), "I 2.417");
     assert_eq!(line(&classic, Some("corundum")), "I 1.768");

@@ -6,7 +6,7 @@ use cutlab::batch::sweep::Steps;
 use cutlab::batch::table_job::Order;
 use cutlab::metrics::Metric;
 use cutlab::scoring::settings::{ScoreRequest, Target};
-use cutlab::stone_spec::options::{Orientation, StoneOptions, UpAxis};
+use cutlab::stone::{Orientation, StoneOptions, UpAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -6,13 +6,13 @@ use cutlab::design::measured_tiers;
 use cutlab::design::proportions::{self, Proportions};
 use cutlab::design::{Design, library};
 use cutlab::formats::{self, FORMATS};
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn cut(spec: &str) -> Design {
-    stone_spec::open(spec).unwrap_or_else(|e| panic!("{e}")).design
+    Stone::parse(spec).and_then(Stone::into_design).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Every measure with its name, lengths in parts of the width, and how far a file's digits may move it.
@@ -235,7 +235,7 @@ fn a_brilliant_can_be_given_as_a_grading_report_has_it() {
         ("emerald:crown-height=15", "has no parameter 'crown-height'"),
         ("round-brilliant:crown-angle=34,crown-angle=35", "crown-angle is given twice"),
     ] {
-        let error = stone_spec::open(spec).map(|i| i.format).expect_err(spec).to_string();
+        let error = Stone::parse(spec).map(|i| i.format()).expect_err(spec).to_string();
         assert!(error.contains(said), "{spec}: {error}");
     }
     assert!(families::family("step-cut").expect("a family").heights.is_empty());

@@ -4,14 +4,14 @@
 use cutlab::design::Design;
 use cutlab::formats::{self, Loaded};
 use cutlab::geometry::triangulation::TriangleMesh;
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::process::Command;
 
 fn tolkowsky() -> Design {
-    stone_spec::open("tolkowsky").expect("a library cut").design.sized(6.5).expect("closed")
+    Stone::parse("tolkowsky").and_then(Stone::into_design).expect("a library cut").sized(6.5).expect("closed")
 }
 
 /// A binary STL of triangles, without normals.
@@ -221,8 +221,12 @@ fn what_is_shown_of_a_rough_mesh_is_scored() {
 #[test]
 fn too_many_facets_are_counted() {
     // points of a sphere, evenly spread, each with its tangent plane's facet: an icosahedron cut in four five times
-    let mesh =
-        stone_spec::open("octahedron").expect("a library cut").design.solid().expect("closed").triangulate();
+    let mesh = Stone::parse("octahedron")
+        .and_then(Stone::into_design)
+        .expect("a library cut")
+        .solid()
+        .expect("closed")
+        .triangulate();
     let ball: Vec<_> = scan(&mesh, 6, || 0.0).iter().map(|t| t.map(|p| p.normalize() * 3.0)).collect();
     assert_eq!(ball.len(), 32_768);
     let error = formats::read_bytes("ball.stl", &stl(&ball), None).map(|i| i.format).expect_err("too many");

@@ -1,7 +1,7 @@
 //! The ways in which people and programs write the formats: each odd file reads as the plain one.
 
 use cutlab::formats::{self, Loaded};
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 use std::fmt::Write;
 
 fn read(name: &str, bytes: &[u8]) -> Loaded {
@@ -341,7 +341,7 @@ fn gltf_files_of_every_hand_are_one_stone() {
 #[test]
 fn a_gltf_finds_a_buffer_whose_name_is_escaped() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let design = stone_spec::open("octahedron").expect("a library cut").design;
+    let design = Stone::parse("octahedron").and_then(Stone::into_design).expect("a library cut");
     let text = String::from_utf8(formats::encode(&design, "gltf").expect("is written")).expect("JSON");
     let (before, rest) = text.split_once("data:application/octet-stream;base64,").expect("a buffer inside");
     let (data, after) = rest.split_once('"').expect("its end");

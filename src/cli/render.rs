@@ -16,8 +16,8 @@ use super::args::stone;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
-use crate::integrators::{self, Tone, ToneCurve};
 use crate::design::USUAL_WIDTH_MM;
+use crate::integrators::{self, Tone, ToneCurve};
 use crate::parse;
 use crate::scene::{self, SCENES, SceneFile, SceneOverrides};
 use crate::stone::{Stone, StoneSpec, grammar};
@@ -81,8 +81,7 @@ fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
 fn stone_name(spec: &OsStr) -> OsString {
     let text = spec.to_str().filter(|_| grammar::is_cut(spec));
     let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
-    let of_file =
-        || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
+    let of_file = || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
     let given = parameters.unwrap_or_else(of_file);
     let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
     let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
@@ -113,7 +112,10 @@ fn scene_overrides(args: &RenderArgs, console: &Console) -> Result<SceneOverride
         stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
         if stone.given_material().is_none() && stone.material().bare_index().is_some() {
             let why = stone.material().no_dispersion();
-            console.note_of_one(&format!("{}: a picture without fire and colour, for {why}", stone.name()), &why);
+            console.note_of_one(
+                &format!("{}: a picture without fire and colour, for {why}", stone.name()),
+                &why,
+            );
         }
         if stone.lacks_size() {
             console.note(&format!(

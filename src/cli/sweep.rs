@@ -172,7 +172,8 @@ fn check(args: &SweepArgs) -> Result<(), CliError> {
             )));
         }
         let (from, to) = (varied.steps.from, varied.steps.to);
-        if key == INDEX && (args.scoring.stone_args.material.is_some() || args.scoring.stone_args.ri.is_some())
+        if key == INDEX
+            && (args.scoring.stone_args.material.is_some() || args.scoring.stone_args.ri.is_some())
         {
             return Err(CliError::input("--vary ri does not go with --material and --ri"));
         }

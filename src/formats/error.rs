@@ -1,8 +1,8 @@
 //! The one error of every reader and writer. Each is one line.
 
 use crate::design::design_file::DocumentError;
-use crate::geometry::facet_recovery::RecoverError;
 use crate::geometry::SolidError;
+use crate::geometry::facet_recovery::RecoverError;
 use crate::storage::atomic_write::WriteError;
 use crate::storage::limits::Exceeded;
 

@@ -1,7 +1,7 @@
 //! Mesh import: a design from the polygons that a mesh format has read.
 
-use super::format::{Parsed, ParsedShape};
 use super::error::{FormatError, counted};
+use super::format::{Parsed, ParsedShape};
 use super::input::Input;
 use crate::design::{Design, LengthUnit};
 use crate::geometry::facet_recovery::{Polygon, RecoverError, Stored, facets_of_polygons};

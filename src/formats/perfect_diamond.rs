@@ -13,9 +13,9 @@ mod shapes;
 mod words;
 
 use super::error::FormatError;
+use super::format::{Format, Parsed, ParsedShape};
 use super::input::Input;
 use super::mesh_import::{PolygonMesh, recover};
-use super::format::{Format, Parsed, ParsedShape};
 use crate::design::Design;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::Polygon;

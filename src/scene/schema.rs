@@ -11,7 +11,7 @@ use crate::color::illuminants::ILLUMINANTS;
 use crate::color::{Illuminant, rgb_upsampling};
 use crate::design::Design;
 use crate::design::{families, library};
-use crate::formats::{self, Content, triangle_mesh};
+use crate::formats::{self, triangle_mesh};
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::stone::{StoneError, grammar};
@@ -231,7 +231,7 @@ impl StoneEntry {
         } else {
             let path = files.find("cut", cut)?;
             if path.exists() {
-                formats::read_regular(&path).and_then(Content::into_design).map_err(StoneError::from)
+                formats::read_regular(&path).map_err(StoneError::from)
             } else {
                 Err(StoneError::NoSuchStone { spec: cut.into(), nearest: library::nearest(name) })
             }

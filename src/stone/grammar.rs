@@ -115,7 +115,7 @@ impl StoneSpec {
     /// near where there is neither. Checked in `tests/formats.rs`.
     pub(super) fn load(&self) -> Result<Content, StoneError> {
         if self.base == STANDARD_INPUT {
-            return Ok(formats::read_standard_input()?);
+            return Ok(formats::read_content_standard_input()?);
         }
         let path = Path::new(&self.base);
         if !is_cut(&self.base) && path.is_dir() {
@@ -125,19 +125,17 @@ impl StoneSpec {
                 Err(cause) => Err(FormatError::Read { file: spec, cause }.into()),
             };
         }
-        load(&self.base, formats::read)
+        load(&self.base, formats::read_content)
     }
 }
 
 /// Reads the cut or the regular file that another file names, as a scene does.
 pub fn load_regular(spec: &str) -> Result<Loaded, StoneError> {
-    Ok(load(spec.as_ref(), formats::read_regular)?.into_design()?)
+    let read = |path: &Path| formats::read_regular(path).map(Content::Design);
+    Ok(load(spec.as_ref(), read)?.into_design()?)
 }
 
-fn load(
-    argument: &OsStr,
-    read: fn(&Path) -> Result<Content, FormatError>,
-) -> Result<Content, StoneError> {
+fn load(argument: &OsStr, read: fn(&Path) -> Result<Content, FormatError>) -> Result<Content, StoneError> {
     let path = Path::new(argument);
     // a name that is not UTF-8 is a file's
     let Some(spec) = argument.to_str() else { return Ok(read(path)?) };

@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 enum Shape {
     /// A convex solid, which the design's facets bound.
-    Convex { design: Design, solid: Polyhedron },
+    Convex { design: Box<Design>, solid: Polyhedron },
     /// Closed surfaces with concavities, or several, and why they are no convex stone.
     Nonconvex { mesh: Box<ClosedMesh>, problem: Arc<FormatError> },
 }
@@ -52,8 +52,8 @@ impl Stone {
     /// file of any format, which may be a mesh with concavities; each may say its material.
     ///
     /// Errors name the part of the argument, or the file and the place in it, with what was expected and found.
-    pub fn parse(spec: &str) -> Result<Stone, StoneError> {
-        Stone::open(spec, &StoneOptions::default())
+    pub fn parse(spec: impl AsRef<str>) -> Result<Stone, StoneError> {
+        Stone::open(spec.as_ref(), &StoneOptions::default())
     }
 
     /// As [`Stone::parse`], with what is asked for where the stone does not say so itself.
@@ -71,7 +71,7 @@ impl Stone {
     /// - `name`: shown in errors, and its stem names the stone
     /// - `folder`: where files that it refers to must lie; none refuses them
     pub fn from_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Stone, StoneError> {
-        let content = formats::read_bytes(name, bytes, folder)?;
+        let content = formats::read_content_bytes(name, bytes, folder)?;
         let stone = Stone::from_content(name.into(), content, Orientation::default())?;
         stone.made_of(None, &StoneOptions::default())
     }
@@ -161,7 +161,9 @@ impl Stone {
         let k = mm / self.width();
         self.shape = match self.shape {
             Shape::Convex { design, .. } => convex(&self.name, design.scaled_to_mm(k))?,
-            Shape::Nonconvex { mesh, problem } => Shape::Nonconvex { mesh: Box::new(mesh.scaled(k)), problem },
+            Shape::Nonconvex { mesh, problem } => {
+                Shape::Nonconvex { mesh: Box::new(mesh.scaled(k)), problem }
+            }
         };
         self.unit = LengthUnit::Millimetre;
         Ok(self)
@@ -208,6 +210,14 @@ impl Stone {
         match &self.shape {
             Shape::Convex { design, .. } => Ok(design),
             Shape::Nonconvex { problem, .. } => Err(StoneError::NotConvex(problem.clone())),
+        }
+    }
+
+    /// As [`Stone::convex_design`], of which nothing else is needed.
+    pub fn into_design(self) -> Result<Design, StoneError> {
+        match self.shape {
+            Shape::Convex { design, .. } => Ok(*design),
+            Shape::Nonconvex { problem, .. } => Err(StoneError::NotConvex(problem)),
         }
     }
 
@@ -272,5 +282,5 @@ impl Stone {
 /// The shape of a design that another was made into.
 fn convex(stone: &str, design: Design) -> Result<Shape, StoneError> {
     let solid = design.solid().map_err(|cause| StoneError::Solid { stone: stone.into(), cause })?;
-    Ok(Shape::Convex { design, solid })
+    Ok(Shape::Convex { design: Box::new(design), solid })
 }

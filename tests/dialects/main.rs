@@ -8,7 +8,7 @@ mod meshes;
 mod strangers;
 
 use cutlab::formats::{self, Loaded};
-use cutlab::stone_spec;
+use cutlab::stone::Stone;
 
 fn read(what: &str, name: &str, bytes: &[u8]) -> Loaded {
     formats::read_bytes(name, bytes, None).unwrap_or_else(|e| panic!("{what}: {e}"))
@@ -19,7 +19,8 @@ fn refused(name: &str, bytes: &[u8]) -> String {
 }
 
 fn encoded(spec: &str, format: &str) -> Vec<u8> {
-    formats::encode(&stone_spec::open(spec).expect("a library cut").design, format).expect("is written")
+    formats::encode(&Stone::parse(spec).and_then(Stone::into_design).expect("a library cut"), format)
+        .expect("is written")
 }
 
 fn is_octahedron(what: &str, stone: &Loaded, volume: f64) {

@@ -9,7 +9,7 @@ use cutlab::batch::sidecar::TableMeta;
 use cutlab::batch::table::{NumericColumns, RowReader, TableFormat};
 use cutlab::design::Design;
 use cutlab::design::families::{self, FAMILIES};
-use cutlab::formats::{self, FORMATS, FormatError, Input, triangle_mesh};
+use cutlab::formats::{self, FORMATS, FormatError, Input, ParsedShape, triangle_mesh};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::photons::map_file;
 use cutlab::scene::panorama::Panorama;
@@ -72,15 +72,19 @@ pub const READ_ONLY: u8 = 0x10;
 /// every format, which takes a hundred times as long; the rest is the file.
 pub fn readers(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
-    let read: Result<Design, FormatError> = match FORMATS.get(usize::from(how & FOUND)) {
+    let read: Result<Option<Design>, FormatError> = match FORMATS.get(usize::from(how & FOUND)) {
         Some(format) => {
             let source = Input { name: "fuzzed", bytes, folder: None };
-            (format.read)(&source).map(|reading| reading.design)
+            (format.read)(&source).map(|parsed| match parsed.shape {
+                ParsedShape::Design(design) => Some(design),
+                ParsedShape::Mesh { .. } => None,
+            })
         }
-        None => formats::read_bytes("fuzzed", bytes, None).map(|imported| imported.design),
+        None => formats::read_bytes("fuzzed", bytes, None).map(|imported| Some(imported.design)),
     };
     match read {
-        Ok(design) => stands_or_says_why(&design, how & !FOUND == 0),
+        Ok(Some(design)) => stands_or_says_why(&design, how & !FOUND == 0),
+        Ok(None) => (),
         Err(error) => is_one_line(&error),
     }
 }

@@ -53,7 +53,7 @@ fn grid((file, index, expected): (&'static str, f64, &'static [f64])) -> Check {
     let figure =
         |(m, x): (&str, &f64)| Figure::near(format!("{m} of {file} at {index}"), TRACER, *x, 0.7).unit("%");
     Check::new(SUBJECT, SIX.into_iter().zip(expected).map(figure).collect(), move |lab| {
-        let design = formats::read(&lab.file(&format!("pairs/{file}"))?)?.into_design()?.design;
+        let design = formats::read(&lab.file(&format!("pairs/{file}"))?)?.design;
         Ok(Measured::new(lab.scores(
             &design,
             &Material::from_index(index),

@@ -173,7 +173,7 @@ fn corpus() -> Check {
             .filter_map(|row| Some((row.get(file)?.to_string(), row.get(volume)?.parse().ok()?)))
             .collect();
         let volume = |name: &str| {
-            let read = formats::read(&folder.join(name)).ok()?.into_design().ok()?;
+            let read = formats::read(&folder.join(name)).ok()?;
             Some(read.design.solid().ok()?.volume())
         };
         let volumes: Vec<_> = known.par_iter().map(|(name, known)| (volume(name), known)).collect();
