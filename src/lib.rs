@@ -4,9 +4,9 @@
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house.rs` keeps:
 //!
-//! `sampling parse storage` → `color optics geometry` → `materials design trace` →
+//! `sampling parse storage progress` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →
-//! `report manual` → `cli`
+//! `render` → `report manual` → `cli`
 
 pub mod batch;
 pub mod cli;
@@ -22,6 +22,8 @@ pub mod metrics;
 pub mod optics;
 pub mod parse;
 pub mod photons;
+pub mod progress;
+pub mod render;
 pub mod report;
 pub mod sampling;
 pub mod scene;

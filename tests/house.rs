@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The rooms, lowest row first. A file imports only from lower rows; rooms of one row are
 /// strangers.
 const ROWS: &[&[&str]] = &[
-    &["sampling", "storage", "parse"],
+    &["sampling", "storage", "parse", "progress"],
     &["color", "optics", "geometry"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],
@@ -15,6 +15,7 @@ const ROWS: &[&[&str]] = &[
     &["scene", "scoring"],
     &["photons", "batch"],
     &["integrators"],
+    &["render"],
     &["report", "manual"],
     &["cli"],
 ];

@@ -5,6 +5,7 @@ use crate::formats::FormatError;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::photons::map_file::MapFileError;
+use crate::render::RenderError;
 use crate::scene::SceneError;
 use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
@@ -190,6 +191,18 @@ impl From<StoneError> for CliError {
             StoneError::NotConvex(ref cause) => {
                 CliError { shape: shape_of(cause).map(Box::new), ..CliError::input(error.to_string()) }
             }
+            _ => CliError::input(error.to_string()),
+        }
+    }
+}
+
+impl From<RenderError> for CliError {
+    fn from(error: RenderError) -> CliError {
+        match error {
+            RenderError::Stone(error) => error.into(),
+            RenderError::Scene(error) => error.into(),
+            RenderError::PhotonMap(error) => error.into(),
+            RenderError::Write(error) => error.into(),
             _ => CliError::input(error.to_string()),
         }
     }

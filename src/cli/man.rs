@@ -3,7 +3,8 @@
 use super::args::stone;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
-use super::outputs::{Outputs, record};
+use super::outputs::Outputs;
+use crate::render::record;
 use crate::storage::atomic_write;
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, roman};

@@ -3,10 +3,8 @@
 //! - An input is never an output, whatever leads to it.
 //! - A file that is there is replaced only if the same command made it, or if it holds just what is
 //!   to be written, or with `--force`. The same command is known by the record in the file
-//!   ([`record`]), or in a table's companion.
+//!   ([`crate::render::record`]), or in a table's companion.
 //! - Every place is tried before anything is computed ([`output_path::check_writable`]).
-
-pub mod record;
 
 use super::args::{inputs, stone};
 use super::console::Console;

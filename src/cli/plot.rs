@@ -3,10 +3,11 @@
 use super::args::stone;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
-use super::outputs::{Outputs, record};
+use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::TablePart;
 use crate::batch::sidecar::TableMeta;
+use crate::render::record;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]

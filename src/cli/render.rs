@@ -1,56 +1,61 @@
 //! `cutlab render`: a photon-mapped picture of a stone, or an animation.
 
-mod background;
 mod choices;
 mod command;
-mod conflicts;
-mod frames;
 mod options;
-mod picture;
 mod progress;
-mod progressive;
-mod remaining_time;
-mod target;
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::exit_code::{self, CliError, ExitStatus};
 use super::outputs::Outputs;
+use crate::batch::fingerprint::Fingerprint;
 use crate::design::USUAL_WIDTH_MM;
-use crate::integrators::{self, Tone, ToneCurve};
-use crate::parse;
-use crate::scene::{self, SCENES, SceneFile, SceneOverrides};
+use crate::photons::map_file;
+use crate::render::{self, OutputTarget, Provenances, record, request};
+use crate::scene::SceneFile;
 use crate::stone::{Stone, StoneSpec, grammar};
 use crate::storage::atomic_write;
 pub use options::RenderArgs;
+use progress::PictureProgress;
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
 /// Takes the picture or pictures.
 pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let file = scene_file(&args.scene)?;
+    let file = request::open_scene(&args.scene)?;
     let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
-    let target = target::OutputTarget::new(&output, args)?;
-    if let Some(problem) = conflicts::first(args, &target, &file) {
+    let target = OutputTarget::new(&output, args.frames.is_some(), args.passes)?;
+    let mut request = args.request();
+    let photon_map = args.photon_map.as_deref();
+    let conflict =
+        glare_without_equals(args).or_else(|| render::first_conflict(&request, &target, photon_map, &file));
+    if let Some(problem) = conflict {
         return Err(CliError::input(problem));
     }
-    let (width, height) = target.size(args, &file)?;
+    let size = request.picture_size(&file, target.kind())?;
     let mut outputs = Outputs::reading_stones(&args.stones, console);
     outputs.reads(Path::new(&args.scene));
     file.files().iter().chain(&args.hdr).for_each(|read| outputs.reads(read));
-    target.claim(args, &mut outputs)?;
-    let scene = file.build(&scene_overrides(args, console)?, width as f32 / height as f32)?;
-    let curve = args.tone.unwrap_or(if scene.camera.flat { ToneCurve::Linear } else { ToneCurve::Filmic });
-    let tone = Tone { curve, ..Tone::default() };
-    let settings = integrators::RenderSettings {
-        width,
-        height,
-        samples_per_pixel: args.rays(),
-        round: 0,
-        tone,
-        seed: args.seed,
-    };
-    let files = frames::render(args, &scene, settings, &target, console)?;
+    let command = command::normalised();
+    if let Some(map) = photon_map {
+        outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
+    }
+    for file in target.files(args.frames, args.passes) {
+        outputs.claim(&file, |there| record::is_of(there, &command))?;
+    }
+    request.opened = open_stones(args, console)?;
+    let scene = request.build(&file, size)?;
+    // what another version made, or was made of files that have changed since, is of no use
+    let asked = Fingerprint::of_request(&request).hex();
+    let identity = format!("{command} # request {asked}, scene {:08x}", map_file::checksum(&scene));
+    let is_kept = args.frames.is_some() || (args.stops.progressive && !atomic_write::is_stream(&output));
+    if is_kept {
+        exit_code::mark_resumable();
+    }
+    let made = Provenances { command: &command, identity: &identity };
+    let progress = PictureProgress::new(console);
+    let files = render::to_files(&request, &scene, &target, (photon_map, args.passes), made, &progress)?;
     if atomic_write::is_stdout(&output) {
         return Ok(ExitStatus::Done); // the picture is the whole of what standard output gets
     }
@@ -89,26 +94,10 @@ fn stone_name(spec: &OsStr) -> OsString {
     std::iter::once(grammar::file_stem(spec)).chain(told).collect::<Vec<_>>().join(OsStr::new("-"))
 }
 
-/// A scene of the catalogue, or a file.
-fn scene_file(name: &OsStr) -> Result<SceneFile, CliError> {
-    if let Some(file) = name.to_str().and_then(scene::preset) {
-        return Ok(file?);
-    }
-    let path = Path::new(name);
-    if path.extension().is_some_and(|e| e == "toml") || path.exists() {
-        return Ok(SceneFile::open(path)?);
-    }
-    let name = stone::display_name(name);
-    let near = parse::did_you_mean(parse::nearest_name(&name, SCENES.iter().map(|(n, _)| *n)));
-    Err(CliError::input(format!(
-        "no scene and no file is called '{name}'{near} (all scenes: cutlab list scenes)"
-    )))
-}
-
-fn scene_overrides(args: &RenderArgs, console: &Console) -> Result<SceneOverrides, CliError> {
-    let (mut designs, mut materials) = (Vec::new(), Vec::new());
-    for spec in &args.stones {
-        let mut stone = Stone::open(spec, &args.stone_args.options(args.size))?;
+/// The stones, opened, with what is to be said of them.
+fn open_stones(args: &RenderArgs, console: &Console) -> Result<Vec<Stone>, CliError> {
+    let open = |spec: &OsString| {
+        let stone = Stone::open(spec, &args.stone_args.options(args.size))?;
         stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
         if stone.given_material().is_none() && stone.material().bare_index().is_some() {
             let why = stone.material().no_dispersion();
@@ -117,27 +106,22 @@ fn scene_overrides(args: &RenderArgs, console: &Console) -> Result<SceneOverride
                 &why,
             );
         }
-        if stone.lacks_size() {
-            console.note(&format!(
-                "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
-                stone.convex_design()?.name
-            ));
-            stone = stone.with_usual_width()?;
+        if !stone.lacks_size() {
+            return Ok(stone);
         }
-        materials.push(stone.given_material().cloned());
-        designs.push(stone.convex_design()?.clone());
-    }
-    Ok(SceneOverrides {
-        designs,
-        materials,
-        material: args.stone_args.asked(),
-        size_mm: args.size,
-        pose: args.pose,
-        polarisation: args.polarisation,
-        panorama: args.hdr.clone(),
-        allow_outside: args.allow_outside,
-        cut_out: args.background.is_some(),
-    })
+        console.note(&format!(
+            "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
+            stone.convex_design()?.name
+        ));
+        Ok(stone.with_usual_width()?)
+    };
+    args.stones.iter().map(open).collect()
+}
+
+/// `--glare 8`: the number counts as a STONE.
+fn glare_without_equals(args: &RenderArgs) -> Option<String> {
+    let number = args.stones.iter().filter_map(|s| s.to_str()).find(|s| s.parse::<f32>().is_ok())?;
+    args.glare.is_some().then(|| format!("--glare takes its number after '=': --glare={number}"))
 }
 
 #[cfg(test)]

@@ -5,11 +5,13 @@ use crate::scene::{PlacedStone, Scene, Surface};
 use glam::{Mat3, Vec3};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
+use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 use std::io::Write;
 
 /// The moving part of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Turn {
     /// The camera goes around its target.
     #[default]

@@ -6,9 +6,11 @@
 
 use super::film::Film;
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// A tone curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ToneCurve {
     /// Straight in the dark, bending toward white as film does: highlights keep their detail.
     #[default]

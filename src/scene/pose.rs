@@ -2,9 +2,11 @@
 
 use crate::geometry::Polyhedron;
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// A way for a stone to stand on a plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Pose {
     /// As a loose stone lies: on a facet over which its centre of mass comes to rest, the crown
     /// side up if there is such a facet.

@@ -4,16 +4,8 @@ use crate::integrators::ToneCurve;
 use crate::integrators::animation::Turn;
 use crate::parse;
 use crate::parse::NumberUnit;
+use crate::render::Exposure;
 use crate::scene::Pose;
-
-/// `--exposure`.
-#[derive(Debug, Clone, Copy)]
-pub enum Exposure {
-    /// Found from the picture.
-    Auto,
-    /// In stops beside the scene's own.
-    Stops(f32),
-}
 
 /// Value parser of `--exposure`.
 pub fn exposure(text: &str) -> Result<Exposure, String> {

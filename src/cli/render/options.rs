@@ -1,14 +1,12 @@
 //! Options of `cutlab render`.
 
 use super::super::args::{stone, values};
-use super::background::Background;
-use super::choices::Exposure;
-use super::{background, choices};
+use super::choices;
 use crate::integrators::ToneCurve;
 use crate::integrators::animation::Turn;
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
-use crate::photons;
+use crate::render::{AnimationRequest, Background, Exposure, RenderRequest, StopRequest, background};
 use crate::scene::{self, Pose};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -118,12 +116,33 @@ pub struct RenderArgs {
 }
 
 impl RenderArgs {
-    pub fn rays(&self) -> u32 {
-        self.spp.unwrap_or(if self.stops.progressive { 1 } else { 25 })
-    }
-
-    pub fn photons(&self) -> photons::PhotonSettings {
-        photons::PhotonSettings { photons: self.photons, nearest: self.nearest, seed: self.seed }
+    /// The request that these options make, its stones by name.
+    pub fn request(&self) -> RenderRequest {
+        let StopArgs { progressive, rounds, time, noise } = self.stops;
+        let animation = |frames| AnimationRequest { frames, turn: self.turn, rock: self.rock, fps: self.fps };
+        RenderRequest {
+            stones: self.stones.iter().map(stone::display_name).collect(),
+            options: self.stone_args.options(self.size),
+            scene: stone::display_name(&self.scene),
+            allow_outside: self.allow_outside,
+            panorama: self.hdr.clone(),
+            pose: self.pose,
+            width: self.width,
+            height: self.height,
+            samples_per_pixel: self.spp,
+            seed: self.seed,
+            photons: self.photons,
+            nearest: self.nearest,
+            progressive: progressive.then_some(StopRequest { rounds, time, noise }),
+            animation: self.frames.map(animation),
+            background: self.background,
+            exposure: self.exposure,
+            tone: self.tone,
+            glare: self.glare,
+            bits: self.bits.as_deref().map(|bits| if bits == "16" { 16 } else { 8 }),
+            polarised: self.polarisation,
+            opened: Vec::new(),
+        }
     }
 }
 

@@ -1,65 +1,58 @@
-//! Progress of pictures and frames, as it is shown.
+//! Progress of pictures, as bars on a terminal.
 
 use crate::cli::console::Console;
+use crate::progress::Progress;
 use indicatif::ProgressBar;
+use std::sync::{Mutex, PoisonError};
 
-/// Where the work on a picture tells how far it is.
-pub enum PictureProgress<'a> {
-    /// On signs of its own.
-    Single(&'a Console),
-    /// On the bar of an animation, which counts rows of all its frames.
-    Frame { console: &'a Console, bar: &'a ProgressBar, frame: u32, frames: u32 },
+/// Shows each step as a bar, or as a clock where it has no count.
+pub struct PictureProgress<'a> {
+    console: &'a Console,
+    bar: Mutex<Option<ProgressBar>>,
 }
 
-/// A sign of a step of the work, which ends with the step.
-pub struct ProgressSign {
-    bar: ProgressBar,
-    prefix: String,
-    own: bool,
-}
-
-impl ProgressSign {
-    /// Says what is done now.
-    pub fn say(&self, what: &str) {
-        self.bar.set_message(format!("{}{what}", self.prefix));
+impl<'a> PictureProgress<'a> {
+    /// Of a command.
+    pub fn new(console: &'a Console) -> PictureProgress<'a> {
+        PictureProgress { console, bar: Mutex::new(None) }
     }
 
-    /// Counts a row.
-    pub fn row(&self) {
-        self.bar.inc(1);
-    }
-}
-
-impl Drop for ProgressSign {
-    fn drop(&mut self) {
-        if self.own {
-            self.bar.finish_and_clear();
+    fn with_bar(&self, work: impl FnOnce(&ProgressBar)) {
+        if let Some(bar) = &*self.bar.lock().unwrap_or_else(PoisonError::into_inner) {
+            work(bar);
         }
     }
 }
 
-impl PictureProgress<'_> {
-    pub fn console(&self) -> &Console {
-        match self {
-            PictureProgress::Single(console) | PictureProgress::Frame { console, .. } => console,
+impl Progress for PictureProgress<'_> {
+    fn begin(&self, what: &str, parts: u64) {
+        let bar = match parts {
+            0 => self.console.spinner(""),
+            parts => self.console.progress(parts as usize, ""),
+        };
+        bar.set_message(what.to_owned());
+        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar);
+    }
+
+    fn advance(&self, parts: u64) {
+        self.with_bar(|bar| bar.inc(parts));
+    }
+
+    fn say(&self, what: &str) {
+        self.with_bar(|bar| bar.set_message(what.to_owned()));
+    }
+
+    fn end(&self) {
+        if let Some(bar) = self.bar.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            bar.finish_and_clear();
         }
     }
 
-    /// Begins a step.
-    ///
-    /// - `steps`: rows of the picture, 0 for a step without a count
-    pub fn begin(&self, what: &'static str, steps: usize) -> ProgressSign {
-        match self {
-            PictureProgress::Single(console) => {
-                let bar = if steps == 0 { console.spinner(what) } else { console.progress(steps, what) };
-                ProgressSign { bar, prefix: String::new(), own: true }
-            }
-            PictureProgress::Frame { bar, frame, frames, .. } => {
-                let prefix = format!("frame {} of {frames}: ", frame + 1);
-                let sign = ProgressSign { bar: (*bar).clone(), prefix, own: false };
-                sign.say(what);
-                sign
-            }
+    fn note(&self, text: &str) {
+        let bar = self.bar.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*bar {
+            Some(bar) => bar.suspend(|| self.console.note(text)),
+            None => self.console.note(text),
         }
     }
 }

@@ -1,64 +1,14 @@
-//! `-o` of `cutlab render`: what is written and where, and the work that is kept beside it.
+//! Where pictures go: what is written and where, and the work that is kept beside it.
 
-use super::{RenderArgs, command};
-use crate::cli::args::stone;
-use crate::cli::console::Console;
-use crate::cli::exit_code::{self, CliError};
-use crate::cli::outputs::{Outputs, record};
-use crate::integrators::animation;
-use crate::integrators::{Pass, mp4};
-use crate::scene::SceneFile;
-use crate::scene::scene_file::MOST_PIXELS;
+use super::error::RenderError;
+use super::picture_kind::PictureKind;
+use crate::integrators::{Pass, animation};
+use crate::progress::Progress;
 use crate::storage::atomic_write::{self, WriteError};
+use crate::storage::text::display_name;
 use crate::storage::{limits, lock};
 use std::io::Read;
 use std::path::{Path, PathBuf};
-
-/// What is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PictureKind {
-    Png,
-    Jpeg,
-    WebP,
-    Exr,
-    /// PNG pictures whose names have a number.
-    Numbered,
-    Gif,
-    Apng,
-    Mp4,
-}
-
-impl PictureKind {
-    /// Its name in a sentence.
-    pub fn name(self) -> &'static str {
-        match self {
-            PictureKind::Png | PictureKind::Numbered => "a PNG",
-            PictureKind::Jpeg => "a JPEG",
-            PictureKind::WebP => "a WebP",
-            PictureKind::Exr => "an EXR",
-            PictureKind::Gif => "a GIF",
-            PictureKind::Apng => "an animated PNG",
-            PictureKind::Mp4 => "an MP4",
-        }
-    }
-
-    /// Whether its pixels can be transparent by degrees.
-    pub fn has_alpha(self) -> bool {
-        matches!(
-            self,
-            PictureKind::Png
-                | PictureKind::Numbered
-                | PictureKind::WebP
-                | PictureKind::Exr
-                | PictureKind::Apng
-        )
-    }
-
-    /// Whether it is an animation in one file.
-    pub fn is_film(self) -> bool {
-        matches!(self, PictureKind::Gif | PictureKind::Apng | PictureKind::Mp4)
-    }
-}
 
 /// A target that this process has to itself until it is dropped.
 pub struct OutputLock<'a> {
@@ -98,27 +48,27 @@ pub struct OutputTarget {
 
 impl OutputTarget {
     /// The file's extension decides, and whether it is an animation.
-    pub fn new(path: &Path, args: &RenderArgs) -> Result<OutputTarget, CliError> {
+    ///
+    /// - `several`: whether it is an animation; `passes`: whether passes are written as files of their own
+    pub fn new(path: &Path, several: bool, passes: bool) -> Result<OutputTarget, RenderError> {
         let extension = path.extension().map_or_else(String::new, |e| e.to_string_lossy().to_lowercase());
-        let several = args.frames.is_some();
-        let shown = stone::display_name(path);
+        let shown = display_name(path);
+        let wrong = |why: String| Err(RenderError::Request(why));
         // the name of a pipe may have an extension that tells, that of a device or an open file has none
         let nameless = atomic_write::is_stream(path) && extension.is_empty();
-        if nameless && (several || args.passes) {
+        if nameless && (several || passes) {
             let what = if atomic_write::is_stdout(path) { "standard output" } else { "a stream" };
-            return Err(CliError::input(format!(
-                "several pictures cannot go to {what}: name a file with -o"
-            )));
+            return wrong(format!("several pictures cannot go to {what}: name a file with -o"));
         }
         let places = path.file_name().map_or(0, |n| n.to_string_lossy().matches('%').count());
         let numbered = numbered(path, 0).is_some();
         if several && places > 0 && !(numbered && extension == "png") {
-            return Err(CliError::input(format!(
+            return wrong(format!(
                 "{shown}: frames are numbered by one %d or %03d in the name of a .png; other names of an animation have no %"
-            )));
+            ));
         }
         if !several && numbered {
-            return Err(CliError::input(format!("{shown}: the name has a place for numbers of --frames N")));
+            return wrong(format!("{shown}: the name has a place for numbers of --frames N"));
         }
         let kind = match (extension.as_str(), several) {
             _ if nameless => PictureKind::Png,
@@ -131,75 +81,35 @@ impl OutputTarget {
             ("webp", false) => PictureKind::WebP,
             ("exr", false) => PictureKind::Exr,
             (_, true) => {
-                return Err(CliError::input(format!(
+                return wrong(format!(
                     "{shown}: an animation is .mp4, .gif, .apng or .png, or numbered pictures (name-%03d.png)"
-                )));
+                ));
             }
             ("mp4" | "m4v" | "gif" | "apng", false) => {
-                return Err(CliError::input(format!("{shown}: an animation needs --frames N")));
+                return wrong(format!("{shown}: an animation needs --frames N"));
             }
             (_, false) => {
-                return Err(CliError::input(format!(
-                    "{shown}: pictures are .png, .jpg, .webp or .exr, name the file so"
-                )));
+                return wrong(format!("{shown}: pictures are .png, .jpg, .webp or .exr, name the file so"));
             }
         };
-        if args.passes && kind.is_film() {
-            return Err(CliError::input("passes of an animation need numbered pictures: -o name-%03d.png"));
+        if passes && kind.is_film() {
+            return wrong("passes of an animation need numbered pictures: -o name-%03d.png".into());
         }
         Ok(OutputTarget { path: path.into(), kind })
     }
 
-    /// Width and height; one of them alone keeps the scene's shape. Those of an MP4 are even.
-    pub fn size(&self, args: &RenderArgs, file: &SceneFile) -> Result<(u32, u32), CliError> {
-        let (w, h) = file.picture();
-        let scaled = |side: u32, a: u32, b: u32| {
-            (u64::from(side) * u64::from(a)).div_ceil(u64::from(b)).clamp(1, u64::from(MOST_PIXELS)) as u32
-        };
-        let (width, height) = match (args.width, args.height) {
-            (Some(width), Some(height)) => (width, height),
-            (Some(width), None) => (width, scaled(width, h, w)),
-            (None, Some(height)) => (scaled(height, w, h), height),
-            (None, None) => (w, h),
-        };
-        if self.kind != PictureKind::Mp4 {
-            return Ok((width, height));
-        }
-        for (option, given) in [("--width", args.width), ("--height", args.height)] {
-            if let Some(odd) = given.filter(|n| n % 2 == 1) {
-                let even = odd + 1;
-                return Err(CliError::input(format!("an MP4 has even sides: {option} {even}")));
-            }
-        }
-        let (width, height) = (width.next_multiple_of(2), height.next_multiple_of(2));
-        let fits = mp4::SIDES.contains(&width) && mp4::SIDES.contains(&height);
-        if !fits || width.min(height) > mp4::SHORTER_SIDE {
-            return Err(CliError::input(format!(
-                "an MP4 is from {0}×{0} to {1}×{2} pixels, not {width}×{height}: --width and --height set it",
-                mp4::SIDES.start(),
-                mp4::SIDES.end(),
-                mp4::SHORTER_SIDE
-            )));
-        }
-        Ok((width, height))
-    }
-
-    /// Takes the places of all files, or says why they cannot be written.
-    pub fn claim(&self, args: &RenderArgs, outputs: &mut Outputs) -> Result<(), CliError> {
-        let command = command::normalised();
-        let is_own = |there: &Path| record::is_of(there, &command);
-        if let Some(map) = &args.photon_map {
-            outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
-        }
-        let numbers = if self.kind == PictureKind::Numbered { args.frames.unwrap_or(1) } else { 1 };
-        for number in 0..numbers {
+    /// Every file that is written, passes first.
+    ///
+    /// - `frames`: how many pictures an animation has
+    pub fn files(&self, frames: Option<u32>, passes: bool) -> Vec<PathBuf> {
+        let numbers = if self.kind == PictureKind::Numbered { frames.unwrap_or(1) } else { 1 };
+        let of_number = |number| {
             let path = if self.kind.is_film() { self.path.clone() } else { self.frame(number) };
-            for (_, name) in Pass::ALL.iter().filter(|_| args.passes && self.kind != PictureKind::Exr) {
-                outputs.claim(&beside(&path, name), is_own)?;
-            }
-            outputs.claim(&path, is_own)?;
-        }
-        Ok(())
+            let passes = Pass::ALL.iter().filter(|_| passes && self.kind != PictureKind::Exr);
+            let passes: Vec<PathBuf> = passes.map(|(_, name)| pass_path(&path, name)).collect();
+            passes.into_iter().chain([path])
+        };
+        (0..numbers).flat_map(of_number).collect()
     }
 
     /// What is written.
@@ -213,15 +123,10 @@ impl OutputTarget {
     }
 
     /// Has the target to itself from here on.
-    ///
-    /// - `goes_on`: whether what is done of it outlives this process
-    pub fn lock(&self, goes_on: bool, console: &Console) -> Result<OutputLock<'_>, CliError> {
-        if goes_on {
-            exit_code::mark_resumable();
-        }
+    pub fn lock(&self, progress: &dyn Progress) -> Result<OutputLock<'_>, RenderError> {
         let waiting = || {
-            let path = stone::display_name(&self.path);
-            console.note(&format!("another cutlab is making {path}: waiting for it to end"));
+            let path = display_name(&self.path);
+            progress.note(&format!("another cutlab is making {path}: waiting for it to end"));
         };
         let path = lock::sidecar_path(&self.path, "lock");
         let lock =
@@ -253,7 +158,7 @@ impl OutputTarget {
         let path = self.frame(number);
         let shown = |path: &Path| animation::finished_frame(&read_whole(path, pixels)?, command, pixels);
         let mut others = Pass::ALL.iter().filter(|_| passes);
-        if others.any(|(_, name)| shown(&beside(&path, name)).is_none()) {
+        if others.any(|(_, name)| shown(&pass_path(&path, name)).is_none()) {
             return None;
         }
         let channels = if alpha { 4 } else { 3 };
@@ -302,7 +207,7 @@ fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
 }
 
 /// `turn.png` for the caustic pass: `turn-caustic.png`.
-pub fn beside(path: &Path, pass: &str) -> PathBuf {
+pub fn pass_path(path: &Path, pass: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push(format!("-{pass}."));
     name.push(path.extension().unwrap_or_default());

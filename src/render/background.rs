@@ -1,28 +1,31 @@
-//! `--background`: what stands behind the stones in a picture.
+//! Backgrounds: what stands behind the stones in a picture.
 
 use crate::color::cie;
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// What a picture has for its background.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Background {
     /// Nothing: the picture is transparent there.
     Transparent,
-    /// One colour, in linear sRGB.
-    Colour(Vec3),
+    /// One colour: red, green and blue of sRGB.
+    Colour([u8; 3]),
 }
 
-/// Value parser: `transparent`, `white`, `black`, `#RRGGBB`.
+/// A colour of sRGB as linear light.
+pub fn linear(colour: [u8; 3]) -> Vec3 {
+    Vec3::from(colour.map(|byte| cie::srgb_decode(f32::from(byte) / 255.0)))
+}
+
+/// Reads `transparent`, `white`, `black` or `#RRGGBB`; the error says what is expected.
 pub fn parse(text: &str) -> Result<Background, String> {
-    let of = |[r, g, b]: [u8; 3]| {
-        let linear = |byte: u8| cie::srgb_decode(f32::from(byte) / 255.0);
-        Background::Colour(Vec3::new(linear(r), linear(g), linear(b)))
-    };
     match text.to_ascii_lowercase().as_str() {
         "transparent" => Ok(Background::Transparent),
-        "white" => Ok(of([255; 3])),
-        "black" => Ok(of([0; 3])),
-        other => other.strip_prefix('#').and_then(bytes).map(of).ok_or_else(|| {
+        "white" => Ok(Background::Colour([255; 3])),
+        "black" => Ok(Background::Colour([0; 3])),
+        other => other.strip_prefix('#').and_then(bytes).map(Background::Colour).ok_or_else(|| {
             "a background is transparent, white, black, or a colour as '#1e90ff' (in quotes: # begins a comment)"
                 .into()
         }),
@@ -46,9 +49,11 @@ mod tests {
     #[test]
     fn colours_are_read_as_a_style_sheet_has_them() {
         assert_eq!(parse("Transparent"), Ok(Background::Transparent));
-        assert_eq!(parse("white"), Ok(Background::Colour(Vec3::ONE)));
+        assert_eq!(parse("white"), Ok(Background::Colour([255; 3])));
+        assert_eq!(linear([255; 3]), Vec3::ONE);
         assert_eq!(parse("#000000"), Ok(Background::Colour(Vec3::ZERO)));
-        let Ok(Background::Colour(c)) = parse("#FF0080") else { unreachable!("a colour") };
+        assert_eq!(parse("#FF0080"), Ok(Background::Colour([255, 0, 128])));
+        let c = linear([255, 0, 128]);
         assert!((c - Vec3::new(1.0, 0.0, 0.2158605)).abs().max_element() < 1e-5, "{c}");
         for wrong in ["#fff", "red ", "#12345g", "#+12345", "#1234567", ""] {
             assert!(parse(wrong).is_err(), "{wrong}");

@@ -3,10 +3,9 @@
 //! PNG and APNG have it as the text `Command`, EXR as the comment of its first layer, SVG, HTML and GIF
 //! as a processing instruction behind their end.
 
-use crate::cli::args::stone;
 use crate::parse::shell;
-use crate::report::page::escaped;
 use crate::storage::limits;
+use crate::storage::text::display_name;
 use exr::meta::MetaData;
 use std::ffi::OsString;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -37,7 +36,7 @@ pub fn own_command() -> String {
 
 fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
     let mut said = vec!["cutlab".to_owned()];
-    let mut arguments = arguments.map(stone::display_name);
+    let mut arguments = arguments.map(display_name);
     while let Some(argument) = arguments.next() {
         let name = argument.split('=').next().unwrap_or_default();
         if WHERE.contains(&name) && !argument.contains('=') {
@@ -70,6 +69,12 @@ pub fn in_pdf(mut page: Vec<u8>, command: &str) -> Vec<u8> {
 /// What stands behind a drawing, page or GIF and records its command.
 pub fn behind(command: &str) -> String {
     format!("{BEFORE}{}{AFTER}", escaped(command))
+}
+
+/// Text within markup, which has no control characters.
+fn escaped(text: &str) -> String {
+    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Whether the picture, drawing or page at `path` was made by `command`.

@@ -41,6 +41,18 @@ pub fn time_to(all: f64, rounds: u32, taken: Duration) -> Option<Duration> {
     Duration::try_from_secs_f64(left).ok()
 }
 
+/// A time in its largest unit: `40 seconds`, `3 minutes`, `2 hours`.
+pub fn in_words(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    let (n, unit) = match seconds {
+        s if s < 90.0 => (s, "second"),
+        s if s < 90.0 * 60.0 => (s / 60.0, "minute"),
+        s => (s / 3600.0, "hour"),
+    };
+    let n = n.round();
+    format!("{n} {unit}{}", if n == 1.0 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,6 +68,13 @@ mod tests {
         }
         let left = time_to(1000.0, 100, Duration::from_secs(10)).expect("is a time");
         assert!((left.as_secs_f64() - 90.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn times_are_said_in_their_largest_unit() {
+        let said = |s: f64| in_words(Duration::from_secs_f64(s));
+        assert_eq!([said(1.2), said(89.0), said(150.0)], ["1 second", "89 seconds", "3 minutes"]);
+        assert_eq!(said(7300.0), "2 hours");
     }
 
     #[test]

@@ -1,20 +1,19 @@
-//! `--progressive`: rounds of a picture until a stop.
+//! Progressive pictures: rounds until a stop.
 
-use super::RenderArgs;
-use super::options::StopArgs;
-use super::picture::PictureProgress;
-use super::remaining_time::{self, Outlook};
-use crate::cli::exit_code::CliError;
+use super::error::RenderError;
+use super::remaining_time::{self, Outlook, in_words};
+use super::request::StopRequest;
 use crate::integrators::{Film, Progressive, RenderSettings};
+use crate::photons::PhotonSettings;
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::storage::checkpoint::Checkpoint;
-use indicatif::HumanDuration;
 use std::time::{Duration, Instant};
 
 /// Seconds between two writings of a picture that is still getting better.
 const WRITE_EVERY: Duration = Duration::from_secs(60);
 
-impl StopArgs {
+impl StopRequest {
     /// Noise at which a picture is good enough if nothing is said.
     const NOISE: f64 = 0.02;
     /// Rounds after which it is taken as it is if nothing is said.
@@ -49,38 +48,41 @@ impl StopArgs {
     }
 }
 
-/// Takes rounds until a stop, from where an earlier start of the same command was. Returns the picture
+/// Takes rounds until a stop, from where an earlier start of the same request was. Returns the picture
 /// and the number of its rounds.
 ///
 /// - `kept`: where its state is kept, if it can be
-/// - `keep`: writes the picture as it is so far, now and then
+/// - `keep`: is given the picture as it is so far, now and then
 pub fn render(
-    args: &RenderArgs,
+    stops: &StopRequest,
     scene: &Scene,
     settings: &RenderSettings,
-    progress: &PictureProgress,
+    photons: PhotonSettings,
+    progress: &dyn Progress,
     mut kept: Option<&mut Checkpoint>,
-    keep: &mut dyn FnMut(&Film, u32) -> Result<(), CliError>,
-) -> Result<(Film, u32), CliError> {
+    keep: &mut dyn FnMut(&Film, u32) -> Result<(), RenderError>,
+) -> Result<(Film, u32), RenderError> {
     let mut since = Instant::now();
     let mut written = since;
-    let console = progress.console();
-    let sign = progress.begin("round 1", 0);
+    progress.begin("round 1", 0);
     let mut outlook = Outlook::default();
-    let mut picture = Progressive::new(scene, &scene.camera, *settings, args.photons());
+    let mut picture = Progressive::new(scene, &scene.camera, *settings, photons);
     let earlier = kept.as_ref().and_then(|kept| kept.load());
     if let Some((seconds, state)) = earlier.as_ref().and_then(|state| state.split_first_chunk()) {
         let taken = Duration::try_from_secs_f64(f64::from_le_bytes(*seconds)).unwrap_or_default();
         if picture.restore(state) {
             since = since.checked_sub(taken).unwrap_or(since);
-            console.note(&format!("going on after {} rounds", picture.rounds()));
+            progress.note(&format!("going on after {} rounds", picture.rounds()));
         }
     }
-    while picture.rounds() == 0 || !args.stops.reached(&picture, since.elapsed()) {
+    while picture.rounds() == 0 || !stops.reached(&picture, since.elapsed()) {
+        if progress.is_cancelled() {
+            return Err(RenderError::Cancelled);
+        }
         picture.round(&|| ());
         outlook.note(picture.rounds(), picture.noise());
-        let left = args.stops.left(&outlook, picture.rounds(), since.elapsed());
-        sign.say(&status_line(&picture, left));
+        let left = stops.left(&outlook, picture.rounds(), since.elapsed());
+        progress.say(&status_line(&picture, left));
         if let Some(kept) = &mut kept {
             kept.save(|| [&since.elapsed().as_secs_f64().to_le_bytes()[..], &picture.state()].concat())?;
         }
@@ -89,12 +91,12 @@ pub fn render(
             written = Instant::now();
         }
     }
-    drop(sign);
+    progress.end();
     let rounds = match picture.rounds() {
         1 => "1 round".to_string(),
         n => format!("{n} rounds"),
     };
-    console.note(&match picture.noise() {
+    progress.note(&match picture.noise() {
         _ if picture.is_black() => format!("{rounds}: the picture is black, no light reaches the camera"),
         noise if noise.is_finite() => format!("{rounds}, noise {:.1} %", 100.0 * noise),
         _ => format!("{rounds}, too few to tell the noise"),
@@ -109,7 +111,7 @@ fn status_line(picture: &Progressive, left: Option<Duration>) -> String {
         said += &format!(", noise {:.1} %", 100.0 * picture.noise());
     }
     if let Some(left) = left {
-        said += &format!(", about {} left", HumanDuration(left));
+        said += &format!(", about {} left", in_words(left));
     }
     said
 }
