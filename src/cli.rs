@@ -31,8 +31,8 @@ mod validate;
 mod weight;
 mod wrap;
 
+use crate::limits;
 use crate::manual::TOPICS;
-use crate::storage::limits;
 use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;

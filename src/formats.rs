@@ -40,8 +40,9 @@ pub use mesh_export::MeshExport;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
 use crate::geometry::ClosedMesh;
 use crate::geometry::polyhedron::PlaneStatus;
+use crate::limits;
 use crate::materials::Material;
-use crate::storage::{atomic_write, limits, stdin};
+use crate::storage::{atomic_write, bounded_read, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -79,12 +80,12 @@ pub struct Loaded {
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
 pub fn read(path: &Path) -> Result<Loaded, FormatError> {
-    read_as(path, limits::FILE.read(path))
+    read_as(path, bounded_read::read(path, &limits::FILE))
 }
 
 /// As [`read`], for what a file names: only a regular file is read.
 pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
-    read_as(path, limits::FILE.read_regular(path))
+    read_as(path, bounded_read::read_regular(path, &limits::FILE))
 }
 
 /// Reads standard input; files that it refers to are refused.

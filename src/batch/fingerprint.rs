@@ -1,8 +1,9 @@
 //! Fingerprint of a table: a hash of everything that it depends on.
 
 use crate::formats;
+use crate::limits;
+use crate::storage::stdin;
 use crate::storage::text;
-use crate::storage::{limits, stdin};
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};

@@ -4,9 +4,10 @@ use super::shard::Shard;
 use super::sidecar::{TableMeta, checksum};
 use super::table::{RowReader, TableError, TableFormat};
 use super::table_job::TableSummary;
+use crate::limits;
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::journal::Journal;
-use crate::storage::{limits, text};
+use crate::storage::{bounded_read, text};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,9 +92,9 @@ impl TablePart {
         let form = TableFormat::from_path(table)?;
         let beside = TableMeta::find_for(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
-        let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
+        let sum = bounded_read::open_regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let bytes = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
+        let bytes = bounded_read::read_regular(&beside, &limits::COMPANION).map_err(|e| fail(&beside, e))?;
         let bytes = bytes.map_err(|e| wrong(e.to_string()))?;
         let meta: TableMeta =
             serde_json::from_str(&text::decode(&bytes)).map_err(|e| wrong(e.to_string()))?;
@@ -122,7 +123,7 @@ impl TablePart {
         if let Some(text) = &self.decoded {
             return Ok(Box::new(text.as_bytes()));
         }
-        let file = limits::regular(&self.table);
+        let file = bounded_read::open_regular(&self.table);
         let file = file.map_err(|cause| MergeError::Read { path: self.table.clone(), cause })?;
         Ok(Box::new(BufReader::new(file)))
     }

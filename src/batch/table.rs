@@ -1,8 +1,8 @@
 //! Tables of scores: one row a line, as CSV or JSON.
 
+use crate::limits;
 use crate::metrics::Metric;
 use crate::scoring::score::ScoreRow;
-use crate::storage::limits;
 use crate::storage::text;
 use serde::ser::{SerializeMap, Serializer};
 use std::collections::BTreeMap;

@@ -6,7 +6,7 @@ use super::meet_points::{MeetError, MeetPointSolver, Rule, TierSpec};
 use super::scaling::{LENGTH_TO_WIDTH, scale_length_to_width};
 use super::tiers::{Design, Facet, Gear, LengthUnit, Tier, facet_normal};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -13,7 +13,7 @@ pub use error::MeetError;
 use super::proportions::{flat_extent, wheel_size};
 use super::tiers::{Facet, Gear, Tier, Zone, facet_normal};
 use crate::geometry::{Plane, Polyhedron};
-use crate::storage::limits;
+use crate::limits;
 use glam::{DMat3, DVec3};
 use std::cell::Cell;
 

@@ -5,8 +5,9 @@ use super::input::{Input, lines};
 use super::{Format, Parsed, Writer};
 use crate::design::Design;
 use crate::design::design_file::{DesignFile, DocumentError};
+use crate::limits;
 use crate::parse::plain;
-use crate::storage::{limits, text};
+use crate::storage::text;
 use std::collections::BTreeMap;
 
 /// Design files as in `cuts/`.

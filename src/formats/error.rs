@@ -4,9 +4,9 @@ use crate::design::LengthUnit;
 use crate::design::design_file::DocumentError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::geometry::{ClosedMesh, SolidError};
+use crate::limits::Exceeded;
 use crate::parse::did_you_mean;
 use crate::storage::atomic_write::WriteError;
-use crate::storage::limits::Exceeded;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
 /// was found.

@@ -4,8 +4,8 @@ use super::error::FormatError;
 use super::input::Input;
 use super::mesh_export::MeshExport;
 use crate::design::Design;
-use crate::storage::limits;
-use crate::storage::text;
+use crate::limits;
+use crate::storage::{bounded_read, text};
 use std::path::Path;
 
 /// Makes a file's bytes.
@@ -45,7 +45,7 @@ pub struct Parsed {
 /// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
 /// bounded by the bytes it was given and by the other [`limits`].
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, FormatError> {
-    within_limit(path, limits::FILE.read_regular(path))
+    within_limit(path, bounded_read::read_regular(path, &limits::FILE))
 }
 
 /// What [`limits::Limit::read`] gives.

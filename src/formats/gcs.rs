@@ -13,7 +13,7 @@ use super::{Format, Parsed, Writer};
 use crate::design::tiers::facet_normal;
 use crate::design::{Design, Facet, Gear, Tier};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use roxmltree::{Document, Node, ParsingOptions};
 

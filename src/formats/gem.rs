@@ -13,7 +13,7 @@ use super::windows_1252::decoded;
 use super::{Format, Parsed, Writer};
 use crate::design::{Design, Facet, Gear, Tier};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 

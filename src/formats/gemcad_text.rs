@@ -14,7 +14,7 @@ use super::gemcad_text_write::write;
 use super::input::{Input, MINUS_SIGNS, lines, number};
 use super::{Format, Parsed, Writer};
 use crate::design::Gear;
-use crate::storage::limits;
+use crate::limits;
 use words::{AscWord, AscWords, append, is_keyword_line, keyword, order};
 
 /// GemCad text designs, of every version in circulation.

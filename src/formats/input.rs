@@ -3,8 +3,8 @@
 use super::error::{FormatError, quoted_excerpt, shortened};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::RecoverError;
+use crate::limits::Limit;
 pub use crate::parse::MINUS_SIGNS;
-use crate::storage::limits::Limit;
 use crate::storage::text;
 use std::borrow::Cow;
 use std::path::Path;

@@ -9,7 +9,7 @@ use super::plane::Plane;
 pub use super::polygon::{Polygon, Stored};
 use super::polyhedron::{Polyhedron, SolidError};
 use super::welded_surface::{WeldedSurface, welded};
-use crate::storage::limits::{self, Exceeded};
+use crate::limits::{self, Exceeded};
 use glam::DVec3;
 
 /// Corners of one facet lie in one plane within so many roundings of a stored coordinate: three coordinates of

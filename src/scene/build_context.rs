@@ -3,8 +3,8 @@
 use super::Pose;
 use super::file_access::Files;
 use crate::design::Design;
+use crate::limits::{self, Exceeded};
 use crate::materials::Material;
-use crate::storage::limits::{self, Exceeded};
 use crate::trace::ConvexStone;
 use glam::Vec3;
 use std::cell::Cell;

@@ -3,8 +3,8 @@
 //! Equirectangular, the zenith at the top, the middle of the picture toward +y.
 
 use crate::color::rgb_upsampling;
-use crate::storage::limits;
-use crate::storage::text;
+use crate::limits;
+use crate::storage::{bounded_read, text};
 use glam::Vec3;
 use image::{DynamicImage, ImageDecoder};
 use std::f32::consts::{PI, TAU};
@@ -48,7 +48,8 @@ impl Panorama {
             std::io::ErrorKind::NotFound => wrong(&e) + "; --hdr FILE names one that is there",
             _ => wrong(&e),
         };
-        let bytes = limits::PANORAMA.read_regular(path).map_err(missing)?.map_err(|e| wrong(&e))?;
+        let bytes =
+            bounded_read::read_regular(path, &limits::PANORAMA).map_err(missing)?.map_err(|e| wrong(&e))?;
         Panorama::from_bytes(&bytes).map_err(|e| wrong(&e))
     }
 

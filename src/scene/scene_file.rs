@@ -9,9 +9,9 @@ use super::file_access::Files;
 use super::light_schema::LightEntry;
 use super::schema::{CameraEntry, FieldError, StoneEntry, SurfaceEntry, field_error};
 use super::{Camera, Light, PlacedStone, Scene, Surface};
+use crate::limits::{self, Exceeded};
 use crate::parse::plain;
-use crate::storage::limits::{self, Exceeded};
-use crate::storage::text;
+use crate::storage::{bounded_read, text};
 use glam::Vec3;
 use serde::Deserialize;
 use std::ops::Range;
@@ -103,7 +103,7 @@ impl SceneFile {
     pub fn open(path: &Path) -> Result<SceneFile, SceneError> {
         let fail = |cause| SceneError::Read { path: path.to_owned(), cause };
         let many = |cause| SceneError::Limit { file: text::display_name(path), cause };
-        let bytes = limits::SCENE.read(path).map_err(fail)?.map_err(many)?;
+        let bytes = bounded_read::read(path, &limits::SCENE).map_err(fail)?.map_err(many)?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         Self::parse(
             &name,

@@ -2,7 +2,7 @@
 
 use super::surface::SurfaceHit;
 use crate::formats::triangle_mesh::Triangles;
-use crate::storage::limits::{self, Exceeded};
+use crate::limits::{self, Exceeded};
 use glam::{DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;

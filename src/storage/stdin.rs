@@ -1,6 +1,6 @@
 //! Standard input as a file: read to its end once, however often it is asked for.
 
-use super::limits::{Exceeded, FILE};
+use crate::limits::{Exceeded, FILE};
 use std::io::{Error, Read};
 use std::sync::Mutex;
 

@@ -7,13 +7,13 @@ use crate::color::{Illuminant, cie};
 use crate::design::design_file::DesignFile;
 use crate::design::{families, library};
 use crate::formats::{FORMATS, Format};
+use crate::limits::{self as limit, Limit};
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric, MetricSource, Statistic};
 use crate::optics::dispersion::lines;
 use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
-use crate::storage::limits::{self as limit, Limit};
 use serde_json::{Value, json};
 
 /// Width of a block's text, without its label.

@@ -6,7 +6,7 @@
 use crate::cli::args::stone;
 use crate::parse::shell;
 use crate::report::page::escaped;
-use crate::storage::limits;
+use crate::storage::bounded_read;
 use exr::meta::MetaData;
 use std::ffi::OsString;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -74,7 +74,7 @@ pub fn behind(command: &str) -> String {
 
 /// Whether the picture, drawing or page at `path` was made by `command`.
 pub fn is_of(path: &Path, command: &str) -> bool {
-    let Ok(mut file) = limits::regular(path) else { return false };
+    let Ok(mut file) = bounded_read::open_regular(path) else { return false };
     let mut magic = [0; 4];
     if file.read_exact(&mut magic).and_then(|()| file.seek(SeekFrom::Start(0))).is_err() {
         return false;

@@ -10,7 +10,7 @@ use crate::integrators::{Pass, mp4};
 use crate::scene::SceneFile;
 use crate::scene::scene_file::MOST_PIXELS;
 use crate::storage::atomic_write::{self, WriteError};
-use crate::storage::{limits, lock};
+use crate::storage::{bounded_read, lock};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -276,7 +276,7 @@ fn read_whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
     const PIXEL: u64 = 16;
     const TEXTS: u64 = 1 << 20;
     let (mut bytes, most) = (Vec::new(), u64::from(pixels) * PIXEL + TEXTS);
-    limits::regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
+    bounded_read::open_regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
     (bytes.len() as u64 <= most).then_some(bytes)
 }
 

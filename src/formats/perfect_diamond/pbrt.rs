@@ -10,7 +10,7 @@ use crate::formats::include;
 use crate::formats::input::{Input, is_no_value};
 use crate::formats::mesh_import::Digits;
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use crate::storage::text;
 use glam::{DMat4, DVec3};
 use std::iter::Peekable;

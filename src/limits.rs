@@ -3,9 +3,6 @@
 //! Each is many times what any real stone or scene needs. One factor raises them all, for whoever has
 //! such a file and the memory for it; the command line takes it from the environment.
 
-use std::fs::File;
-use std::io::{Error, ErrorKind, Read};
-use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The environment variable that raises every limit.
@@ -177,36 +174,6 @@ impl Limit {
         let way = ExceededKind::Twice(2 * FACTOR.load(Ordering::Relaxed));
         Exceeded { most: self.max(), of: self.of, kind: way }
     }
-
-    /// The bytes at `path`, if the operating system gives them and they are not more. It may be a pipe
-    /// or a device: so only for what is named on the command line.
-    pub fn read(&self, path: &Path) -> Result<Result<Vec<u8>, Exceeded>, Error> {
-        self.read_from(File::open(path)?)
-    }
-
-    /// As [`Limit::read`], but only of a regular file.
-    pub fn read_regular(&self, path: &Path) -> Result<Result<Vec<u8>, Exceeded>, Error> {
-        self.read_from(regular(path)?)
-    }
-
-    fn read_from(&self, file: File) -> Result<Result<Vec<u8>, Exceeded>, Error> {
-        // a file says how large it is; pipes and devices say 0
-        if let Err(exceeded) = self.check_all(file.metadata()?.len()) {
-            return Ok(Err(exceeded));
-        }
-        let mut bytes = Vec::new();
-        file.take(self.max().saturating_add(1)).read_to_end(&mut bytes)?;
-        Ok(self.check(bytes.len()).map(|()| bytes))
-    }
-}
-
-/// Opens the file at `path` to be read, if it is one or a link to one: a pipe may never end, a device
-/// may do anything, and whoever named it may be a stranger.
-pub fn regular(path: &Path) -> Result<File, Error> {
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
-    }
-    File::open(path)
 }
 
 /// Raises every limit for the rest of the process.
