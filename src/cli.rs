@@ -13,6 +13,7 @@ mod generate;
 mod heartbeat;
 mod help;
 mod import;
+mod limits;
 mod list;
 mod man;
 mod markdown;
@@ -31,7 +32,6 @@ mod validate;
 mod weight;
 mod wrap;
 
-use crate::limits;
 use crate::manual::TOPICS;
 use args::orientation::OrientationArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -171,10 +171,8 @@ fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) ->
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
     let _ = ctrlc::set_handler(|| exit_code::interrupted());
-    if let Some(factor) = std::env::var_os(limits::VARIABLE)
-        && let Err(problem) = limits::raise(&factor.to_string_lossy())
-    {
-        return CliError::input(problem).report();
+    if let Err(problem) = limits::asked() {
+        return CliError::input(problem.to_string()).report();
     }
     let mut command = command();
     let arguments = joined(std::env::args_os(), &command);

@@ -40,7 +40,7 @@ pub use mesh_export::MeshExport;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
 use crate::geometry::ClosedMesh;
 use crate::geometry::polyhedron::PlaneStatus;
-use crate::limits;
+use crate::limits::{self, Limits};
 use crate::materials::Material;
 use crate::storage::{atomic_write, bounded_read, stdin};
 use std::collections::BTreeSet;
@@ -80,25 +80,30 @@ pub struct Loaded {
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
 pub fn read(path: &Path) -> Result<Loaded, FormatError> {
-    read_as(path, bounded_read::read(path, &limits::FILE))
+    read_within(path, Limits::default())
 }
 
-/// As [`read`], for what a file names: only a regular file is read.
-pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
-    read_as(path, bounded_read::read_regular(path, &limits::FILE))
+/// As [`read`], within limits that may be raised.
+pub fn read_within(path: &Path, limits: Limits) -> Result<Loaded, FormatError> {
+    read_as(path, bounded_read::read(path, limits, &limits::FILE), limits)
+}
+
+/// As [`read_within`], for what a file names: only a regular file is read.
+pub fn read_regular(path: &Path, limits: Limits) -> Result<Loaded, FormatError> {
+    read_as(path, bounded_read::read_regular(path, limits, &limits::FILE), limits)
 }
 
 /// Reads standard input; files that it refers to are refused.
-pub fn read_standard_input() -> Result<Loaded, FormatError> {
+pub fn read_standard_input(limits: Limits) -> Result<Loaded, FormatError> {
     let path = Path::new("standard input");
-    let bytes = within_limit(path, stdin::bytes())?;
-    read_bytes("standard input", &bytes, None)
+    let bytes = within_limit(path, stdin::bytes(limits))?;
+    read_bytes_within("standard input", &bytes, None, limits)
 }
 
-fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
+fn read_as(path: &Path, bytes: ReadOutcome, limits: Limits) -> Result<Loaded, FormatError> {
     let name = text::display_name(path);
     let bytes = within_limit(path, bytes)?;
-    read_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+    read_bytes_within(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))), limits)
 }
 
 /// Reads a file from memory.
@@ -106,7 +111,17 @@ fn read_as(path: &Path, bytes: ReadOutcome) -> Result<Loaded, FormatError> {
 /// - `name`: shown in errors; its extension only tells apart formats that are refused
 /// - `folder`: where files that it refers to must lie; none refuses them
 pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
-    let source = Input { name, bytes, folder };
+    read_bytes_within(name, bytes, folder, Limits::default())
+}
+
+/// As [`read_bytes`], within limits that may be raised.
+pub fn read_bytes_within(
+    name: &str,
+    bytes: &[u8],
+    folder: Option<&Path>,
+    limits: Limits,
+) -> Result<Loaded, FormatError> {
+    let source = Input { name, bytes, folder, limits };
     let found = FORMATS
         .iter()
         .rev()
@@ -125,22 +140,21 @@ pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loa
     let Parsed { design, mut warnings } =
         (format.read)(&source).map_err(|e| e.in_format(format.name, None))?;
     let facets = design.facets().count();
-    warnings.extend(check_closed(name, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
+    warnings.extend(check_closed(&source, &design).map_err(|e| e.in_format(format.name, Some(facets)))?);
     Ok(Loaded { design, format: format.name, warnings })
 }
 
 /// Whether a file of this content may name others, which then belong to the stone.
 pub fn may_include(name: &str, bytes: &[u8]) -> bool {
-    let source = Input { name, bytes, folder: None };
+    let source = Input { name, bytes, folder: None, limits: Limits::default() };
     [&glb::GLB, &glb::GLTF, &perfect_diamond::SCENE].iter().any(|f| (f.sniff)(&source) > 0)
 }
 
 /// Checks that the planes bound a solid; remarks on planes that bound nothing of it.
-fn check_closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
+fn check_closed(source: &Input, design: &Design) -> Result<Vec<String>, FormatError> {
     let facets = design.facets().count();
-    let many = |cause| FormatError::Limit { place: file.into(), cause };
-    limits::FACETS.check_all(facets).map_err(many)?;
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
+    source.has_at_most(&limits::FACETS, facets)?;
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: source.name.into(), cause })?;
     let count = |wanted: fn(&PlaneStatus) -> bool| solid.plane_status.iter().filter(|f| wanted(f)).count();
     let mut remarks = Vec::new();
     for (n, what) in [
@@ -262,7 +276,7 @@ const COMMON_EXTENSIONS: [&str; 2] = ["toml", "txt"];
 /// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an extension that
 /// only designs and meshes have, else by its content. A scene, a table with its companion and the
 /// settings of other programs are not; a design that is damaged is.
-pub fn is_meant_as_stone(path: &Path) -> bool {
+pub fn is_meant_as_stone(path: &Path, limits: Limits) -> bool {
     /// From here on no other kind of file begins like that.
     const CERTAIN: u8 = 90;
     let extension = extension_of(path);
@@ -271,16 +285,16 @@ pub fn is_meant_as_stone(path: &Path) -> bool {
     if has_ending && !COMMON_EXTENSIONS.contains(&&*extension) {
         return true;
     }
-    let Ok(bytes) = read_file(path) else { return has_ending };
+    let Ok(bytes) = read_file(path, limits) else { return has_ending };
     let name = text::display_name(path);
-    let source = Input { name: &name, bytes: &bytes, folder: path.parent() };
+    let source = Input { name: &name, bytes: &bytes, folder: path.parent(), limits };
     let sure = FORMATS.iter().map(|f| (f.sniff)(&source)).max().unwrap_or(0);
     if sure == (cutlab_toml::FORMAT.sniff)(&source) {
         return sure > 0 && cutlab_toml::looks_like_cutlab_toml(&source);
     }
     let understood = || {
         matches!(
-            read_bytes(&name, &bytes, path.parent()),
+            read_bytes_within(&name, &bytes, path.parent(), limits),
             Ok(_) | Err(FormatError::NoStone { .. } | FormatError::Limit { .. })
         )
     };

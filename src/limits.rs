@@ -1,17 +1,16 @@
 //! Limits on input: one on everything that memory or time grows with.
 //!
 //! Each is many times what any real stone or scene needs. One factor raises them all, for whoever has
-//! such a file and the memory for it; the command line takes it from the environment.
+//! such a file and the memory for it. It is part of a value, [`Limits`], that whoever reads is given; the
+//! command line makes one from the environment.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::str::FromStr;
 
 /// The environment variable that raises every limit.
 pub const VARIABLE: &str = "CUTLAB_LIMIT";
 
 /// The highest factor: what is quadratic in a limit is by then ten thousand times as slow.
 const HIGHEST: u64 = 100;
-
-static FACTOR: AtomicU64 = AtomicU64::new(1);
 
 /// The most that a file may have of something, before it is raised.
 #[derive(Debug, PartialEq, Eq)]
@@ -22,63 +21,63 @@ pub struct Limit {
 }
 
 /// Designs, meshes and what they include.
-pub static FILE: Limit = Limit::new(32 << 20, "bytes in a design or mesh with what it includes");
+pub const FILE: Limit = Limit::new(32 << 20, "bytes in a design or mesh with what it includes");
 /// TOML takes a hundred times its size in memory.
-pub static TOML_DESIGN: Limit = Limit::new(4 << 20, "bytes in a TOML design");
+pub const TOML_DESIGN: Limit = Limit::new(4 << 20, "bytes in a TOML design");
 /// XML takes ten times its size in memory.
-pub static XML: Limit = Limit::new(16 << 20, "bytes in a Gem Cut Studio design");
+pub const XML: Limit = Limit::new(16 << 20, "bytes in a Gem Cut Studio design");
 /// What a file of that size holds of corners.
-pub static XML_NODES: Limit = Limit::new(500_000, "XML elements and texts");
+pub const XML_NODES: Limit = Limit::new(500_000, "XML elements and texts");
 /// The time that the XML reader takes grows with the square of either.
-pub static XML_ATTRIBUTES: Limit = Limit::new(100, "attributes of an XML element, or namespaces");
+pub const XML_ATTRIBUTES: Limit = Limit::new(100, "attributes of an XML element, or namespaces");
 /// Twenty times any real stone. Half-space intersection is quadratic.
-pub static FACETS: Limit = Limit::new(10_000, "facets of a stone");
+pub const FACETS: Limit = Limit::new(10_000, "facets of a stone");
 /// Facets squared, for each time the stone is carved anew to place a tier: it bounds time.
-pub static SOLVING: Limit = Limit::new(100_000_000, "steps to solve a design's meets");
+pub const SOLVING: Limit = Limit::new(100_000_000, "steps to solve a design's meets");
 /// A thousand times the facets of any real stone.
-pub static POLYGONS: Limit = Limit::new(500_000, "faces of a mesh");
+pub const POLYGONS: Limit = Limit::new(500_000, "faces of a mesh");
 /// A closed surface has under six a face.
-pub static CORNERS: Limit = Limit::new(8 * 500_000, "corners of all faces of a mesh");
+pub const CORNERS: Limit = Limit::new(8 * 500_000, "corners of all faces of a mesh");
 /// Many times what any program writes.
-pub static PLY_PARTS: Limit = Limit::new(100, "elements of a PLY file, or properties of one");
+pub const PLY_PARTS: Limit = Limit::new(100, "elements of a PLY file, or properties of one");
 /// Ten times the facets of any stone.
-pub static PLY_LIST: Limit = Limit::new(100_000, "entries of a PLY list");
+pub const PLY_LIST: Limit = Limit::new(100_000, "entries of a PLY list");
 /// pbrt's own scenes need two.
-pub static INCLUDES: Limit = Limit::new(8, "nested levels of Include");
+pub const INCLUDES: Limit = Limit::new(8, "nested levels of Include");
 /// A file that is included twice counts twice.
-pub static INCLUDED: Limit = Limit::new(1000, "files included");
+pub const INCLUDED: Limit = Limit::new(1000, "files included");
 /// Of pbrt's `AttributeBegin` and `TransformBegin`.
-pub static BLOCKS: Limit = Limit::new(1000, "nested blocks of a pbrt scene");
+pub const BLOCKS: Limit = Limit::new(1000, "nested blocks of a pbrt scene");
 /// Scenes are TOML too.
-pub static SCENE: Limit = Limit::new(1 << 20, "bytes in a scene");
+pub const SCENE: Limit = Limit::new(1 << 20, "bytes in a scene");
 /// Stones in one scene.
-pub static STONES: Limit = Limit::new(100, "stones in a scene");
+pub const STONES: Limit = Limit::new(100, "stones in a scene");
 /// Surfaces in one scene, each of which every ray is tried against.
-pub static SURFACES: Limit = Limit::new(500, "surfaces in a scene");
+pub const SURFACES: Limit = Limit::new(500, "surfaces in a scene");
 /// Lights in one scene.
-pub static LIGHTS: Limit = Limit::new(500, "lights in a scene");
+pub const LIGHTS: Limit = Limit::new(500, "lights in a scene");
 /// Of all surfaces of one scene: a mesh that is named twice counts twice.
-pub static SCENE_TRIANGLES: Limit = Limit::new(2_000_000, "triangles of all meshes in a scene");
+pub const SCENE_TRIANGLES: Limit = Limit::new(2_000_000, "triangles of all meshes in a scene");
 /// Of one mesh of a scene. Among equal boxes the builder of the tree finds neighbours in a time that
 /// grows with the square of them.
-pub static SAME_BOX: Limit = Limit::new(1000, "triangles of a scene's mesh with the same bounds");
+pub const SAME_BOX: Limit = Limit::new(1000, "triangles of a scene's mesh with the same bounds");
 /// Of all lights of one scene.
-pub static SCENE_PIXELS: Limit = Limit::new(1 << 26, "pixels of all panoramas in a scene");
+pub const SCENE_PIXELS: Limit = Limit::new(1 << 26, "pixels of all panoramas in a scene");
 /// Panoramas as files.
-pub static PANORAMA: Limit = Limit::new(256 << 20, "bytes in a panorama");
+pub const PANORAMA: Limit = Limit::new(256 << 20, "bytes in a panorama");
 /// 8192 × 4096: a gigabyte while it is read.
-pub static PIXELS: Limit = Limit::new(1 << 25, "pixels of a panorama");
+pub const PIXELS: Limit = Limit::new(1 << 25, "pixels of a panorama");
 /// No compression that is read puts more pixels into a byte: so a small file cannot claim a large picture.
-pub static PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for each byte of its file");
+pub const PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for each byte of its file");
 /// Both maps of the most photons that can be asked for.
-pub static PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
+pub const PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
 /// The companion of a table.
-pub static COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
+pub const COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
 /// One row of a table that is read back.
-pub static ROW: Limit = Limit::new(1 << 20, "bytes in a row of a table");
+pub const ROW: Limit = Limit::new(1 << 20, "bytes in a row of a table");
 
 /// Every limit.
-pub static ALL: &[&Limit] = &[
+pub const ALL: &[&Limit] = &[
     &FILE,
     &TOML_DESIGN,
     &XML,
@@ -144,50 +143,74 @@ impl Limit {
     const fn new(most: u64, of: &'static str) -> Limit {
         Limit { most, of }
     }
+}
 
-    /// The most as it is now, raised or not.
-    pub fn max(&self) -> u64 {
-        self.most.saturating_mul(FACTOR.load(Ordering::Relaxed))
+/// The limits that a reader keeps to: every [`Limit`], so many times as high.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// At least 1.
+    factor: u64,
+}
+
+impl Default for Limits {
+    /// As they are.
+    fn default() -> Limits {
+        Limits { factor: 1 }
+    }
+}
+
+/// A factor that raises no limits. One line.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{VARIABLE}='{0}' in the environment: a whole number from 1 to {HIGHEST} raises every limit so many times"
+)]
+pub struct FactorError(String);
+
+impl FromStr for Limits {
+    type Err = FactorError;
+
+    fn from_str(factor: &str) -> Result<Limits, FactorError> {
+        factor.parse().map_err(|_| FactorError(factor.into())).and_then(Limits::raised)
+    }
+}
+
+impl Limits {
+    /// Every limit, raised `factor` times: from 1 to 100.
+    pub fn raised(factor: u64) -> Result<Limits, FactorError> {
+        match factor {
+            1..=HIGHEST => Ok(Limits { factor }),
+            _ => Err(FactorError(factor.to_string())),
+        }
+    }
+
+    /// The most that there may be.
+    pub fn max(self, limit: &Limit) -> u64 {
+        limit.most.saturating_mul(self.factor)
     }
 
     /// Refuses `n` of them, counted so far, if that is more.
-    pub fn check(&self, n: impl TryInto<u64>) -> Result<(), Exceeded> {
+    pub fn check(self, limit: &Limit, n: impl TryInto<u64>) -> Result<(), Exceeded> {
         match n.try_into() {
-            Ok(n) if n <= self.max() => Ok(()),
-            _ => Err(self.exceeded()),
+            Ok(n) if n <= self.max(limit) => Ok(()),
+            _ => Err(self.exceeded(limit)),
         }
     }
 
     /// Refuses `n` of them, which are all, if that is more: the error names the factor that is enough.
-    pub fn check_all(&self, n: impl TryInto<u64>) -> Result<(), Exceeded> {
+    pub fn check_all(self, limit: &Limit, n: impl TryInto<u64>) -> Result<(), Exceeded> {
+        let exceeded = |kind| Exceeded { kind, ..self.exceeded(limit) };
         match n.try_into() {
-            Ok(n) if n <= self.max() => Ok(()),
-            Ok(n) if n <= self.most.saturating_mul(HIGHEST) => {
-                Err(Exceeded { kind: ExceededKind::Enough(n.div_ceil(self.most)), ..self.exceeded() })
+            Ok(n) if n <= self.max(limit) => Ok(()),
+            Ok(n) if n <= limit.most.saturating_mul(HIGHEST) => {
+                Err(exceeded(ExceededKind::Enough(n.div_ceil(limit.most))))
             }
-            _ => Err(Exceeded { kind: ExceededKind::Never, ..self.exceeded() }),
+            _ => Err(exceeded(ExceededKind::Never)),
         }
     }
 
     /// What is said of more.
-    pub fn exceeded(&self) -> Exceeded {
-        let way = ExceededKind::Twice(2 * FACTOR.load(Ordering::Relaxed));
-        Exceeded { most: self.max(), of: self.of, kind: way }
-    }
-}
-
-/// Raises every limit for the rest of the process.
-///
-/// - `factor`: a whole number from 1 to 100, as text; the error says so in one line
-pub fn raise(factor: &str) -> Result<(), String> {
-    match factor.parse() {
-        Ok(n) if (1..=HIGHEST).contains(&n) => {
-            FACTOR.store(n, Ordering::Relaxed);
-            Ok(())
-        }
-        _ => Err(format!(
-            "{VARIABLE}='{factor}' in the environment: a whole number from 1 to {HIGHEST} raises every limit so many times"
-        )),
+    pub fn exceeded(self, limit: &Limit) -> Exceeded {
+        Exceeded { most: self.max(limit), of: limit.of, kind: ExceededKind::Twice(2 * self.factor) }
     }
 }
 
@@ -197,14 +220,15 @@ mod tests {
 
     #[test]
     fn an_excess_names_the_limit_and_how_to_raise_it() {
-        assert_eq!(FACETS.check(10_000usize), Ok(()));
-        let error = FACETS.check(10_001usize).expect_err("one too many").to_string();
+        let limits = Limits::default();
+        assert_eq!(limits.check(&FACETS, 10_000usize), Ok(()));
+        let error = limits.check(&FACETS, 10_001usize).expect_err("one too many").to_string();
         assert_eq!(
             error,
             "more than 10000 facets of a stone: the limit; CUTLAB_LIMIT=2 in the environment doubles every limit"
         );
-        let said = |n: u64| FACETS.check_all(n).expect_err("too many").to_string();
-        assert_eq!(FACETS.check_all(10_000u64), Ok(()));
+        let said = |n: u64| limits.check_all(&FACETS, n).expect_err("too many").to_string();
+        assert_eq!(limits.check_all(&FACETS, 10_000u64), Ok(()));
         assert_eq!(
             said(31_616),
             "more than 10000 facets of a stone: the limit; CUTLAB_LIMIT=4 in the environment is enough"
@@ -212,10 +236,20 @@ mod tests {
         assert!(said(10_001).ends_with("CUTLAB_LIMIT=2 in the environment is enough"));
         assert!(said(1_000_000).ends_with("CUTLAB_LIMIT=100 in the environment is enough"));
         assert!(said(1_000_001).ends_with("even CUTLAB_LIMIT=100 in the environment is not enough"));
-        assert!(FACETS.check(-1i64).is_err() && FACETS.check(u128::MAX).is_err());
+        assert!(limits.check(&FACETS, -1i64).is_err() && limits.check(&FACETS, u128::MAX).is_err());
         for wrong in ["", "0", "101", "-1", "2.5", "many"] {
-            assert!(raise(wrong).is_err_and(|e| e.contains("from 1 to 100")), "{wrong}");
+            let error = wrong.parse::<Limits>().expect_err(wrong).to_string();
+            assert!(error.contains("from 1 to 100") && error.contains(&format!("'{wrong}'")), "{error}");
         }
+        let three = Limits::raised(3).expect("a factor");
+        assert_eq!((three.max(&FACETS), "3".parse()), (30_000, Ok(three)));
+        assert_eq!(three.check(&FACETS, 30_000u64), Ok(()));
+        assert!(
+            three
+                .exceeded(&FACETS)
+                .to_string()
+                .ends_with("CUTLAB_LIMIT=6 in the environment doubles every limit")
+        );
         let mut names: Vec<_> = ALL.iter().map(|l| l.of).collect();
         names.dedup();
         assert_eq!(names.len(), ALL.len());

@@ -5,7 +5,8 @@ pub mod options;
 use crate::design::design_file::DocumentError;
 use crate::design::{Design, families, library};
 use crate::formats::error::FormatError;
-use crate::formats::{Loaded, read, read_regular, read_standard_input};
+use crate::formats::{Loaded, read_regular, read_standard_input, read_within};
+use crate::limits::Limits;
 use crate::parse;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -20,16 +21,28 @@ pub const STANDARD_INPUT: &str = "-";
 /// A library name wins over a file of that name, which `./name` reaches. Errors are one line and
 /// suggest a cut whose name is near where there is neither. Checked in `tests/formats.rs`.
 pub fn open(spec: impl AsRef<OsStr>) -> Result<Loaded, FormatError> {
+    open_within(spec, Limits::default())
+}
+
+/// As [`open`], within limits that may be raised.
+pub fn open_within(spec: impl AsRef<OsStr>, limits: Limits) -> Result<Loaded, FormatError> {
     let spec = spec.as_ref();
-    if spec == STANDARD_INPUT { read_standard_input() } else { open_by(spec, read) }
+    if spec == STANDARD_INPUT {
+        read_standard_input(limits)
+    } else {
+        open_by(spec, |path| read_within(path, limits))
+    }
 }
 
-/// As [`open`], for a stone that a file names: only a regular file is read.
-pub fn open_regular(spec: impl AsRef<OsStr>) -> Result<Loaded, FormatError> {
-    open_by(spec.as_ref(), read_regular)
+/// As [`open_within`], for a stone that a file names: only a regular file is read.
+pub fn open_regular(spec: impl AsRef<OsStr>, limits: Limits) -> Result<Loaded, FormatError> {
+    open_by(spec.as_ref(), |path| read_regular(path, limits))
 }
 
-fn open_by(argument: &OsStr, read: fn(&Path) -> Result<Loaded, FormatError>) -> Result<Loaded, FormatError> {
+fn open_by(
+    argument: &OsStr,
+    read: impl Fn(&Path) -> Result<Loaded, FormatError>,
+) -> Result<Loaded, FormatError> {
     let path = Path::new(argument);
     // a name that is not UTF-8 is a file's
     let Some(spec) = argument.to_str() else { return read(path) };

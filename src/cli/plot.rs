@@ -7,6 +7,7 @@ use super::outputs::{Outputs, record};
 use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::TablePart;
 use crate::batch::sidecar::TableMeta;
+use crate::cli::limits::limits;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -31,7 +32,7 @@ pub struct PlotArgs {
 
 /// Draws the plots.
 pub fn run(args: &PlotArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let part = TablePart::open(&args.table)?;
+    let part = TablePart::open(&args.table, limits())?;
     if let Some(shard) = part.meta.shard {
         let table = stone::display_name(&args.table);
         return Err(CliError::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));

@@ -8,6 +8,7 @@ use super::exit_code::CliError;
 use super::outputs::{Outputs, record};
 use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};
+use crate::cli::limits::limits;
 use crate::metrics::Metric;
 use crate::report::plot::{Axis, ScorePlot, Style};
 use crate::report::{pdf, raster};
@@ -92,7 +93,7 @@ impl Plots {
         if self.is_empty() {
             return Ok(Vec::new());
         }
-        let table = NumericColumns::read(bytes, form)?;
+        let table = NumericColumns::read(bytes, form, limits())?;
         let family = stone::family(&layout.stone);
         let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::new(key, family)).collect();
         for (path, metric) in &self.files {

@@ -16,6 +16,7 @@ use super::args::{scoring, stone};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
+use crate::cli::limits::limits;
 use crate::integrators::{self, Tone, ToneCurve};
 use crate::parse;
 use crate::scene::{self, SCENES, SceneFile, SceneOverrides};
@@ -95,7 +96,7 @@ fn scene_file(name: &OsStr) -> Result<SceneFile, CliError> {
     }
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e == "toml") || path.exists() {
-        return Ok(SceneFile::open(path)?);
+        return Ok(SceneFile::open(path, limits())?);
     }
     let name = stone::display_name(name);
     let near = parse::did_you_mean(parse::nearest_name(&name, SCENES.iter().map(|(n, _)| *n)));
@@ -132,6 +133,7 @@ fn scene_overrides(args: &RenderArgs, console: &Console) -> Result<SceneOverride
         panorama: args.hdr.clone(),
         allow_outside: args.allow_outside,
         cut_out: args.background.is_some(),
+        limits: limits(),
     })
 }
 

@@ -4,7 +4,7 @@ use super::error::FormatError;
 use super::input::Input;
 use super::mesh_export::MeshExport;
 use crate::design::Design;
-use crate::limits;
+use crate::limits::{self, Limits};
 use crate::storage::{bounded_read, text};
 use std::path::Path;
 
@@ -44,11 +44,11 @@ pub struct Parsed {
 
 /// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
 /// bounded by the bytes it was given and by the other [`limits`].
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, FormatError> {
-    within_limit(path, bounded_read::read_regular(path, &limits::FILE))
+pub(super) fn read_file(path: &Path, limits: Limits) -> Result<Vec<u8>, FormatError> {
+    within_limit(path, bounded_read::read_regular(path, limits, &limits::FILE))
 }
 
-/// What [`limits::Limit::read`] gives.
+/// What [`bounded_read::read`] gives.
 pub(super) type ReadOutcome = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
 
 pub(super) fn within_limit(path: &Path, bytes: ReadOutcome) -> Result<Vec<u8>, FormatError> {

@@ -146,7 +146,7 @@ impl<'s> ByteReader<'s> {
         while !self.is_at_end() {
             let Some(facet) = self.facet()? else { break };
             count += 1;
-            if limits::FACETS.check(count).is_ok() {
+            if self.source.limits.check(&limits::FACETS, count).is_ok() {
                 raw.facets.push(facet);
             }
         }

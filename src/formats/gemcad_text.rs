@@ -314,7 +314,7 @@ impl AscFile<'_> {
 
     fn facet(&mut self, word: AscWord, index: f64) {
         self.facet_count += 1;
-        match limits::FACETS.check(self.facet_count) {
+        match self.source.limits.check(&limits::FACETS, self.facet_count) {
             Ok(()) => self.tiers.last_mut().map_or((), |t| t.indices.push((index, String::new()))),
             // counted on, for the error to say how many there are
             Err(_) => self.too_many_at = self.too_many_at.or(Some(word.line)),

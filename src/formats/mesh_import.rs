@@ -5,6 +5,7 @@ use super::error::{FormatError, counted};
 use super::input::Input;
 use crate::design::Design;
 use crate::geometry::facet_recovery::{Polygon, RecoverError, Stored, facets_of_polygons};
+use crate::limits::Limits;
 use glam::DVec3;
 
 /// How a format holds its numbers, which says how far they may be off.
@@ -108,13 +109,18 @@ const COARSE: f64 = 2e-6;
 
 /// The design of a mesh's facets. Facets keep their names; the design gets the file's.
 pub fn design_from_mesh(source: &Input, mesh: &PolygonMesh) -> Result<Parsed, FormatError> {
-    let (design, warnings) = recover(&source.stem(), mesh).map_err(|cause| source.no_stone(cause))?;
+    let (design, warnings) =
+        recover(&source.stem(), mesh, source.limits).map_err(|cause| source.no_stone(cause))?;
     Ok(Parsed { design, warnings })
 }
 
 /// As [`design_from_mesh`], for a reader that has several meshes to try.
-pub fn recover(name: &str, mesh: &PolygonMesh) -> Result<(Design, Vec<String>), RecoverError> {
-    let found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored())?;
+pub fn recover(
+    name: &str,
+    mesh: &PolygonMesh,
+    limits: Limits,
+) -> Result<(Design, Vec<String>), RecoverError> {
+    let found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored(), limits)?;
     let (tolerance, divided) = (found.tolerance, found.divided_edges);
     let design = Design::from_facets(name, found.into_facets()?);
     let mut warnings = mesh.warnings.clone();

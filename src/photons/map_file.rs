@@ -7,7 +7,7 @@
 
 use super::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton};
 use crate::color::cie::BANDS;
-use crate::limits;
+use crate::limits::{self, Limits};
 use crate::scene::{PlacedStone, Scene};
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::bounded_read;
@@ -155,9 +155,10 @@ pub fn load_or_emit(
     path: &Path,
     scene: &Scene,
     settings: &PhotonSettings,
+    limits: Limits,
 ) -> Result<(PhotonSets, bool), MapFileError> {
     let unusable = |problem| MapFileError::Unusable { path: path.into(), problem };
-    match bounded_read::read_regular(path, &limits::PHOTON_MAP) {
+    match bounded_read::read_regular(path, limits, &limits::PHOTON_MAP) {
         Ok(bytes) => {
             let bytes = bytes.map_err(|e| unusable(e.to_string()))?;
             let (origin, shots) = decode(&bytes).map_err(unusable)?;

@@ -3,6 +3,7 @@
 use super::orientation;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::limits::limits;
 use crate::design::families::Family;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM, families, library};
 use crate::formats::Loaded;
@@ -132,8 +133,9 @@ pub fn open(argument: impl AsRef<OsStr>) -> Result<Loaded, CliError> {
             "{name} is a folder, and here one stone is named: name a file in it"
         )));
     }
-    let mut imported =
-        orientation::orient(stone_spec::open(spec.base()).map_err(|e| orientation::stood_body(e.into()))?)?;
+    let mut imported = orientation::orient(
+        stone_spec::open_within(spec.base(), limits()).map_err(|e| orientation::stood_body(e.into()))?,
+    )?;
     if let Some(material) = spec.substance.asked() {
         imported.design.refractive_index = Some(material.index_d());
     }

@@ -233,11 +233,15 @@ pub fn lights() -> Vec<CatalogueEntry> {
 
 /// How much a file may hold.
 pub fn limits() -> Vec<CatalogueEntry> {
-    let entry = |l: &&Limit| CatalogueEntry {
-        name: l.max().to_string(),
-        about: l.of.into(),
-        text: format!("{} {}", l.max(), l.of),
-        facts: json!({ "most": l.max(), "of": l.of }),
+    let limits = crate::cli::limits::limits();
+    let entry = |l: &&Limit| {
+        let (most, of) = (limits.max(l), l.of);
+        CatalogueEntry {
+            name: most.to_string(),
+            about: of.into(),
+            text: format!("{most} {of}"),
+            facts: json!({ "most": most, "of": of }),
+        }
     };
     limit::ALL.iter().map(entry).collect()
 }

@@ -7,6 +7,7 @@ use super::target::{PictureKind, beside};
 use super::{RenderArgs, progressive};
 use crate::cli::args::stone;
 use crate::cli::exit_code::CliError;
+use crate::cli::limits::limits;
 use crate::cli::outputs::record;
 use crate::integrators::image_io::{self, Bits, EncodeError, Provenance};
 use crate::integrators::{self, Film, Pass, PhotonMaps, RenderSettings, camera_integrator, glare, tone};
@@ -55,7 +56,7 @@ fn maps(args: &RenderArgs, scene: &Scene, progress: &PictureProgress) -> Result<
     let shots = match &args.photon_map {
         None => PhotonSets::emit(scene, &settings),
         Some(path) => {
-            let (shots, read) = map_file::load_or_emit(path, scene, &settings)?;
+            let (shots, read) = map_file::load_or_emit(path, scene, &settings, limits())?;
             let did = if read { "used" } else { "made" };
             progress.console().note(&format!("{did} the photon map {}", stone::display_name(path)));
             shots
