@@ -13,6 +13,7 @@ mod generate;
 mod heartbeat;
 mod help;
 mod import;
+mod limits;
 mod list;
 mod man;
 mod markdown;
@@ -32,7 +33,6 @@ mod weight;
 mod wrap;
 
 use crate::manual::TOPICS;
-use crate::storage::limits;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
 use exit_code::{CliError, ExitStatus};
@@ -168,10 +168,8 @@ fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) ->
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
     let _ = ctrlc::set_handler(|| exit_code::interrupted());
-    if let Some(factor) = std::env::var_os(limits::VARIABLE)
-        && let Err(problem) = limits::raise(&factor.to_string_lossy())
-    {
-        return CliError::input(problem).report();
+    if let Err(problem) = limits::asked() {
+        return CliError::input(problem.to_string()).report();
     }
     let mut command = command();
     let arguments = joined(std::env::args_os(), &command);

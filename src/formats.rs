@@ -40,8 +40,9 @@ pub use mesh_export::MeshExport;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
 use crate::geometry::ClosedMesh;
 use crate::geometry::polyhedron::PlaneStatus;
+use crate::limits::{self, Limits};
 use crate::materials::Material;
-use crate::storage::{atomic_write, limits, stdin};
+use crate::storage::{atomic_write, bounded_read, stdin};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -113,12 +114,12 @@ pub struct Loaded {
 ///
 /// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
 pub fn read(path: &Path) -> Result<Loaded, FormatError> {
-    read_content(path)?.into_design()
+    read_content(path, Limits::default())?.into_design()
 }
 
-/// As [`read`], for what a file names: only a regular file is read.
-pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
-    content_of(path, limits::FILE.read_regular(path))?.into_design()
+/// As [`read`], for what a file names, within limits: only a regular file is read.
+pub fn read_regular(path: &Path, limits: Limits) -> Result<Loaded, FormatError> {
+    content_of(path, bounded_read::read_regular(path, limits, &limits::FILE), limits)?.into_design()
 }
 
 /// Reads a design from memory.
@@ -126,30 +127,35 @@ pub fn read_regular(path: &Path) -> Result<Loaded, FormatError> {
 /// - `name`: shown in errors; its extension only tells apart formats that are refused
 /// - `folder`: where files that it refers to must lie; none refuses them
 pub fn read_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Loaded, FormatError> {
-    read_content_bytes(name, bytes, folder)?.into_design()
+    read_content_bytes(name, bytes, folder, Limits::default())?.into_design()
 }
 
-/// As [`read`], also of a closed mesh that is no convex stone.
-pub fn read_content(path: &Path) -> Result<Content, FormatError> {
-    content_of(path, limits::FILE.read(path))
+/// As [`read`], also of a closed mesh that is no convex stone, and within limits that may be raised.
+pub fn read_content(path: &Path, limits: Limits) -> Result<Content, FormatError> {
+    content_of(path, bounded_read::read(path, limits, &limits::FILE), limits)
 }
 
 /// As [`read_content`], of standard input; files that it refers to are refused.
-pub fn read_content_standard_input() -> Result<Content, FormatError> {
+pub fn read_content_standard_input(limits: Limits) -> Result<Content, FormatError> {
     let path = Path::new("standard input");
-    let bytes = within_limit(path, stdin::bytes())?;
-    read_content_bytes("standard input", &bytes, None)
+    let bytes = within_limit(path, stdin::bytes(limits))?;
+    read_content_bytes("standard input", &bytes, None, limits)
 }
 
-fn content_of(path: &Path, bytes: ReadOutcome) -> Result<Content, FormatError> {
+fn content_of(path: &Path, bytes: ReadOutcome, limits: Limits) -> Result<Content, FormatError> {
     let name = text::display_name(path);
     let bytes = within_limit(path, bytes)?;
-    read_content_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))))
+    read_content_bytes(&name, &bytes, Some(path.parent().unwrap_or(Path::new(""))), limits)
 }
 
-/// As [`read_bytes`], also of a closed mesh that is no convex stone.
-pub fn read_content_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Content, FormatError> {
-    let source = Input { name, bytes, folder };
+/// As [`read_bytes`], also of a closed mesh that is no convex stone, and within limits that may be raised.
+pub fn read_content_bytes(
+    name: &str,
+    bytes: &[u8],
+    folder: Option<&Path>,
+    limits: Limits,
+) -> Result<Content, FormatError> {
+    let source = Input { name, bytes, folder, limits };
     let found = FORMATS
         .iter()
         .rev()
@@ -171,7 +177,7 @@ pub fn read_content_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Re
     match shape {
         ParsedShape::Design(design) => {
             let facets = design.facets().count();
-            warnings.extend(check_closed(name, &design).map_err(|e| e.in_format(format, Some(facets)))?);
+            warnings.extend(check_closed(&source, &design).map_err(|e| e.in_format(format, Some(facets)))?);
             Ok(Content::Design(Loaded { design, format, warnings }))
         }
         ParsedShape::Mesh { mesh, unit, reason } => {
@@ -183,16 +189,15 @@ pub fn read_content_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Re
 
 /// Whether a file of this content may name others, which then belong to the stone.
 pub fn may_include(name: &str, bytes: &[u8]) -> bool {
-    let source = Input { name, bytes, folder: None };
+    let source = Input { name, bytes, folder: None, limits: Limits::default() };
     [&glb::GLB, &glb::GLTF, &perfect_diamond::SCENE].iter().any(|f| (f.sniff)(&source) > 0)
 }
 
 /// Checks that the planes bound a solid; remarks on planes that bound nothing of it.
-fn check_closed(file: &str, design: &Design) -> Result<Vec<String>, FormatError> {
+fn check_closed(source: &Input, design: &Design) -> Result<Vec<String>, FormatError> {
     let facets = design.facets().count();
-    let many = |cause| FormatError::Limit { place: file.into(), cause };
-    limits::FACETS.check_all(facets).map_err(many)?;
-    let solid = design.solid().map_err(|cause| FormatError::Solid { file: file.into(), cause })?;
+    source.has_at_most(&limits::FACETS, facets)?;
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: source.name.into(), cause })?;
     let count = |wanted: fn(&PlaneStatus) -> bool| solid.plane_status.iter().filter(|f| wanted(f)).count();
     let mut remarks = Vec::new();
     for (n, what) in [
@@ -314,7 +319,7 @@ const COMMON_EXTENSIONS: [&str; 2] = ["toml", "txt"];
 /// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an extension that
 /// only designs and meshes have, else by its content. A scene, a table with its companion and the
 /// settings of other programs are not; a design that is damaged is.
-pub fn is_meant_as_stone(path: &Path) -> bool {
+pub fn is_meant_as_stone(path: &Path, limits: Limits) -> bool {
     /// From here on no other kind of file begins like that.
     const CERTAIN: u8 = 90;
     let extension = extension_of(path);
@@ -323,16 +328,16 @@ pub fn is_meant_as_stone(path: &Path) -> bool {
     if has_ending && !COMMON_EXTENSIONS.contains(&&*extension) {
         return true;
     }
-    let Ok(bytes) = read_file(path) else { return has_ending };
+    let Ok(bytes) = read_file(path, limits) else { return has_ending };
     let name = text::display_name(path);
-    let source = Input { name: &name, bytes: &bytes, folder: path.parent() };
+    let source = Input { name: &name, bytes: &bytes, folder: path.parent(), limits };
     let sure = FORMATS.iter().map(|f| (f.sniff)(&source)).max().unwrap_or(0);
     if sure == (cutlab_toml::FORMAT.sniff)(&source) {
         return sure > 0 && cutlab_toml::looks_like_cutlab_toml(&source);
     }
     let understood = || {
         matches!(
-            read_bytes(&name, &bytes, path.parent()),
+            read_content_bytes(&name, &bytes, path.parent(), limits).and_then(Content::into_design),
             Ok(_) | Err(FormatError::NoStone { .. } | FormatError::Limit { .. })
         )
     };

@@ -4,30 +4,50 @@
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house.rs` keeps:
 //!
-//! `sampling parse storage progress` → `color optics geometry` → `materials design trace` →
+//! `sampling parse limits parallel progress` → `color optics geometry storage` → `materials design trace` →
 //! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →
 //! `render` → `report manual` → `cli`
+//!
+//! What is compiled of them follows from the features of the package. Without any, a stone of the library or
+//! of a parametric family is modelled, traced and scored, on one thread and without files;
+//! `parallel` takes all threads, `files` adds designs, meshes and tables on disk, `render` scenes and
+//! pictures, `report` drawings and pages, and `cli` (the default) is all of it and the program.
 
-pub mod batch;
-pub mod cli;
 pub mod color;
 pub mod design;
 pub mod estimators;
-pub mod formats;
 pub mod geometry;
-pub mod integrators;
+pub mod limits;
 pub mod manual;
 pub mod materials;
 pub mod metrics;
 pub mod optics;
+pub mod parallel;
 pub mod parse;
-pub mod photons;
 pub mod progress;
-pub mod render;
-pub mod report;
 pub mod sampling;
-pub mod scene;
 pub mod scoring;
 pub mod stone;
-pub mod storage;
 pub mod trace;
+
+#[cfg(feature = "files")]
+pub mod batch;
+#[cfg(feature = "files")]
+pub mod formats;
+#[cfg(feature = "files")]
+pub mod storage;
+
+#[cfg(feature = "render")]
+pub mod integrators;
+#[cfg(feature = "render")]
+pub mod photons;
+#[cfg(feature = "render")]
+pub mod render;
+#[cfg(feature = "render")]
+pub mod scene;
+
+#[cfg(feature = "report")]
+pub mod report;
+
+#[cfg(feature = "cli")]
+pub mod cli;

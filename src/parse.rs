@@ -1,8 +1,10 @@
 //! Numbers and names as people type them on a command line or in a stone's parameters.
 
+mod display;
 pub mod plain;
 pub mod shell;
 
+pub use display::display_name;
 use std::ops::RangeInclusive;
 
 /// What stands for a minus sign in text that went through a word processor: U+2212 and dashes.

@@ -1,9 +1,9 @@
 //! Files on disk: atomic writes, locks, journals, checkpoints, and limits on what is read.
 
 pub mod atomic_write;
+pub mod bounded_read;
 pub mod checkpoint;
 pub mod journal;
-pub mod limits;
 pub mod lock;
 pub mod output_path;
 pub mod stdin;

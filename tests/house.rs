@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// The rooms, lowest row first. A file imports only from lower rows; rooms of one row are
 /// strangers.
 const ROWS: &[&[&str]] = &[
-    &["sampling", "storage", "parse", "progress"],
-    &["color", "optics", "geometry"],
+    &["sampling", "parse", "limits", "parallel", "progress"],
+    &["color", "optics", "geometry", "storage"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],
     &["stone", "metrics"],

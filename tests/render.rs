@@ -4,6 +4,7 @@ use cutlab::color::cie::BANDS;
 use cutlab::design::library;
 use cutlab::integrators::image_io::{self, Bits};
 use cutlab::integrators::{self, Pass, PhotonMaps, Tone};
+use cutlab::limits::Limits;
 use cutlab::materials::Material;
 use cutlab::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton, map_file};
 use cutlab::sampling::random::{Purpose, Stream};
@@ -245,9 +246,9 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
     let path = folder.path().join("table.map");
     let table = scene("table", "round-brilliant", "diamond");
     let settings = PhotonSettings { photons: 4_000, nearest: 50, seed: SEED };
-    let (made, read) = map_file::load_or_emit(&path, &table, &settings).expect("made");
+    let (made, read) = map_file::load_or_emit(&path, &table, &settings, Limits::default()).expect("made");
     assert!(!read);
-    let (kept, read) = map_file::load_or_emit(&path, &table, &settings).expect("read");
+    let (kept, read) = map_file::load_or_emit(&path, &table, &settings, Limits::default()).expect("read");
     assert!(read);
     assert_eq!(made, kept);
     assert_eq!(small_picture(&table, &made), small_picture(&table, &kept));
@@ -263,7 +264,9 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
         (scene("table", "round-brilliant", "diamond"), PhotonSettings { photons: 1, ..settings }, "photons"),
     ];
     for (scene, settings, word) in others {
-        let error = map_file::load_or_emit(&path, &scene, &settings).expect_err("another map").to_string();
+        let error = map_file::load_or_emit(&path, &scene, &settings, Limits::default())
+            .expect_err("another map")
+            .to_string();
         assert!(error.contains(word) && !error.contains('\n'), "{error}");
     }
 }
@@ -274,7 +277,7 @@ fn a_kept_map_gives_the_same_picture_and_refuses_another_stone() {
 #[ignore = "long statistics; CI runs it in release"]
 fn the_brilliant_is_as_bright_as_other_renderers_have_it() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tools/peers/table.toml");
-    let file = SceneFile::open(&file).expect("is in the repository");
+    let file = SceneFile::open(&file, Limits::default()).expect("is in the repository");
     let s = file.build(&SceneOverrides::default(), 4.0 / 3.0).expect("is sound");
     let (width, height) = (200, 150);
     let shots = PhotonSets::emit(&s, &PhotonSettings { photons: 200_000, nearest: 300, seed: SEED });

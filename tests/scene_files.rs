@@ -6,6 +6,7 @@ mod room;
 
 use bench::Bench;
 use cutlab::integrators::animation::{self, Turn};
+use cutlab::limits::Limits;
 use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use room::{ROOM, SMALL, built, taken};
@@ -271,7 +272,8 @@ fn toml_is_read_whatever_ends_its_lines() {
     let (design, _) = bench.ends(0, &["generate", "-q", "cube", "--to", "toml", "-o", "-"]);
     for (name, ends) in [("lf", "\n"), ("crlf", "\r\n"), ("cr", "\r")] {
         std::fs::write(bench.path(&format!("{name}.toml")), ROOM.replace('\n', ends)).expect("writes");
-        SceneFile::open(&bench.path(&format!("{name}.toml"))).unwrap_or_else(|e| panic!("{name}: {e}"));
+        SceneFile::open(&bench.path(&format!("{name}.toml")), Limits::default())
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
         std::fs::write(bench.path(&format!("{name}-cube.toml")), design.replace('\n', ends)).expect("writes");
         bench.good(&["show", &format!("{name}-cube.toml")]);
     }

@@ -1,8 +1,9 @@
 //! Fingerprint of a table: a hash of everything that it depends on.
 
 use crate::formats;
+use crate::limits::{self, Limits};
+use crate::storage::stdin;
 use crate::storage::text;
-use crate::storage::{limits, stdin};
 use serde::Serialize;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -26,18 +27,20 @@ pub struct FileDigest(Option<[u8; 32]>);
 
 impl FileDigest {
     /// What the file at `path` holds now.
-    pub fn of_file(path: &Path) -> FileDigest {
+    pub fn of_file(path: &Path, limits: Limits) -> FileDigest {
         let mut content = Vec::new();
-        let read = File::open(path).and_then(|f| f.take(limits::FILE.max() + 1).read_to_end(&mut content));
+        let most = limits.max(&limits::FILE) + 1;
+        let read = File::open(path).and_then(|f| f.take(most).read_to_end(&mut content));
         if read.is_ok() && formats::may_include(&text::display_name(path), &content) {
-            content.extend(format!("{:?}", formats::read(path)).bytes());
+            content.extend(format!("{:?}", formats::read_content(path, limits)).bytes());
         }
         FileDigest(read.is_ok().then(|| Sha256::digest(&content).into()))
     }
 
     /// What standard input holds.
-    pub fn of_standard_input() -> FileDigest {
-        FileDigest(stdin::bytes().ok().and_then(Result::ok).map(|bytes| Sha256::digest(&bytes).into()))
+    pub fn of_standard_input(limits: Limits) -> FileDigest {
+        let bytes = stdin::bytes(limits).ok().and_then(Result::ok);
+        FileDigest(bytes.map(|bytes| Sha256::digest(&bytes).into()))
     }
 
     /// Whether the file could be read.

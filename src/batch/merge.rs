@@ -4,9 +4,10 @@ use super::shard::Shard;
 use super::sidecar::{TableMeta, checksum};
 use super::table::{RowReader, TableError, TableFormat};
 use super::table_job::TableSummary;
+use crate::limits::{self, Limits};
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::journal::Journal;
-use crate::storage::{limits, text};
+use crate::storage::{bounded_read, text};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,6 +23,8 @@ pub struct TablePart {
     pub form: TableFormat,
     /// Its text, if the file has that in another encoding or with other ends of lines.
     decoded: Option<Arc<str>>,
+    /// The most that is read of one of its rows.
+    limits: Limits,
 }
 
 /// Parts that cannot be joined.
@@ -87,17 +90,17 @@ fn missing(shards: &[Shard], total: u64) -> String {
 
 impl TablePart {
     /// The part in the file `table`, with its companion beside it.
-    pub fn open(table: &Path) -> Result<TablePart, MergeError> {
+    pub fn open(table: &Path, limits: Limits) -> Result<TablePart, MergeError> {
         let form = TableFormat::from_path(table)?;
         let beside = TableMeta::find_for(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
-        let sum = limits::regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
+        let sum = bounded_read::open_regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let bytes = limits::COMPANION.read_regular(&beside).map_err(|e| fail(&beside, e))?;
-        let bytes = bytes.map_err(|e| wrong(e.to_string()))?;
+        let bytes = bounded_read::read_regular(&beside, limits, &limits::COMPANION);
+        let bytes = bytes.map_err(|e| fail(&beside, e))?.map_err(|e| wrong(e.to_string()))?;
         let meta: TableMeta =
             serde_json::from_str(&text::decode(&bytes)).map_err(|e| wrong(e.to_string()))?;
-        let mut part = TablePart { table: table.to_owned(), meta, form, decoded: None };
+        let mut part = TablePart { table: table.to_owned(), meta, form, decoded: None, limits };
         if part.meta.crc32 != sum {
             // an editor may have saved the same text anew
             let text = text::decode(&part.bytes()?).replace("\r\n", "\n");
@@ -122,7 +125,7 @@ impl TablePart {
         if let Some(text) = &self.decoded {
             return Ok(Box::new(text.as_bytes()));
         }
-        let file = limits::regular(&self.table);
+        let file = bounded_read::open_regular(&self.table);
         let file = file.map_err(|cause| MergeError::Read { path: self.table.clone(), cause })?;
         Ok(Box::new(BufReader::new(file)))
     }
@@ -196,7 +199,7 @@ impl TableParts {
         let (columns, total) = (&self.meta.columns, self.meta.total);
         let mut readers = Vec::new();
         for part in &self.parts {
-            readers.push((part, RowReader::new(part.form, part.reader()?)?));
+            readers.push((part, RowReader::new(part.form, part.reader()?, part.limits)?));
         }
         put(&form.head(columns)?)?;
         for i in 0..total {

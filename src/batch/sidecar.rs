@@ -8,8 +8,9 @@ use super::request::TableRequest;
 use super::shard::Shard;
 use super::table::TableFormat;
 use super::table_job::TableSummary;
+use crate::limits::{self, Limits};
 use crate::scoring::score::ScoreRequest;
-use crate::storage::{limits, text};
+use crate::storage::{bounded_read, text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fs::File;
@@ -148,9 +149,14 @@ impl TableMeta {
 
     /// Whether the file at `table` is the table, or the part of it, whose companion `is_of`, with nothing
     /// changed since.
-    pub fn belongs_to(table: &Path, is_of: &dyn Fn(&TableMeta) -> bool, shard: Option<Shard>) -> bool {
-        let sum = || limits::regular(table).and_then(checksum).ok();
-        TableMeta::read(&TableMeta::find_for(table)).is_ok_and(|meta| {
+    pub fn belongs_to(
+        table: &Path,
+        is_of: &dyn Fn(&TableMeta) -> bool,
+        shard: Option<Shard>,
+        limits: Limits,
+    ) -> bool {
+        let sum = || bounded_read::open_regular(table).and_then(checksum).ok();
+        TableMeta::read(&TableMeta::find_for(table), limits).is_ok_and(|meta| {
             is_of(&meta) && meta.shard == shard && sum().is_some_and(|sum| meta.crc32 == sum)
         })
     }
@@ -169,8 +175,9 @@ impl TableMeta {
     }
 
     /// The companion in the file at `path`.
-    pub fn read(path: &Path) -> std::io::Result<TableMeta> {
-        let bytes = limits::COMPANION.read_regular(path)?.map_err(std::io::Error::other)?;
+    pub fn read(path: &Path, limits: Limits) -> std::io::Result<TableMeta> {
+        let bytes = bounded_read::read_regular(path, limits, &limits::COMPANION)?;
+        let bytes = bytes.map_err(std::io::Error::other)?;
         Ok(serde_json::from_str(&text::decode(&bytes))?)
     }
 

@@ -1,8 +1,8 @@
 //! Tables of scores: one row a line, as CSV or JSON.
 
+use crate::limits::{self, Limits};
 use crate::metrics::Metric;
 use crate::scoring::score::ScoreRow;
-use crate::storage::limits;
 use crate::storage::text;
 use serde::ser::{SerializeMap, Serializer};
 use std::collections::BTreeMap;
@@ -219,6 +219,7 @@ fn record(cells: impl serde::Serialize) -> Result<Vec<u8>, TableError> {
 /// Reads the rows of a table back, one by one, as [`TableFormat::row`] made them.
 pub struct RowReader<R> {
     inner: RowSource<R>,
+    limits: Limits,
 }
 
 enum RowSource<R> {
@@ -230,11 +231,12 @@ enum RowSource<R> {
 struct MeteredReader<R> {
     inner: R,
     since: u64,
+    limits: Limits,
 }
 
 impl<R: Read> Read for MeteredReader<R> {
     fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
-        limits::ROW.check(self.since).map_err(std::io::Error::other)?;
+        self.limits.check(&limits::ROW, self.since).map_err(std::io::Error::other)?;
         let read = self.inner.read(into)?;
         self.since += read as u64;
         Ok(read)
@@ -243,15 +245,15 @@ impl<R: Read> Read for MeteredReader<R> {
 
 impl<R: BufRead> RowReader<R> {
     /// A reader after the head of a table.
-    pub fn new(form: TableFormat, reader: R) -> Result<RowReader<R>, TableError> {
+    pub fn new(form: TableFormat, reader: R, limits: Limits) -> Result<RowReader<R>, TableError> {
         let inner = match form {
             TableFormat::Csv => {
-                let metered = MeteredReader { inner: reader, since: 0 };
+                let metered = MeteredReader { inner: reader, since: 0, limits };
                 RowSource::Csv(csv::ReaderBuilder::new().flexible(true).from_reader(metered))
             }
             TableFormat::JsonLines | TableFormat::Json => RowSource::Lines(reader),
         };
-        Ok(RowReader { inner })
+        Ok(RowReader { inner, limits })
     }
 
     /// The next row; none after the last.
@@ -265,9 +267,9 @@ impl<R: BufRead> RowReader<R> {
             }
             RowSource::Lines(reader) => loop {
                 let mut line = Vec::new();
-                let mut part = reader.by_ref().take(limits::ROW.max() + 1);
+                let mut part = reader.by_ref().take(self.limits.max(&limits::ROW) + 1);
                 let read = part.read_until(b'\n', &mut line).map_err(|e| TableError::Row(e.to_string()))?;
-                limits::ROW.check(read).map_err(|e| TableError::Row(e.to_string()))?;
+                self.limits.check(&limits::ROW, read).map_err(|e| TableError::Row(e.to_string()))?;
                 if read == 0 {
                     return Ok(None);
                 }
@@ -289,7 +291,7 @@ pub struct NumericColumns {
 
 impl NumericColumns {
     /// Those of a table's bytes.
-    pub fn read(bytes: &[u8], form: TableFormat) -> Result<NumericColumns, TableError> {
+    pub fn read(bytes: &[u8], form: TableFormat, limits: Limits) -> Result<NumericColumns, TableError> {
         let mut table = NumericColumns::default();
         let mut add = |column: &str, number: Option<f64>, text: String| {
             table.numbers.entry(column.to_owned()).or_default().push(number);
@@ -308,7 +310,7 @@ impl NumericColumns {
             }
             return Ok(table);
         }
-        let mut rows = RowReader::new(form, bytes)?;
+        let mut rows = RowReader::new(form, bytes, limits)?;
         while let Some(row) = rows.row()? {
             let row: serde_json::Map<String, serde_json::Value> =
                 serde_json::from_slice(&row).map_err(|e| TableError::Row(e.to_string()))?;

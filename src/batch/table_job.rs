@@ -3,9 +3,9 @@
 pub use super::finished_row::{FinishedRow, RowStatus};
 use super::shard::Shard;
 use super::table::{TableError, TableFormat};
+use crate::parallel;
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::journal::{Journal, JournalRemark};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -246,7 +246,7 @@ impl TableJob<'_> {
         let rows = self.shard.rows(self.total);
         for from in (0..rows).step_by(WINDOW as usize) {
             let length = WINDOW.min(rows - from) as usize;
-            (0..length).into_par_iter().with_max_len(1).try_for_each(|i| {
+            parallel::try_for_each(length, |i| {
                 let position = from + i as u64;
                 if had(position) {
                     return Ok(());

@@ -189,7 +189,8 @@ impl From<StoneError> for CliError {
         match error {
             StoneError::Format(error) => error.into(),
             StoneError::NotConvex(ref cause) => {
-                CliError { shape: shape_of(cause).map(Box::new), ..CliError::input(error.to_string()) }
+                let shape = if let StoneError::Format(cause) = &**cause { shape_of(cause) } else { None };
+                CliError { shape: shape.map(Box::new), ..CliError::input(error.to_string()) }
             }
             _ => CliError::input(error.to_string()),
         }

@@ -9,6 +9,7 @@ use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::{MergeError, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
+use crate::cli::limits::limits;
 use crate::storage::atomic_write;
 use crate::storage::journal::Journal;
 use std::ffi::OsString;
@@ -48,7 +49,8 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
         outputs.reads(table);
         outputs.reads(&TableMeta::find_for(table));
     }
-    let parts: Vec<TablePart> = tables.iter().map(|p| TablePart::open(p)).collect::<Result<_, _>>()?;
+    let parts: Vec<TablePart> =
+        tables.iter().map(|p| TablePart::open(p, limits())).collect::<Result<_, _>>()?;
     let count = parts.len();
     let mut parts = TableParts::new(parts)?;
     let command = parts.meta.command.clone();

@@ -10,7 +10,7 @@ use super::args::{inputs, stone};
 use super::console::Console;
 use super::exit_code::CliError;
 use crate::storage::atomic_write;
-use crate::storage::limits;
+use crate::storage::bounded_read;
 use crate::storage::output_path::{self, FileId};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -91,6 +91,7 @@ impl Outputs {
 /// Whether there is a file at `path` of just these bytes.
 pub fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
     let mut there = Vec::new();
-    let read = limits::regular(path).and_then(|f| f.take(bytes.len() as u64 + 1).read_to_end(&mut there));
+    let read =
+        bounded_read::open_regular(path).and_then(|f| f.take(bytes.len() as u64 + 1).read_to_end(&mut there));
     read.is_ok() && there == bytes
 }

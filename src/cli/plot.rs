@@ -7,6 +7,7 @@ use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::TablePart;
 use crate::batch::sidecar::TableMeta;
+use crate::cli::limits::limits;
 use crate::render::record;
 use std::path::PathBuf;
 
@@ -32,7 +33,7 @@ pub struct PlotArgs {
 
 /// Draws the plots.
 pub fn run(args: &PlotArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let part = TablePart::open(&args.table)?;
+    let part = TablePart::open(&args.table, limits())?;
     if let Some(shard) = part.meta.shard {
         let table = stone::display_name(&args.table);
         return Err(CliError::input(format!("{table} is shard {shard} of a table: cutlab merge joins them")));

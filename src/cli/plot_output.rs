@@ -8,6 +8,7 @@ use super::exit_code::CliError;
 use super::outputs::Outputs;
 use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};
+use crate::cli::limits::limits;
 use crate::metrics::Metric;
 use crate::render::record;
 use crate::report::plot::{Axis, ScorePlot, Style};
@@ -94,7 +95,7 @@ impl Plots {
         if self.is_empty() {
             return Ok(Vec::new());
         }
-        let table = NumericColumns::read(bytes, form)?;
+        let table = NumericColumns::read(bytes, form, limits())?;
         let family = grammar::family(&layout.stone);
         let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::new(key, family)).collect();
         for (path, metric) in &self.files {

@@ -10,6 +10,7 @@ use super::console::Console;
 use super::exit_code::{self, CliError, ExitStatus};
 use super::outputs::Outputs;
 use crate::batch::fingerprint::Fingerprint;
+use crate::cli::limits::limits;
 use crate::design::USUAL_WIDTH_MM;
 use crate::photons::map_file;
 use crate::render::{self, OutputTarget, Provenances, record, request};
@@ -23,7 +24,7 @@ use std::path::Path;
 
 /// Takes the picture or pictures.
 pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let file = request::open_scene(&args.scene)?;
+    let file = request::open_scene(&args.scene, limits())?;
     let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
     let target = OutputTarget::new(&output, args.frames.is_some(), args.passes)?;
     let mut request = args.request();

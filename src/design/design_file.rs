@@ -6,7 +6,7 @@ use super::meet_points::{MeetError, MeetPointSolver, Rule, TierSpec};
 use super::scaling::{LENGTH_TO_WIDTH, scale_length_to_width};
 use super::tiers::{Design, Facet, Gear, LengthUnit, Tier, facet_normal};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits::{self, Limits};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -170,6 +170,15 @@ impl DesignFile {
     /// Builds the design, with `overrides` for the parameters of a family, or for the length to
     /// width of a cut of tiers.
     pub fn design(&self, overrides: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
+        self.design_within(overrides, Limits::default())
+    }
+
+    /// As [`DesignFile::design`], within limits that may be raised.
+    pub fn design_within(
+        &self,
+        overrides: &BTreeMap<String, f64>,
+        limits: Limits,
+    ) -> Result<Design, DocumentError> {
         if let Some(family) = &self.family {
             let mut design = families::build_from(family, &self.parameters, overrides)?;
             if !self.name.is_empty() {
@@ -185,7 +194,7 @@ impl DesignFile {
             return Err(CutError::NoParameters { name: self.name.clone(), key: key.clone() }.into());
         }
         let gear = self.gear.map_or(Gear::default(), |g| Gear { teeth: g.teeth, offset: g.offset });
-        let mut bench = MeetPointSolver::new(gear);
+        let mut bench = MeetPointSolver::new(gear, limits);
         for (i, entry) in self.tier.iter().enumerate() {
             let tier = entry.tier(i + 1, gear, &bench)?;
             let name = tier.name.clone();
@@ -243,7 +252,7 @@ impl TierEntry {
         let mut facets = Vec::new();
         let mut angle_deg = self.angle;
         let count = self.indices.len().saturating_mul(self.repeat.unwrap_or(1) as usize);
-        limits::FACETS.check(count).map_err(|e| fail(e.to_string()))?;
+        bench.limits.check(&limits::FACETS, count).map_err(|e| fail(e.to_string()))?;
         if [self.angle, self.girdle, self.width, self.table].iter().flatten().any(|x| !x.is_finite()) {
             return Err(fail("angle, girdle, width and table must be numbers".into()));
         }

@@ -13,7 +13,7 @@ pub use error::MeetError;
 use super::proportions::{flat_extent, wheel_size};
 use super::tiers::{Facet, Gear, Tier, Zone, facet_normal};
 use crate::geometry::{Plane, Polyhedron};
-use crate::storage::limits;
+use crate::limits::{self, Limits};
 use glam::{DMat3, DVec3};
 use std::cell::Cell;
 
@@ -61,14 +61,16 @@ pub struct MeetPointSolver {
     /// The tiers cut so far.
     pub tiers: Vec<Tier>,
     guides: Vec<Tier>,
+    /// The most facets, and steps, that it takes.
+    pub(super) limits: Limits,
     /// What placing tiers has cost so far, see [`limits::SOLVING`].
     steps: Cell<u64>,
 }
 
 impl MeetPointSolver {
     /// An empty bench with that index wheel.
-    pub fn new(gear: Gear) -> MeetPointSolver {
-        MeetPointSolver { gear, ..MeetPointSolver::default() }
+    pub fn new(gear: Gear, limits: Limits) -> MeetPointSolver {
+        MeetPointSolver { gear, limits, ..MeetPointSolver::default() }
     }
 
     /// Finds the angle (degrees) and distance of a tier.
@@ -118,13 +120,13 @@ impl MeetPointSolver {
             self.tiers.push(tier)
         }
         let all = self.tiers.iter().chain(&self.guides).map(|t| t.facets.len());
-        Ok(limits::FACETS.check(all.sum::<usize>())?)
+        Ok(self.limits.check(&limits::FACETS, all.sum::<usize>())?)
     }
 
     /// Counts what is about to be done.
     fn spend(&self, steps: usize) -> Result<(), MeetError> {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
-        Ok(limits::SOLVING.check(self.steps.get())?)
+        Ok(self.limits.check(&limits::SOLVING, self.steps.get())?)
     }
 
     /// The solid of planes.

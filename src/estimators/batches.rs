@@ -1,8 +1,8 @@
 //! Independent batches of one estimator, traced side by side.
 
+use crate::parallel;
 use crate::sampling::statistic::Statistic;
 use crate::sampling::stats::{self, Accumulate, Estimate};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Independent batches of an estimator. Errors come from their spread: with 64 the error itself
@@ -46,7 +46,7 @@ impl<E: Estimator> BatchedEstimate<E> {
             return;
         }
         let (from, seed, estimator) = (self.points, self.seed, &self.estimator);
-        self.tallies.par_iter_mut().enumerate().for_each(|(batch, tally)| {
+        parallel::for_each_mut(&mut self.tallies, |batch, tally| {
             estimator.trace(seed, batch as u64, from..points, tally);
         });
         self.points = points;

@@ -9,6 +9,7 @@ use super::{BATCHES, EstimatorError, TraceOptics, ViewFrame, check_index, entry_
 use crate::geometry::Plane;
 use crate::optics::dispersion::lines;
 use crate::optics::stokes::Stokes;
+use crate::parallel;
 use crate::trace::beams::residual::{ResidualClient, ResidualPhotons};
 use crate::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, IncidentBeam, Interface, ResidualBeam, StopCriteria,
@@ -16,7 +17,6 @@ use crate::trace::beams::{
 };
 use crate::trace::{Interaction, LANES};
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// A beam that covers less than this share of the outline is left to photons: of a brilliant some
 /// tens of thousands are followed, which hold 97 % of its streaks.
@@ -131,7 +131,7 @@ fn sums<const K: usize>(
         let (share, _) = residual.trace(batch, beams.stone(), indices, &mut finished);
         sum + share * finished.sum
     };
-    Ok((0..BATCHES).into_par_iter().map(finish).collect())
+    Ok(parallel::map(BATCHES, finish))
 }
 
 /// Which exits count, and with what weight.

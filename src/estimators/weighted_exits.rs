@@ -5,6 +5,7 @@ use super::same_path::SamePath;
 use super::{BATCHES, EstimatorError, check_index};
 use crate::geometry::Plane;
 use crate::optics::stokes::Stokes;
+use crate::parallel;
 use crate::sampling::stats::{self, Estimate};
 use crate::trace::Interaction;
 use crate::trace::beams::residual::{ResidualClient, ResidualPhotons};
@@ -13,7 +14,6 @@ use crate::trace::beams::{
     UnpolarisedLight,
 };
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// The scores follow no more beams of one direction than this: a second's work, ten times what a
 /// diamond needs. At an index of 10, which keeps nearly all light inside, there would be tens of
@@ -156,8 +156,7 @@ fn integrate_exits_of<L: BeamLight, const K: usize, const N: usize>(
         let photons = finished.scales.sums;
         (std::array::from_fn(|k| sums[k] + photon * photons[k]), photon * lost / K as f64)
     };
-    let batches =
-        if effort.photons == 0 { Vec::new() } else { (0..BATCHES).into_par_iter().map(finish).collect() };
+    let batches = if effort.photons == 0 { Vec::new() } else { parallel::map(BATCHES, finish) };
     let (left, reflected) = (totals.not_followed, totals.reflected);
     WeightedSums { beam_sums: sums, glare, reflected, residual: left, beams: totals.beams, batches }
 }

@@ -3,7 +3,7 @@
 use super::error::FormatError;
 use super::input::{Input, is_no_value, number, words};
 use super::mesh_import::Digits;
-use crate::storage::limits;
+use crate::limits;
 
 /// Of words after the numbers no reader knows more than one; two are enough to complain.
 const MOST_AFTER: usize = 2;

@@ -5,8 +5,9 @@ use super::input::{Input, lines};
 use super::{Format, Parsed, Writer};
 use crate::design::Design;
 use crate::design::design_file::{DesignFile, DocumentError};
+use crate::limits;
 use crate::parse::plain;
-use crate::storage::{limits, text};
+use crate::storage::text;
 use std::collections::BTreeMap;
 
 /// Design files as in `cuts/`.
@@ -51,7 +52,7 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
     source.is_within(&limits::TOML_DESIGN)?;
     let text = text::decode_lines(source.bytes);
     let mut design = document(source, &text)?
-        .design(&BTreeMap::new())
+        .design_within(&BTreeMap::new(), source.limits)
         .map_err(|cause| FormatError::Cut { file: source.name.into(), cause })?;
     if design.name.is_empty() {
         design.name = source.stem();

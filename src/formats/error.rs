@@ -3,8 +3,8 @@
 use crate::design::design_file::DocumentError;
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::RecoverError;
+use crate::limits::Exceeded;
 use crate::storage::atomic_write::WriteError;
-use crate::storage::limits::Exceeded;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
 /// was found.

@@ -6,8 +6,8 @@ use super::mesh_export::MeshExport;
 use crate::design::{Design, LengthUnit};
 use crate::geometry::ClosedMesh;
 use crate::geometry::facet_recovery::RecoverError;
-use crate::storage::limits;
-use crate::storage::text;
+use crate::limits::{self, Limits};
+use crate::storage::{bounded_read, text};
 use std::path::Path;
 
 /// Makes a file's bytes.
@@ -78,11 +78,11 @@ impl Parsed {
 
 /// The bytes of a regular file, if they are not more than [`limits::FILE`]. What a reader allots is
 /// bounded by the bytes it was given and by the other [`limits`].
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, FormatError> {
-    within_limit(path, limits::FILE.read_regular(path))
+pub(super) fn read_file(path: &Path, limits: Limits) -> Result<Vec<u8>, FormatError> {
+    within_limit(path, bounded_read::read_regular(path, limits, &limits::FILE))
 }
 
-/// What [`limits::Limit::read`] gives.
+/// What [`bounded_read::read`] gives.
 pub(super) type ReadOutcome = std::io::Result<Result<Vec<u8>, limits::Exceeded>>;
 
 pub(super) fn within_limit(path: &Path, bytes: ReadOutcome) -> Result<Vec<u8>, FormatError> {

@@ -13,7 +13,7 @@ use super::{Format, Parsed, Writer};
 use crate::design::tiers::facet_normal;
 use crate::design::{Design, Facet, Gear, Tier};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -38,12 +38,13 @@ fn read(source: &Input) -> Result<Parsed, FormatError> {
     let end = text.rfind("</GemCutStudio").and_then(|at| Some(at + text[at..].find('>')? + 1));
     let (text, after) = text.split_at(end.unwrap_or(text.len()));
     few_attributes(source, text)?;
-    let nodes_limit = u32::try_from(limits::XML_NODES.max()).unwrap_or(u32::MAX);
+    let nodes_limit = u32::try_from(source.limits.max(&limits::XML_NODES)).unwrap_or(u32::MAX);
     let options = ParsingOptions { nodes_limit, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|cause| match cause {
-        roxmltree::Error::NodesLimitReached => {
-            FormatError::Limit { place: source.name.into(), cause: limits::XML_NODES.exceeded() }
-        }
+        roxmltree::Error::NodesLimitReached => FormatError::Limit {
+            place: source.name.into(),
+            cause: source.limits.exceeded(&limits::XML_NODES),
+        },
         cause => FormatError::Line {
             file: source.name.into(),
             line: cause.pos().row as usize,

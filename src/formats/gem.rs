@@ -13,7 +13,7 @@ use super::windows_1252::decoded;
 use super::{Format, Parsed, Writer};
 use crate::design::{Design, Facet, Gear, Tier};
 use crate::geometry::Plane;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -146,7 +146,7 @@ impl<'s> ByteReader<'s> {
         while !self.is_at_end() {
             let Some(facet) = self.facet()? else { break };
             count += 1;
-            if limits::FACETS.check(count).is_ok() {
+            if self.source.limits.check(&limits::FACETS, count).is_ok() {
                 raw.facets.push(facet);
             }
         }

@@ -14,7 +14,7 @@ use super::gemcad_text_write::write;
 use super::input::{Input, MINUS_SIGNS, lines, number};
 use super::{Format, Parsed, Writer};
 use crate::design::Gear;
-use crate::storage::limits;
+use crate::limits;
 use words::{AscWord, AscWords, append, is_keyword_line, keyword, order};
 
 /// GemCad text designs, of every version in circulation.
@@ -314,7 +314,7 @@ impl AscFile<'_> {
 
     fn facet(&mut self, word: AscWord, index: f64) {
         self.facet_count += 1;
-        match limits::FACETS.check(self.facet_count) {
+        match self.source.limits.check(&limits::FACETS, self.facet_count) {
             Ok(()) => self.tiers.last_mut().map_or((), |t| t.indices.push((index, String::new()))),
             // counted on, for the error to say how many there are
             Err(_) => self.too_many_at = self.too_many_at.or(Some(word.line)),

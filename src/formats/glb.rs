@@ -13,7 +13,7 @@ use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, Parsed, Writer, glb_write};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use document::{GltfDocument, Node, Primitive, document};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use std::borrow::Cow;

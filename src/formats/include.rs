@@ -21,6 +21,6 @@ pub fn fetch(source: &Input, reference: &str) -> Option<Result<Vec<u8>, FormatEr
     match (folder.canonicalize(), path.canonicalize()) {
         (Ok(folder), Ok(real)) if !real.starts_with(&folder) => None,
         (_, Err(cause)) => Some(Err(FormatError::Read { file: text::display_name(path), cause })),
-        _ => Some(read_file(&path)),
+        _ => Some(read_file(&path, source.limits)),
     }
 }

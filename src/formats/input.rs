@@ -2,8 +2,8 @@
 
 use super::error::{FormatError, quoted_excerpt, shortened};
 use crate::geometry::facet_recovery::RecoverError;
+use crate::limits::{Limit, Limits};
 pub use crate::parse::MINUS_SIGNS;
-use crate::storage::limits::Limit;
 use crate::storage::text;
 use std::borrow::Cow;
 use std::path::Path;
@@ -17,6 +17,8 @@ pub struct Input<'a> {
     pub bytes: &'a [u8],
     /// The folder that files it refers to must lie in; none refuses them all.
     pub folder: Option<&'a Path>,
+    /// The most that is read of anything.
+    pub limits: Limits,
 }
 
 impl<'a> Input<'a> {
@@ -65,30 +67,30 @@ impl<'a> Input<'a> {
 
     /// Refuses a file with `n` of something in all, if that is more than its limit.
     pub fn has_at_most(&self, limit: &Limit, n: usize) -> Result<(), FormatError> {
-        limit.check_all(n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
+        self.limits.check_all(limit, n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
     }
 
     /// As [`Input::has_at_most`], where the first that is too many stands at a line (from 1).
     pub fn has_at_most_at(&self, line: usize, limit: &Limit, n: usize) -> Result<(), FormatError> {
         let place = || format!("{}, line {line}", self.name);
-        limit.check_all(n).map_err(|cause| FormatError::Limit { place: place(), cause })
+        self.limits.check_all(limit, n).map_err(|cause| FormatError::Limit { place: place(), cause })
     }
 
     /// Refuses `n` of something, counted so far, if that is more than its limit.
     pub fn within(&self, limit: &Limit, n: usize) -> Result<(), FormatError> {
-        limit.check(n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
+        self.limits.check(limit, n).map_err(|cause| FormatError::Limit { place: self.name.into(), cause })
     }
 
     /// As [`Input::within`], for what stands at a line (from 1).
     pub fn within_at(&self, line: usize, limit: &Limit, n: usize) -> Result<(), FormatError> {
         let place = || format!("{}, line {line}", self.name);
-        limit.check(n).map_err(|cause| FormatError::Limit { place: place(), cause })
+        self.limits.check(limit, n).map_err(|cause| FormatError::Limit { place: place(), cause })
     }
 
     /// Refuses a file of more bytes than `limit`.
     pub fn is_within(&self, limit: &Limit) -> Result<(), FormatError> {
         let too_large = |cause| FormatError::TooLarge { file: self.name.into(), cause };
-        limit.check_all(self.bytes.len()).map_err(too_large)
+        self.limits.check_all(limit, self.bytes.len()).map_err(too_large)
     }
 
     /// An error at a byte.

@@ -5,6 +5,7 @@ use super::format::{Parsed, ParsedShape};
 use super::input::Input;
 use crate::design::{Design, LengthUnit};
 use crate::geometry::facet_recovery::{Polygon, RecoverError, Stored, facets_of_polygons};
+use crate::limits::Limits;
 use glam::DVec3;
 
 /// How a format holds its numbers, which says how far they may be off.
@@ -109,12 +110,12 @@ const COARSE: f64 = 2e-6;
 /// The design of a mesh's facets, or the mesh where it is closed but no convex stone. Facets keep their
 /// names; the design gets the file's.
 pub fn stone_from_mesh(source: &Input, mesh: &PolygonMesh) -> Result<Parsed, FormatError> {
-    recover(&source.stem(), mesh).map_err(|cause| source.no_stone(cause))
+    recover(&source.stem(), mesh, source.limits).map_err(|cause| source.no_stone(cause))
 }
 
 /// As [`stone_from_mesh`], for a reader that has several meshes to try.
-pub fn recover(name: &str, mesh: &PolygonMesh) -> Result<Parsed, RecoverError> {
-    let mut found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored())?;
+pub fn recover(name: &str, mesh: &PolygonMesh, limits: Limits) -> Result<Parsed, RecoverError> {
+    let mut found = facets_of_polygons(&mesh.vertices, &mesh.polygons, mesh.stored(), limits)?;
     let (tolerance, divided, nonconvex) = (found.tolerance, found.divided_edges, found.take_mesh());
     let mut warnings = mesh.warnings.clone();
     let facets = match (found.into_facets(), nonconvex) {

@@ -10,7 +10,7 @@ use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::design::LengthUnit;
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write;

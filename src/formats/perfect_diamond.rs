@@ -53,7 +53,8 @@ fn stone(source: &Input, (shapes, digits): PolygonShapes) -> Result<Parsed, Form
         }));
         (vertices, polygons)
     });
-    let as_stone = |(v, p): PolygonShape| recover(&source.stem(), &PolygonMesh::from_text(v, p, digits));
+    let as_stone =
+        |(v, p): PolygonShape| recover(&source.stem(), &PolygonMesh::from_text(v, p, digits), source.limits);
     let (design, mut warnings) = match as_stone(together) {
         Ok(Parsed { shape: ParsedShape::Design(design), warnings }) => (design, warnings),
         other => {

@@ -11,7 +11,7 @@ use super::input::Input;
 use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Parsed, Writer};
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 use header::{Element, Header, PlyScalar, Property};
 use std::borrow::Cow;

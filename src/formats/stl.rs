@@ -7,7 +7,7 @@ use super::input::{Input, lines, number, without_comment};
 use super::mesh_import::{Digits, PolygonMesh, stone_from_mesh};
 use super::{Format, MeshExport, Writer};
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
 

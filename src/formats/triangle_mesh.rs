@@ -4,6 +4,7 @@ use super::error::FormatError;
 use super::input::Input;
 use super::mesh_import::PolygonMesh;
 use super::{glb, obj, ply, read_file, stl};
+use crate::limits::Limits;
 use crate::storage::text;
 use glam::DVec3;
 use std::path::Path;
@@ -20,13 +21,14 @@ pub struct Triangles {
 /// Reads an OBJ, glTF, GLB, STL or PLY file, a regular one; polygons become fans of triangles.
 ///
 /// Errors name the file and the place in it.
-pub fn triangles(path: &Path) -> Result<Triangles, FormatError> {
+pub fn triangles(path: &Path, limits: Limits) -> Result<Triangles, FormatError> {
     let name = text::display_name(path);
-    let bytes = read_file(path)?;
+    let bytes = read_file(path, limits)?;
     triangles_from(&Input {
         name: &name,
         bytes: &bytes,
         folder: Some(path.parent().unwrap_or(Path::new(""))),
+        limits,
     })
 }
 

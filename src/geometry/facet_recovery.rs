@@ -9,7 +9,7 @@ use super::plane::Plane;
 pub use super::polygon::{Polygon, Stored};
 use super::polyhedron::{Polyhedron, SolidError};
 use super::welded_surface::{WeldedSurface, welded};
-use crate::storage::limits::{self, Exceeded};
+use crate::limits::{self, Exceeded, Limits};
 use glam::DVec3;
 
 /// Corners of one facet lie in one plane within so many roundings of a stored coordinate: three coordinates of
@@ -136,8 +136,9 @@ pub fn facets_of_polygons(
     vertices: &[DVec3],
     polygons: &[Polygon],
     stored: Stored,
+    limits: Limits,
 ) -> Result<Recovered, RecoverError> {
-    limits::POLYGONS.check_all(polygons.len())?;
+    limits.check_all(&limits::POLYGONS, polygons.len())?;
     for (polygon, p) in polygons.iter().enumerate() {
         if let Some(&corner) = p.corners.iter().find(|&&c| c >= vertices.len()) {
             return Err(RecoverError::NoCorner { polygon, corner, vertices: vertices.len() });
@@ -166,7 +167,7 @@ pub fn facets_of_polygons(
     if surface.faces.is_empty() {
         return Err(RecoverError::Empty);
     }
-    let judged = |tolerance| classify(&surface, polygons, tolerance, stored, size);
+    let judged = |tolerance| classify(&surface, polygons, tolerance, stored, size, limits);
     let finest = COPLANAR[0].max(rounding);
     let first = judged(finest);
     match &first {
@@ -209,11 +210,12 @@ fn classify(
     tolerance: f64,
     stored: Stored,
     size: f64,
+    limits: Limits,
 ) -> Result<Recovered, RecoverError> {
     let regions = surface.regions(polygons, tolerance * size);
     let is_solid = surface.shells == 1 && surface.open_edges == 0;
     if is_solid {
-        limits::FACETS.check_all(regions.len())?;
+        limits.check_all(&limits::FACETS, regions.len())?;
     }
     let mut facets = Vec::with_capacity(regions.len());
     let (mut stands_out, mut convex) = (0.0f64, is_solid);
@@ -330,7 +332,8 @@ mod tests {
     fn triangles_of_any_winding_become_named_outward_facets() {
         for wind in [|_: usize| false, |_| true, |i| i % 3 == 0] {
             let (vertices, polygons) = cube(wind);
-            let found = facets_of_polygons(&vertices, &polygons, Stored::EXACT).expect("a mesh");
+            let found =
+                facets_of_polygons(&vertices, &polygons, Stored::EXACT, Limits::default()).expect("a mesh");
             assert!(found.closed() && found.convex && (found.volume - 1.0).abs() < 1e-15);
             let facets = found.into_facets().expect("a stone");
             assert_eq!(facets.len(), 6);
@@ -345,11 +348,13 @@ mod tests {
     fn open_and_nonconvex_meshes_say_so() {
         let (mut vertices, mut polygons) = cube(|_| false);
         polygons.pop();
-        let found = facets_of_polygons(&vertices, &polygons, Stored::EXACT).expect("a mesh");
+        let found =
+            facets_of_polygons(&vertices, &polygons, Stored::EXACT, Limits::default()).expect("a mesh");
         assert!(!found.closed() && !found.convex);
         assert_eq!(found.into_facets(), Err(RecoverError::Open(3)));
         vertices[7] = DVec3::splat(0.4);
-        let found = facets_of_polygons(&vertices, &cube(|_| false).1, Stored::EXACT).expect("a mesh");
+        let found = facets_of_polygons(&vertices, &cube(|_| false).1, Stored::EXACT, Limits::default())
+            .expect("a mesh");
         assert!(found.closed() && !found.convex);
         assert!(matches!(found.into_facets(), Err(RecoverError::NotConvex(_))));
     }
@@ -357,9 +362,12 @@ mod tests {
     #[test]
     fn corners_that_are_not_there_are_errors() {
         let (vertices, polygons) = cube(|_| false);
-        let error =
-            facets_of_polygons(&vertices[..7], &polygons, Stored::EXACT).expect_err("a corner is missing");
+        let error = facets_of_polygons(&vertices[..7], &polygons, Stored::EXACT, Limits::default())
+            .expect_err("a corner is missing");
         assert_eq!(error, RecoverError::NoCorner { polygon: 2, corner: 7, vertices: 7 });
-        assert_eq!(facets_of_polygons(&vertices, &[], Stored::EXACT), Err(RecoverError::Empty));
+        assert_eq!(
+            facets_of_polygons(&vertices, &[], Stored::EXACT, Limits::default()),
+            Err(RecoverError::Empty)
+        );
     }
 }

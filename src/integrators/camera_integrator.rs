@@ -7,13 +7,13 @@ use super::sensor::{Sensor, purest};
 use super::stone_integrator;
 use crate::color::cie;
 use crate::color::cie::BANDS;
+use crate::parallel;
 use crate::photons::BandSpectrum;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
 use crate::scene::intersection::{Intersection, Past, SurfacePoint};
 use crate::scene::{Bsdf, Camera, Light, Scene};
 use glam::Vec3;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Shadow rays to each light that a pixel of a surface seen directly takes over all its camera
@@ -39,15 +39,12 @@ pub fn render(
     row_done: &(dyn Fn() + Sync),
 ) -> Film {
     let view = CameraIntegrator { scene, camera, maps, settings, sensor: Sensor::new(camera) };
-    let pixels = (0..settings.height)
-        .into_par_iter()
-        .flat_map_iter(|y| {
-            let row: Vec<Pixel> = (0..settings.width).map(|x| view.pixel(x, y)).collect();
-            row_done();
-            row
-        })
-        .collect();
-    Film { width: settings.width, height: settings.height, pixels }
+    let rows = parallel::map(settings.height as usize, |y| {
+        let row: Vec<Pixel> = (0..settings.width).map(|x| view.pixel(x, y as u32)).collect();
+        row_done();
+        row
+    });
+    Film { width: settings.width, height: settings.height, pixels: rows.into_iter().flatten().collect() }
 }
 
 /// The first thing in the middle of each pixel.

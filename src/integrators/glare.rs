@@ -12,10 +12,10 @@
 use super::film::Film;
 use super::tone::Tone;
 use crate::color::rgb_upsampling;
+use crate::parallel;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use glam::{Vec2, Vec3};
-use rayon::prelude::*;
 use std::f32::consts::TAU;
 
 /// Edges of the iris.
@@ -46,18 +46,11 @@ impl PointSpread {
         let pixel_um = FRAME_UM / width as f32;
         // the iris has a centre of symmetry, and so has what it spreads: half of it is enough
         let half = (side * side / 2) as usize;
-        let mut shares: Vec<Vec3> = (0..half)
-            .into_par_iter()
-            .map(|i| {
-                let i = i as i32;
-                share(
-                    Vec2::new((i % side - reach) as f32, (i / side - reach) as f32),
-                    f_number,
-                    pixel_um,
-                    i as u64,
-                )
-            })
-            .collect();
+        let mut shares: Vec<Vec3> = parallel::map(half, |i| {
+            let i = i as i32;
+            let away = Vec2::new((i % side - reach) as f32, (i / side - reach) as f32);
+            share(away, f_number, pixel_um, i as u64)
+        });
         let away: Vec3 = shares.iter().sum();
         let other: Vec<Vec3> = shares.iter().rev().copied().collect();
         shares.push(Vec3::ONE - 2.0 * away);
@@ -117,7 +110,7 @@ pub fn add(film: &mut Film, tone: &Tone, f_number: f32) {
     };
     let bright: Vec<Vec<(i32, Vec3)>> = exposed.chunks(width).map(in_row).collect();
     let curve = Tone { stops: 0.0, ..*tone };
-    film.pixels.par_iter_mut().enumerate().for_each(|(i, pixel)| {
+    parallel::for_each_mut(&mut film.pixels, |i, pixel| {
         let (x, y) = ((i % width) as i32, (i / width) as i32);
         let mut come = Vec3::ZERO;
         for (from_y, row) in (0..).zip(&bright).filter(|(from_y, _)| (y - from_y).abs() <= spread.reach) {

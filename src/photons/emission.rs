@@ -7,6 +7,7 @@
 use super::PhotonSets;
 use super::photon_light::PhotonLight;
 use super::{Class, PhotonSet, PhotonSettings, StoredPhoton};
+use crate::parallel;
 use crate::photons::stone_scattering;
 use crate::photons::stone_scattering::IncidentPhoton;
 use crate::sampling::kronecker::KroneckerPoints;
@@ -14,12 +15,11 @@ use crate::sampling::random::Stream;
 use crate::scene::intersection::{Intersection, Past};
 use crate::scene::{Bsdf, PhotonGuide, Scene};
 use glam::Vec3;
-use rayon::prelude::*;
 
 /// Photons of one batch, the unit of parallel work.
 const BATCH: u64 = 4096;
 /// Batches between two checks of whether there are enough photons.
-const ROUND: u64 = 16;
+const ROUND: usize = 16;
 /// A class of which no photon has been stored is given up after this many times the photons asked for (the
 /// global map of a scene with a single plane is empty), any class after `PATIENCE`² times.
 const PATIENCE: u64 = 8;
@@ -86,9 +86,7 @@ pub fn emit(scene: &Scene, class: Class, settings: &PhotonSettings, from: u64) -
     let (patience, more_patience) = (PATIENCE * target as u64, PATIENCE * PATIENCE * target as u64);
     'enough: loop {
         let first = from + emitted;
-        let batches: Vec<Vec<(u64, StoredPhoton)>> =
-            (0..ROUND).into_par_iter().map(|b| batch(&room, first + b * BATCH, BATCH)).collect();
-        for batch in batches {
+        for batch in parallel::map(ROUND, |b| batch(&room, first + b as u64 * BATCH, BATCH)) {
             let wanted = target - photons.len();
             if let Some((last, _)) = wanted.checked_sub(1).and_then(|last| batch.get(last)) {
                 emitted = last + 1 - from;

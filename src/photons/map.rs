@@ -6,12 +6,12 @@ use super::mirror_images::QuadEdges;
 use super::surface_cells::{self, SurfaceCell};
 use super::{BandSpectrum, PhotonSet, StoredPhoton};
 use crate::color::cie::BANDS;
+use crate::parallel;
 use crate::scene::intersection::SurfacePoint;
 use crate::scene::surface::{Quad, Shape};
 use crate::scene::{Scene, Surface};
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use rayon::prelude::*;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -133,15 +133,18 @@ impl SurfaceMap {
         let points: Vec<[f32; 3]> = cells.iter().map(|cell| cell.point.to_array()).collect();
         let places = Tree::new_from_slice(&points).ok()?;
         let mut sheet = SurfaceMap { places, cells, irradiance: Vec::new(), edge };
-        let mut homes: Vec<(u32, &StoredPhoton)> =
-            photons.par_iter().map(|p| (sheet.nearest(p.point, p.normal()) as u32, *p)).collect();
-        homes.par_sort_by_key(|(home, _)| *home); // stable
+        let mut homes: Vec<(u32, &StoredPhoton)> = parallel::map(photons.len(), |i| {
+            let p = photons[i];
+            (sheet.nearest(p.point, p.normal()) as u32, p)
+        });
+        parallel::sort_by_key(&mut homes, |(home, _)| *home);
         let shares = CellPowers::new(photons, sheet.cells.len());
         let edges = quad(surface).and_then(QuadEdges::new);
         let mut counts = vec![0.0; sheet.cells.len()];
         homes.iter().for_each(|(home, _)| counts[*home as usize] += 1.0);
         let spread = Spread { edges, counts, nearest: nearest as f32, shares: &shares };
-        homes.par_chunk_by(|a, b| a.0 == b.0).for_each(|of_one| sheet.share_out(of_one, &spread));
+        let by_cell: Vec<&[(u32, &StoredPhoton)]> = homes.chunk_by(|a, b| a.0 == b.0).collect();
+        parallel::for_each(by_cell.len(), |i| sheet.share_out(by_cell[i], &spread));
         sheet.irradiance = shares.over_areas(&sheet.cells);
         Some(sheet)
     }

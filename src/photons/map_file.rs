@@ -7,9 +7,10 @@
 
 use super::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton};
 use crate::color::cie::BANDS;
+use crate::limits::{self, Limits};
 use crate::scene::{PlacedStone, Scene};
 use crate::storage::atomic_write::{self, WriteError};
-use crate::storage::limits;
+use crate::storage::bounded_read;
 use crate::storage::text::display_name;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -154,9 +155,10 @@ pub fn load_or_emit(
     path: &Path,
     scene: &Scene,
     settings: &PhotonSettings,
+    limits: Limits,
 ) -> Result<(PhotonSets, bool), MapFileError> {
     let unusable = |problem| MapFileError::Unusable { path: path.into(), problem };
-    match limits::PHOTON_MAP.read_regular(path) {
+    match bounded_read::read_regular(path, limits, &limits::PHOTON_MAP) {
         Ok(bytes) => {
             let bytes = bytes.map_err(|e| unusable(e.to_string()))?;
             let (origin, shots) = decode(&bytes).map_err(unusable)?;

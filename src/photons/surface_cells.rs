@@ -1,9 +1,9 @@
 //! A surface divided into cells, each of which has one irradiance.
 
+use crate::parallel;
 use crate::scene::Surface;
 use crate::scene::surface::Shape;
 use glam::Vec3;
-use rayon::prelude::*;
 
 /// A part of one side of a surface.
 #[derive(Debug, Clone, Copy)]
@@ -81,8 +81,8 @@ pub fn divide(surface: &Surface, share: f32, radius: &(impl Fn(Vec3) -> f32 + Sy
         }
         Shape::Mesh(mesh) => {
             let triangles: Vec<[Vec3; 3]> = mesh.triangles().collect();
-            let run = |run: &[[Vec3; 3]]| of_triangles(run, share, radius);
-            triangles.par_chunks(RUN).flat_map_iter(run).collect()
+            let runs: Vec<&[[Vec3; 3]]> = triangles.chunks(RUN).collect();
+            parallel::map(runs.len(), |i| of_triangles(runs[i], share, radius)).concat()
         }
     }
 }
@@ -102,8 +102,11 @@ fn halve(
     }
     let [one, other] = patch.halves();
     let half = |patch| halve(patch, normal, share, radius, depth + 1);
-    let (mut cells, others) =
-        if depth < PARALLEL { rayon::join(|| half(one), || half(other)) } else { (half(one), half(other)) };
+    let (mut cells, others) = if depth < PARALLEL {
+        parallel::join(|| half(one), || half(other))
+    } else {
+        (half(one), half(other))
+    };
     cells.extend(others);
     cells
 }

@@ -51,7 +51,7 @@ mod tests {
         assert_eq!(parse("Transparent"), Ok(Background::Transparent));
         assert_eq!(parse("white"), Ok(Background::Colour([255; 3])));
         assert_eq!(linear([255; 3]), Vec3::ONE);
-        assert_eq!(parse("#000000"), Ok(Background::Colour(Vec3::ZERO)));
+        assert_eq!(parse("#000000"), Ok(Background::Colour([0; 3])));
         assert_eq!(parse("#FF0080"), Ok(Background::Colour([255, 0, 128])));
         let c = linear([255, 0, 128]);
         assert!((c - Vec3::new(1.0, 0.0, 0.2158605)).abs().max_element() < 1e-5, "{c}");

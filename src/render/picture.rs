@@ -129,7 +129,8 @@ impl PictureWork<'_> {
         let photons = match self.photon_map {
             None => PhotonSets::emit(scene, &settings),
             Some(path) => {
-                let (photons, read) = map_file::load_or_emit(path, scene, &settings)?;
+                let (photons, read) =
+                    map_file::load_or_emit(path, scene, &settings, self.request.options.limits)?;
                 let did = if read { "used" } else { "made" };
                 self.progress.note(&format!("{did} the photon map {}", display_name(path)));
                 photons

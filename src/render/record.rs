@@ -4,7 +4,7 @@
 //! as a processing instruction behind their end.
 
 use crate::parse::shell;
-use crate::storage::limits;
+use crate::storage::bounded_read;
 use crate::storage::text::display_name;
 use exr::meta::MetaData;
 use std::ffi::OsString;
@@ -79,7 +79,7 @@ fn escaped(text: &str) -> String {
 
 /// Whether the picture, drawing or page at `path` was made by `command`.
 pub fn is_of(path: &Path, command: &str) -> bool {
-    let Ok(mut file) = limits::regular(path) else { return false };
+    let Ok(mut file) = bounded_read::open_regular(path) else { return false };
     let mut magic = [0; 4];
     if file.read_exact(&mut magic).and_then(|()| file.seek(SeekFrom::Start(0))).is_err() {
         return false;

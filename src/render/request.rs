@@ -5,6 +5,7 @@ use super::error::RenderError;
 use super::picture_kind::PictureKind;
 use crate::integrators::animation::Turn;
 use crate::integrators::{RenderSettings, Tone, ToneCurve, mp4};
+use crate::limits::Limits;
 use crate::parse;
 use crate::photons::PhotonSettings;
 use crate::scene::scene_file::MOST_PIXELS;
@@ -183,7 +184,7 @@ impl RenderRequest {
 
     /// The scene, read but not built.
     pub fn scene_file(&self) -> Result<SceneFile, RenderError> {
-        open_scene(OsStr::new(&self.scene))
+        open_scene(OsStr::new(&self.scene), self.options.limits)
     }
 
     /// The stones, opened.
@@ -212,6 +213,7 @@ impl RenderRequest {
             panorama: self.panorama.clone(),
             allow_outside: self.allow_outside,
             cut_out: self.background.is_some(),
+            limits: self.options.limits,
         };
         Ok(file.build(&overrides, width as f32 / height as f32)?)
     }
@@ -288,13 +290,13 @@ impl RenderRequest {
 }
 
 /// A scene of the catalogue, or a file.
-pub fn open_scene(name: &OsStr) -> Result<SceneFile, RenderError> {
+pub fn open_scene(name: &OsStr, limits: Limits) -> Result<SceneFile, RenderError> {
     if let Some(file) = name.to_str().and_then(scene::preset) {
         return Ok(file?);
     }
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e == "toml") || path.exists() {
-        return Ok(SceneFile::open(path)?);
+        return Ok(SceneFile::open(path, limits)?);
     }
     let name = crate::storage::text::display_name(name);
     let near = parse::did_you_mean(parse::nearest_name(&name, SCENES.iter().map(|(n, _)| *n)));

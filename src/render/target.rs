@@ -6,7 +6,7 @@ use crate::integrators::{Pass, animation};
 use crate::progress::Progress;
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::text::display_name;
-use crate::storage::{limits, lock};
+use crate::storage::{bounded_read, lock};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -181,7 +181,7 @@ fn read_whole(path: &Path, pixels: u32) -> Option<Vec<u8>> {
     const PIXEL: u64 = 16;
     const TEXTS: u64 = 1 << 20;
     let (mut bytes, most) = (Vec::new(), u64::from(pixels) * PIXEL + TEXTS);
-    limits::regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
+    bounded_read::open_regular(path).and_then(|f| f.take(most + 1).read_to_end(&mut bytes)).ok()?;
     (bytes.len() as u64 <= most).then_some(bytes)
 }
 

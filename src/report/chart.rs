@@ -4,6 +4,7 @@ use super::plot::{Axis, ScorePlot, Style};
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
 use crate::design::families;
 use crate::design::proportions::Proportions;
+use crate::limits::Limits;
 use crate::materials::Material;
 use crate::metrics::Metric;
 
@@ -38,7 +39,11 @@ pub fn draw(proportions: &Proportions, material: &Material) -> Result<Option<(St
         style: &Style::default(),
         own: Some(("this stone", &at)),
     };
-    let svg = drawing.svg(&NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv)?, false, &[]);
+    let svg = drawing.svg(
+        &NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv, Limits::default())?,
+        false,
+        &[],
+    );
     let mut caption = String::from(
         "Map of the reference brilliant in diamond: table 56, star 50, lower half 75, girdle 3; the stone’s own \
          table, halves and girdle may differ.",
@@ -59,7 +64,8 @@ mod tests {
 
     #[test]
     fn the_ends_are_those_of_the_table() {
-        let numbers = NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv).expect("can be read");
+        let numbers =
+            NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv, Limits::default()).expect("can be read");
         for (key, ends) in KEYS.iter().zip(ENDS) {
             let known = || numbers.column(key).iter().flatten().copied();
             let reach = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));

@@ -2,6 +2,7 @@
 
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
 use crate::geometry::Polyhedron;
+use crate::limits::Limits;
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
@@ -40,7 +41,7 @@ pub struct References {
 impl References {
     /// Reads the table in the binary: the stones in diamond.
     pub fn read() -> Result<References, TableError> {
-        let numbers = NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv)?;
+        let numbers = NumericColumns::read(TABLE.as_bytes(), TableFormat::Csv, Limits::default())?;
         let of = |metric: &Metric| {
             let errors = numbers.column(&format!("{}_se", metric.name));
             let values = numbers.column(metric.name);

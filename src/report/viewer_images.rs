@@ -11,9 +11,9 @@ use crate::design::Zone;
 use crate::estimators::horizon::is_up;
 use crate::estimators::view::{DARK, GIA_OBSERVER_DEG, ObserverDome, SCOPE_DEG, band};
 use crate::integrators::image_io::{EncodeError, encode_rgb};
+use crate::parallel;
 use crate::trace::{ConvexStone, LANES, Packet};
 use glam::{Vec2, Vec3};
-use rayon::prelude::*;
 
 /// Points a pixel, on a grid of this side: one packet.
 const GRID: usize = 4;
@@ -151,19 +151,16 @@ pub fn pictures(
     let window = PictureWindow::around(stone, side);
     let zones = stone.planes.iter().map(|p| Zone::from_normal(p.normal));
     let pavilion: Vec<bool> = zones.map(|z| matches!(z, Zone::Pavilion | Zone::Culet)).collect();
-    let rows: Vec<Vec<PixelRow>> = (0..side)
-        .into_par_iter()
-        .map(|y| {
-            let fresh = |s: &&ViewerImage| PixelRow { bytes: Vec::new(), counts: vec![0; s.legend.len()] };
-            let mut rows: Vec<PixelRow> = scopes.iter().map(fresh).collect();
-            for x in 0..side {
-                let seen =
-                    trace_points(stone, &pavilion, index, std::array::from_fn(|i| window.point(x, y, i)));
-                rows.iter_mut().zip(scopes).for_each(|(row, scope)| row.push(scope, &seen));
-            }
-            rows
-        })
-        .collect();
+    let rows: Vec<Vec<PixelRow>> = parallel::map(side as usize, |y| {
+        let fresh = |s: &&ViewerImage| PixelRow { bytes: Vec::new(), counts: vec![0; s.legend.len()] };
+        let mut rows: Vec<PixelRow> = scopes.iter().map(fresh).collect();
+        for x in 0..side {
+            let points = std::array::from_fn(|i| window.point(x, y as u32, i));
+            let seen = trace_points(stone, &pavilion, index, points);
+            rows.iter_mut().zip(scopes).for_each(|(row, scope)| row.push(scope, &seen));
+        }
+        rows
+    });
     let picture = |(i, scope): (usize, &&'static ViewerImage)| {
         let counts: Vec<u64> =
             (0..scope.legend.len()).map(|k| rows.iter().map(|r| r[i].counts[k]).sum()).collect();

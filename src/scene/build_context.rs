@@ -3,8 +3,8 @@
 use super::Pose;
 use super::file_access::Files;
 use crate::design::Design;
+use crate::limits::{self, Exceeded, Limits};
 use crate::materials::Material;
-use crate::storage::limits::{self, Exceeded};
 use crate::trace::ConvexStone;
 use glam::Vec3;
 use std::cell::Cell;
@@ -32,6 +32,8 @@ pub struct SceneOverrides {
     pub allow_outside: bool,
     /// Whether the camera leaves the background out: [`super::Scene::cut_out`].
     pub cut_out: bool,
+    /// The most that is read of the files that the scene names.
+    pub limits: Limits,
 }
 
 /// Context in which entries become parts of a scene.
@@ -44,6 +46,8 @@ pub struct BuildContext<'a> {
     pub panorama: Option<&'a Path>,
     /// Centre of the first stone; the origin where there is none.
     pub centre: Vec3,
+    /// The most that is read of anything.
+    pub limits: Limits,
     /// Triangles and pixels of the files that were read for the scene so far.
     pub(super) read: [Cell<usize>; 2],
 }
@@ -57,13 +61,13 @@ impl BuildContext<'_> {
     /// Counts the triangles of a mesh that was read.
     pub fn count_triangles(&self, n: usize) -> Result<(), Exceeded> {
         self.read[0].update(|sum| sum.saturating_add(n));
-        limits::SCENE_TRIANGLES.check(self.read[0].get())
+        self.limits.check(&limits::SCENE_TRIANGLES, self.read[0].get())
     }
 
     /// Counts the pixels of a panorama that was read.
     pub fn count_pixels(&self, n: usize) -> Result<(), Exceeded> {
         self.read[1].update(|sum| sum.saturating_add(n));
-        limits::SCENE_PIXELS.check(self.read[1].get())
+        self.limits.check(&limits::SCENE_PIXELS, self.read[1].get())
     }
 
     /// A point of the file in the world.

@@ -85,7 +85,7 @@ impl LightEntry {
             Some(path) => path.to_owned(),
             None => place.files.find("panorama", file)?,
         };
-        let sky = Panorama::open(&path).map_err(|e| field_error("panorama", e))?;
+        let sky = Panorama::open(&path, place.limits).map_err(|e| field_error("panorama", e))?;
         place.count_pixels(sky.pixel_count()).map_err(|e| field_error("panorama", e.to_string()))?;
         Ok(Some(sky))
     }

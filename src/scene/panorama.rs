@@ -3,8 +3,8 @@
 //! Equirectangular, the zenith at the top, the middle of the picture toward +y.
 
 use crate::color::rgb_upsampling;
-use crate::storage::limits;
-use crate::storage::text;
+use crate::limits::{self, Limits};
+use crate::storage::{bounded_read, text};
 use glam::Vec3;
 use image::{DynamicImage, ImageDecoder};
 use std::f32::consts::{PI, TAU};
@@ -41,21 +41,22 @@ impl std::fmt::Debug for Panorama {
 
 impl Panorama {
     /// Reads a Radiance `.hdr` or an OpenEXR file; the error says in one line what is wrong.
-    pub fn open(path: &Path) -> Result<Panorama, String> {
+    pub fn open(path: &Path, limits: Limits) -> Result<Panorama, String> {
         let wrong =
             |e: &dyn std::fmt::Display| format!("cannot read the panorama {}: {e}", text::display_name(path));
         let missing = |e: std::io::Error| match e.kind() {
             std::io::ErrorKind::NotFound => wrong(&e) + "; --hdr FILE names one that is there",
             _ => wrong(&e),
         };
-        let bytes = limits::PANORAMA.read_regular(path).map_err(missing)?.map_err(|e| wrong(&e))?;
-        Panorama::from_bytes(&bytes).map_err(|e| wrong(&e))
+        let bytes = bounded_read::read_regular(path, limits, &limits::PANORAMA).map_err(missing)?;
+        let bytes = bytes.map_err(|e| wrong(&e))?;
+        Panorama::from_bytes(&bytes, limits).map_err(|e| wrong(&e))
     }
 
     /// Reads the bytes of such a file; the error says in one line what is wrong.
     ///
     /// Its size is known to be within the limits before any of it is decoded.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Panorama, String> {
+    pub fn from_bytes(bytes: &[u8], limits: Limits) -> Result<Panorama, String> {
         let one_line = |e: image::ImageError| e.to_string().replace('\n', " ");
         let reader = image::ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         let reader = reader.map_err(|e| e.to_string())?;
@@ -65,8 +66,9 @@ impl Panorama {
         let decoder = reader.into_decoder().map_err(one_line)?;
         let (width, height) = decoder.dimensions();
         let count = u64::from(width) * u64::from(height);
-        limits::PIXELS.check(count).map_err(|e| e.to_string())?;
-        limits::PIXELS_PER_BYTE.check(count / bytes.len() as u64).map_err(|e| e.to_string())?;
+        limits.check(&limits::PIXELS, count).map_err(|e| e.to_string())?;
+        let per_byte = count / bytes.len() as u64;
+        limits.check(&limits::PIXELS_PER_BYTE, per_byte).map_err(|e| e.to_string())?;
         let picture = DynamicImage::from_decoder(decoder).map_err(one_line)?.into_rgb32f();
         let pixels: Vec<Vec3> =
             picture.pixels().map(|p| rgb_upsampling::upsample(Vec3::from_array(p.0.map(bounded)))).collect();

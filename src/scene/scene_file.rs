@@ -9,9 +9,9 @@ use super::file_access::Files;
 use super::light_schema::LightEntry;
 use super::schema::{CameraEntry, FieldError, StoneEntry, SurfaceEntry, field_error};
 use super::{Camera, Light, PlacedStone, Scene, Surface};
+use crate::limits::{self, Exceeded, Limits};
 use crate::parse::plain;
-use crate::storage::limits::{self, Exceeded};
-use crate::storage::text;
+use crate::storage::{bounded_read, text};
 use glam::Vec3;
 use serde::Deserialize;
 use std::ops::Range;
@@ -100,16 +100,17 @@ pub struct SceneFile {
 
 impl SceneFile {
     /// Reads a scene file.
-    pub fn open(path: &Path) -> Result<SceneFile, SceneError> {
+    pub fn open(path: &Path, limits: Limits) -> Result<SceneFile, SceneError> {
         let fail = |cause| SceneError::Read { path: path.to_owned(), cause };
         let many = |cause| SceneError::Limit { file: text::display_name(path), cause };
-        let bytes = limits::SCENE.read(path).map_err(fail)?.map_err(many)?;
+        let bytes = bounded_read::read(path, limits, &limits::SCENE).map_err(fail)?.map_err(many)?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        Self::parse(
+        Self::parse_within(
             &name,
             &text::display_name(path),
             &text::decode_lines(&bytes),
             path.parent().unwrap_or(Path::new("")),
+            limits,
         )
     }
 
@@ -117,6 +118,16 @@ impl SceneFile {
     ///
     /// - `file`: what errors call it; `folder`: where files that it names are looked for
     pub fn parse(name: &str, file: &str, text: &str, folder: &Path) -> Result<SceneFile, SceneError> {
+        Self::parse_within(name, file, text, folder, Limits::default())
+    }
+
+    fn parse_within(
+        name: &str,
+        file: &str,
+        text: &str,
+        folder: &Path,
+        limits: Limits,
+    ) -> Result<SceneFile, SceneError> {
         let at = |byte: usize, problem: String| SceneError::Line {
             file: file.into(),
             line: line_at(text, byte),
@@ -138,7 +149,7 @@ impl SceneFile {
             (&limits::SURFACES, document.surface.len()),
             (&limits::LIGHTS, document.light.len()),
         ] {
-            limit.check(n).map_err(|cause| SceneError::Limit { file: file.into(), cause })?;
+            limits.check(limit, n).map_err(|cause| SceneError::Limit { file: file.into(), cause })?;
         }
         if let Some(picture) = &document.picture
             && picture.get_ref().iter().any(|side| !(1..=MOST_PIXELS).contains(side))
@@ -214,7 +225,7 @@ impl SceneFile {
         for (i, entry) in document.stone.iter().enumerate() {
             let design = match cast.designs.get(i) {
                 Some(design) => design.clone(),
-                None => self.with_line(entry, entry.get_ref().design(&files))?,
+                None => self.with_line(entry, entry.get_ref().design(&files, cast.limits))?,
             };
             let own = cast.materials.get(i).cloned().flatten();
             let of = SceneOverrides {
@@ -232,7 +243,8 @@ impl SceneFile {
         }
         let centre = stones.first().map_or(Vec3::ZERO, |s| s.position);
         let panorama = cast.panorama.as_deref();
-        let place = BuildContext { unit, files: &files, panorama, centre, read: Default::default() };
+        let (limits, read) = (cast.limits, Default::default());
+        let place = BuildContext { unit, files: &files, panorama, centre, limits, read };
         let camera: Camera =
             self.with_line(&document.camera, document.camera.get_ref().camera(&place, aspect))?;
         if let Some(i) = stone_around(&stones, &camera) {

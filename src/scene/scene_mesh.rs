@@ -2,7 +2,7 @@
 
 use super::surface::SurfaceHit;
 use crate::formats::triangle_mesh::Triangles;
-use crate::storage::limits::{self, Exceeded};
+use crate::limits::{self, Exceeded, Limits};
 use glam::{DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
@@ -28,7 +28,13 @@ impl std::fmt::Debug for SceneMesh {
 
 impl SceneMesh {
     /// Places a mesh: turned and scaled about its own origin, then moved.
-    pub fn new(mesh: &Triangles, turn: DMat3, scale: f64, at: DVec3) -> Result<SceneMesh, Exceeded> {
+    pub fn new(
+        mesh: &Triangles,
+        turn: DMat3,
+        scale: f64,
+        at: DVec3,
+        limits: Limits,
+    ) -> Result<SceneMesh, Exceeded> {
         let place = |i: usize| (at + turn * mesh.vertices[i] * scale).as_vec3a();
         let triangles: Vec<Triangle> = mesh
             .triangles
@@ -41,7 +47,7 @@ impl SceneMesh {
             let [(a, b, c), (d, e, f)] = [low, high].map(|v| v.into());
             let count = same.entry([a, b, c, d, e, f].map(f32::to_bits)).or_default();
             *count += 1;
-            limits::SAME_BOX.check(*count)?;
+            limits.check(&limits::SAME_BOX, *count)?;
         }
         Ok(SceneMesh::from_triangles(triangles))
     }
@@ -123,7 +129,8 @@ mod tests {
         let mesh = stone.solid.triangulate();
         let triangles = Triangles { vertices: mesh.vertices, triangles: mesh.triangles };
         let scale = 1.0 / stone.unit;
-        let mesh = SceneMesh::new(&triangles, DMat3::IDENTITY, scale, -stone.centre * scale).expect("few");
+        let at = -stone.centre * scale;
+        let mesh = SceneMesh::new(&triangles, DMat3::IDENTITY, scale, at, Limits::default()).expect("few");
         let mut stream = Stream::new(5, Purpose::Test, 0);
         let mut met = 0;
         for _ in 0..2000 {

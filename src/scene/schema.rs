@@ -12,6 +12,7 @@ use crate::color::{Illuminant, rgb_upsampling};
 use crate::design::Design;
 use crate::design::{families, library};
 use crate::formats::{self, triangle_mesh};
+use crate::limits::Limits;
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::stone::{StoneError, grammar};
@@ -222,16 +223,16 @@ impl StoneEntry {
     }
 
     /// The design of that STONE: of the library, or of a regular file beside the scene.
-    pub(super) fn design(&self, files: &Files) -> Result<Design, FieldError> {
+    pub(super) fn design(&self, files: &Files, limits: Limits) -> Result<Design, FieldError> {
         let cut = self.cut();
         let name = cut.split(':').next().unwrap_or_default();
         let known = library::names().any(|n| n == name) || families::family(name).is_ok();
         let opened = if known {
-            grammar::load_regular(cut)
+            grammar::load_regular(cut, limits)
         } else {
             let path = files.find("cut", cut)?;
             if path.exists() {
-                formats::read_regular(&path).map_err(StoneError::from)
+                formats::read_regular(&path, limits).map_err(StoneError::from)
             } else {
                 Err(StoneError::NoSuchStone { spec: cut.into(), nearest: library::nearest(name) })
             }
@@ -352,7 +353,7 @@ impl SurfaceEntry {
         let finish = if self.mirror { Bsdf::Mirror(reflectance) } else { Bsdf::Diffuse(reflectance) };
         let shape = match (&self.mesh, self.corner, self.u, self.v) {
             (Some(file), None, None, None) => {
-                let mesh = triangle_mesh::triangles(&place.files.find("mesh", file)?);
+                let mesh = triangle_mesh::triangles(&place.files.find("mesh", file)?, place.limits);
                 let mesh = mesh.map_err(|e| field_error("mesh", e.to_string()))?;
                 place
                     .count_triangles(mesh.triangles.len())
@@ -362,7 +363,7 @@ impl SurfaceEntry {
                     return Err(field_error("mesh", format!("{file} has a corner beyond ±{GREATEST:e}")));
                 }
                 let at = place.point(self.at.unwrap_or_default()).as_dvec3();
-                let mesh = SceneMesh::new(&mesh, turned(self.turn), scale.into(), at);
+                let mesh = SceneMesh::new(&mesh, turned(self.turn), scale.into(), at, place.limits);
                 Shape::Mesh(Arc::new(mesh.map_err(|e| field_error("mesh", e.to_string()))?))
             }
             (None, Some(corner), Some(u), Some(v)) => {

@@ -1,7 +1,10 @@
 //! The error of a STONE that is no stone.
 
+use crate::design::design_file::DocumentError;
+#[cfg(feature = "files")]
 use crate::formats::FormatError;
 use crate::geometry::SolidError;
+use crate::geometry::facet_recovery::RecoverError;
 use crate::parse::did_you_mean;
 use std::sync::Arc;
 
@@ -9,12 +12,29 @@ use std::sync::Arc;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StoneError {
-    /// A file that could not be read, or a cut with a wrong parameter.
+    /// A file that could not be read.
+    #[cfg(feature = "files")]
     #[error(transparent)]
     Format(#[from] FormatError),
+    /// A cut with a wrong parameter.
+    #[error("{spec}: {cause}")]
+    Cut {
+        /// The stone as asked for.
+        spec: String,
+        /// What is wrong with it.
+        cause: DocumentError,
+    },
     /// A closed mesh with concavities or in several parts, where a convex stone is needed.
     #[error(transparent)]
-    NotConvex(Arc<FormatError>),
+    NotConvex(Arc<StoneError>),
+    /// A mesh that is no stone.
+    #[error("{stone}: {cause}")]
+    Mesh {
+        /// The stone.
+        stone: String,
+        /// What is wrong with it.
+        cause: RecoverError,
+    },
     /// Planes that bound no stone.
     #[error("{stone}: {cause}")]
     Solid {

@@ -4,13 +4,14 @@ use super::error::StoneError;
 use crate::design::design_file::DocumentError;
 use crate::design::families::Family;
 use crate::design::{Design, families, library};
+#[cfg(feature = "files")]
 use crate::formats::{self, Content, FormatError, Loaded};
+#[cfg(feature = "files")]
+use crate::limits::Limits;
 use crate::materials::{MATERIALS, Material};
-use crate::parse;
-use crate::storage::text::display_name;
+use crate::parse::{self, display_name};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The STONE that is read from standard input.
@@ -113,9 +114,10 @@ impl StoneSpec {
     ///
     /// A library name wins over a file of that name, which `./name` reaches. Errors suggest a cut whose name is
     /// near where there is neither. Checked in `tests/formats.rs`.
-    pub(super) fn load(&self) -> Result<Content, StoneError> {
+    #[cfg(feature = "files")]
+    pub(super) fn load(&self, limits: Limits) -> Result<Content, StoneError> {
         if self.base == STANDARD_INPUT {
-            return Ok(formats::read_content_standard_input()?);
+            return Ok(formats::read_content_standard_input(limits)?);
         }
         let path = Path::new(&self.base);
         if !is_cut(&self.base) && path.is_dir() {
@@ -125,41 +127,66 @@ impl StoneSpec {
                 Err(cause) => Err(FormatError::Read { file: spec, cause }.into()),
             };
         }
-        load(&self.base, formats::read_content)
+        load(&self.base, |path| formats::read_content(path, limits))
+    }
+
+    /// The cut of the library, or of a family, that it names.
+    #[cfg(not(feature = "files"))]
+    pub(super) fn design(&self) -> Result<Design, StoneError> {
+        let spec = display_name(&self.base);
+        library_cut(&spec)?.ok_or_else(|| not_found(&spec))
     }
 }
 
 /// Reads the cut or the regular file that another file names, as a scene does.
-pub fn load_regular(spec: &str) -> Result<Loaded, StoneError> {
-    let read = |path: &Path| formats::read_regular(path).map(Content::Design);
+#[cfg(feature = "files")]
+pub fn load_regular(spec: &str, limits: Limits) -> Result<Loaded, StoneError> {
+    let read = |path: &Path| formats::read_regular(path, limits).map(Content::Design);
     Ok(load(spec.as_ref(), read)?.into_design()?)
 }
 
-fn load(argument: &OsStr, read: fn(&Path) -> Result<Content, FormatError>) -> Result<Content, StoneError> {
+#[cfg(feature = "files")]
+fn load(
+    argument: &OsStr,
+    read: impl Fn(&Path) -> Result<Content, FormatError>,
+) -> Result<Content, StoneError> {
     let path = Path::new(argument);
     // a name that is not UTF-8 is a file's
     let Some(spec) = argument.to_str() else { return Ok(read(path)?) };
-    let (name, rest) = spec.split_once(':').map_or((spec, None), |(name, rest)| (name, Some(rest)));
-    if let Some(name) = cut_name(spec) {
-        let design = cut(name, &parameters(spec, rest)?)
-            .map_err(|cause| FormatError::Cut { file: spec.into(), cause })?;
-        return Ok(Content::Design(Loaded { design, format: "library", warnings: Vec::new() }));
+    if let Some(design) = library_cut(spec)? {
+        return Ok(Content::Design(Loaded { design, format: LIBRARY, warnings: Vec::new() }));
     }
     let missing = match std::fs::symlink_metadata(path) {
         Ok(_) => false,
         // what there is no right to look at may be there
-        Err(e) => spec.is_empty() || e.kind() != ErrorKind::PermissionDenied,
+        Err(e) => spec.is_empty() || e.kind() != std::io::ErrorKind::PermissionDenied,
     };
-    if !missing {
-        return Ok(read(path)?);
+    if missing { Err(not_found(spec)) } else { Ok(read(path)?) }
+}
+
+/// The format of what comes from the library.
+pub(super) const LIBRARY: &str = "library";
+
+/// The cut of the library, or of a family, that STONE names; none if it names none.
+fn library_cut(spec: &str) -> Result<Option<Design>, StoneError> {
+    let Some(name) = cut_name(spec) else { return Ok(None) };
+    let rest = spec.split_once(':').map(|(_, rest)| rest);
+    match cut(name, &parameters(spec, rest)?) {
+        Ok(design) => Ok(Some(design)),
+        Err(cause) => Err(StoneError::Cut { spec: spec.into(), cause }),
     }
+}
+
+/// The error of a STONE that names neither a cut nor a file.
+fn not_found(spec: &str) -> StoneError {
+    let name = spec.split(':').next().unwrap_or_default();
     if let Some((why, nearest)) = library::impossible(name) {
-        return Err(StoneError::Impossible { spec: spec.into(), why, nearest });
+        return StoneError::Impossible { spec: spec.into(), why, nearest };
     }
     if spec.contains(['/', '\\']) || Path::new(name).extension().is_some() {
-        return Err(StoneError::NoSuchFile { spec: spec.into() });
+        return StoneError::NoSuchFile { spec: spec.into() };
     }
-    Err(StoneError::NoSuchStone { spec: spec.into(), nearest: library::nearest(name) })
+    StoneError::NoSuchStone { spec: spec.into(), nearest: library::nearest(name) }
 }
 
 /// What stands before and after the colon of a STONE: the first of a cut's, the last of a file's.

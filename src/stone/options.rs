@@ -1,6 +1,7 @@
 //! Stone options: what a STONE is made of, how large it is and how it stands, where it does not say so itself.
 
 use super::grammar;
+use crate::limits::Limits;
 use crate::materials::Material;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,10 @@ pub struct StoneOptions {
     pub size_mm: Option<f64>,
     /// How the stones of files are turned.
     pub orientation: Orientation,
+    /// Limits on the files that are read. They are no part of what is asked for: within any of them the stone is the
+    /// same.
+    #[serde(skip)]
+    pub limits: Limits,
 }
 
 impl StoneOptions {

@@ -1,15 +1,18 @@
 //! A stone: shape, material, size and orientation as one value.
 
 use super::error::StoneError;
-use super::grammar::StoneSpec;
+use super::grammar::{LIBRARY, StoneSpec};
 use super::options::{Orientation, StoneOptions};
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM, orientation};
-use crate::formats::{self, Content, FormatError, Loaded, LoadedMesh};
+#[cfg(feature = "files")]
+use crate::formats::{self, Content, Loaded, LoadedMesh};
+use crate::geometry::facet_recovery::{Polygon, Stored, facets_of_polygons};
 use crate::geometry::{ClosedMesh, Plane, Polyhedron};
 use crate::materials::Material;
-use crate::storage::text::display_name;
+use crate::parse::display_name;
 use glam::{DMat3, DVec3};
 use std::ffi::OsStr;
+#[cfg(feature = "files")]
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,7 +22,7 @@ enum Shape {
     /// A convex solid, which the design's facets bound.
     Convex { design: Box<Design>, solid: Polyhedron },
     /// Closed surfaces with concavities, or several, and why they are no convex stone.
-    Nonconvex { mesh: Box<ClosedMesh>, problem: Arc<FormatError> },
+    Nonconvex { mesh: Box<ClosedMesh>, problem: Arc<StoneError> },
 }
 
 /// A stone: its shape, what it is made of, how large it is, how it stands, and where it came from.
@@ -62,25 +65,30 @@ impl Stone {
     pub fn open(spec: impl AsRef<OsStr>, options: &StoneOptions) -> Result<Stone, StoneError> {
         let spec = spec.as_ref();
         let parts = StoneSpec::parse(spec)?;
-        let stone = Stone::from_content(display_name(spec), parts.load()?, options.orientation)?;
-        stone.made_of(parts.material(), options)
+        let name = display_name(spec);
+        #[cfg(feature = "files")]
+        let stone = Stone::from_content(name, parts.load(options.limits)?)?;
+        #[cfg(not(feature = "files"))]
+        let stone = Stone::library_cut(name, parts.design()?)?;
+        stone.oriented(options.orientation)?.made_of(parts.material(), options)
     }
 
     /// The stone in the bytes of a file, of any format that is read.
     ///
     /// - `name`: shown in errors, and its stem names the stone
     /// - `folder`: where files that it refers to must lie; none refuses them
+    #[cfg(feature = "files")]
     pub fn from_bytes(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Stone, StoneError> {
-        let content = formats::read_content_bytes(name, bytes, folder)?;
-        let stone = Stone::from_content(name.into(), content, Orientation::default())?;
-        stone.made_of(None, &StoneOptions::default())
+        let options = StoneOptions::default();
+        let content = formats::read_content_bytes(name, bytes, folder, options.limits)?;
+        Stone::from_content(name.into(), content)?.oriented(options.orientation)?.made_of(None, &options)
     }
 
     /// The stone of a design, made of what it is drawn for, or of diamond.
     pub fn from_design(design: Design) -> Result<Stone, StoneError> {
-        let content = Content::Design(Loaded { design, format: "design", warnings: Vec::new() });
-        let name = String::new();
-        Stone::from_content(name, content, Orientation::default())?.made_of(None, &StoneOptions::default())
+        let (name, unit) = (design.name.clone(), design.unit);
+        let stone = Stone::new(name.clone(), convex(&name, design)?, unit, "design");
+        stone.oriented(Orientation::default())?.made_of(None, &StoneOptions::default())
     }
 
     /// The convex stone that the half-spaces behind `planes` have in common, of diamond.
@@ -88,26 +96,69 @@ impl Stone {
         Stone::from_design(Design::from_facets(name, planes.iter().map(|p| (String::new(), *p))))
     }
 
-    fn from_content(name: String, content: Content, turned: Orientation) -> Result<Stone, StoneError> {
-        let (name, shape, unit, format, warnings) = match content {
+    /// The stone of a closed mesh, of diamond; a mesh with concavities too.
+    ///
+    /// - `vertices`: off by no more than the rounding of `f32`
+    /// - `faces`: corners of each, by their places among the vertices, wound in either sense
+    /// - `unit`: of the vertices
+    pub fn from_mesh(
+        name: &str,
+        vertices: &[DVec3],
+        faces: &[Vec<usize>],
+        unit: LengthUnit,
+    ) -> Result<Stone, StoneError> {
+        let polygon =
+            |corners: &Vec<usize>| Polygon { name: "".into(), corners: corners.clone(), normal: None };
+        let polygons: Vec<Polygon> = faces.iter().map(polygon).collect();
+        let largest = vertices.iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
+        let stored = Stored { corner: largest * 0.5 * f64::from(f32::EPSILON), ..Stored::EXACT };
+        let options = StoneOptions::default();
+        let wrong = |cause| StoneError::Mesh { stone: name.into(), cause };
+        let mut found = facets_of_polygons(vertices, &polygons, stored, options.limits).map_err(wrong)?;
+        let mesh = found.take_mesh();
+        let shape = match (found.into_facets(), mesh) {
+            (Ok(facets), _) => {
+                let mut design = Design::from_facets(name, facets);
+                design.unit = unit;
+                convex(name, design)?
+            }
+            (Err(cause), Some(mesh)) => {
+                Shape::Nonconvex { mesh: Box::new(mesh), problem: Arc::new(wrong(cause)) }
+            }
+            (Err(cause), None) => return Err(wrong(cause)),
+        };
+        Stone::new(name.into(), shape, unit, "mesh").oriented(options.orientation)?.made_of(None, &options)
+    }
+
+    fn new(name: String, shape: Shape, unit: LengthUnit, format: &'static str) -> Stone {
+        let material = Material::drawn_for(None);
+        let warnings = Vec::new();
+        Stone { name, shape, unit, material, is_material_given: false, format, warnings, doubt: None }
+    }
+
+    #[cfg(not(feature = "files"))]
+    fn library_cut(name: String, design: Design) -> Result<Stone, StoneError> {
+        let unit = design.unit;
+        Ok(Stone::new(name.clone(), convex(&name, design)?, unit, LIBRARY))
+    }
+
+    #[cfg(feature = "files")]
+    fn from_content(name: String, content: Content) -> Result<Stone, StoneError> {
+        Ok(match content {
             Content::Design(Loaded { design, format, warnings }) => {
-                let name = if name.is_empty() { design.name.clone() } else { name };
                 let unit = design.unit;
-                (name.clone(), convex(&name, design)?, unit, format, warnings)
+                Stone { warnings, ..Stone::new(name.clone(), convex(&name, design)?, unit, format) }
             }
             Content::Mesh(LoadedMesh { mesh, unit, format, warnings, problem }) => {
-                (name, Shape::Nonconvex { mesh, problem: Arc::new(problem) }, unit, format, warnings)
+                let shape = Shape::Nonconvex { mesh, problem: Arc::new(problem.into()) };
+                Stone { warnings, ..Stone::new(name, shape, unit, format) }
             }
-        };
-        let material = Material::drawn_for(None);
-        let stone =
-            Stone { name, shape, unit, material, is_material_given: false, format, warnings, doubt: None };
-        stone.oriented(turned)
+        })
     }
 
     /// Stood as it is asked for; a stone of a file that nobody turned and that does not stand table up is doubted.
     fn oriented(mut self, Orientation { up, align }: Orientation) -> Result<Stone, StoneError> {
-        if self.format == "library" {
+        if self.format == LIBRARY {
             return Ok(self);
         }
         let up = match (up, align, &self.shape) {
@@ -222,7 +273,7 @@ impl Stone {
     }
 
     /// Why it is no convex stone; none if it is one.
-    pub fn why_not_convex(&self) -> Option<&FormatError> {
+    pub fn why_not_convex(&self) -> Option<&StoneError> {
         if let Shape::Nonconvex { problem, .. } = &self.shape { Some(problem) } else { None }
     }
 

@@ -4,7 +4,7 @@
 //! the work. One process at a time has it, by a lock that ends with the process.
 
 use super::atomic_write::WriteError;
-use super::{limits, lock};
+use super::{bounded_read, lock};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -66,7 +66,7 @@ impl Journal {
 
     /// Whether there is progress of the work called `identity` at `path`.
     pub fn belongs_to(path: &Path, identity: &str) -> bool {
-        let file = limits::regular(path).ok();
+        let file = bounded_read::open_regular(path).ok();
         let first = file.and_then(|file| record(&mut BufReader::new(file)).ok());
         matches!(first, Some(JournalRecord::Whole { key, .. }) if key == format!("{MAGIC} {identity}"))
     }

@@ -2,7 +2,8 @@
 
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
-use std::ffi::OsStr;
+
+pub use crate::parse::display_name;
 
 /// The text that a file's bytes stand for, without NUL padding and DOS end-of-file marks.
 ///
@@ -41,17 +42,6 @@ pub fn beginning(bytes: &[u8], most: usize) -> String {
 /// Whether the bytes begin with a byte-order mark, and so are text.
 pub fn is_marked(bytes: &[u8]) -> bool {
     marked(bytes).is_some()
-}
-
-/// A file's name as tables and messages show it: bytes that are not UTF-8 are written `\xff`, so that two
-/// names never look alike.
-pub fn display_name(name: impl AsRef<OsStr>) -> String {
-    let mut text = String::new();
-    for chunk in name.as_ref().as_encoded_bytes().utf8_chunks() {
-        text += chunk.valid();
-        chunk.invalid().iter().for_each(|byte| text += &format!("\\x{byte:02x}"));
-    }
-    text
 }
 
 /// The encoding that a byte-order mark names, and the mark's length.

@@ -2,7 +2,7 @@
 //! entities that would expand. The program runs with a gigabyte of address space and says one line.
 
 use super::cutlab;
-use cutlab::storage::limits;
+use cutlab::{formats, limits};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -372,11 +372,21 @@ fn the_limits_are_told_and_can_be_raised() {
     assert_eq!(listed.lines().count(), limits::ALL.len());
 }
 
+/// Limits belong to a call, not to the process.
+#[test]
+fn readers_beside_each_other_keep_to_limits_of_their_own() {
+    let design = include_str!("../../cuts/cube.toml").to_owned() + "\n# " + &"x".repeat(5 << 20);
+    let raised = limits::Limits::raised(2).expect("a factor");
+    assert!(formats::read_content_bytes("long.toml", design.as_bytes(), None, raised).is_ok());
+    let error = formats::read_bytes("long.toml", design.as_bytes(), None).expect_err("too long");
+    assert!(error.to_string().contains("more than 4194304 bytes"), "{error}");
+}
+
 #[test]
 fn the_manual_has_every_limit() {
     let manual = include_str!("../../src/manual/limits.md");
     for limit in limits::ALL {
-        let row = format!("| {} | {} |", limit.max(), limit.of);
+        let row = format!("| {} | {} |", limits::Limits::default().max(limit), limit.of);
         assert!(manual.contains(&row), "the manual lacks '{row}'");
     }
     assert!(manual.contains(limits::VARIABLE));

@@ -11,6 +11,7 @@ use cutlab::design::Design;
 use cutlab::design::families::{self, FAMILIES};
 use cutlab::formats::{self, FORMATS, FormatError, Input, ParsedShape, triangle_mesh};
 use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::limits::Limits;
 use cutlab::photons::map_file;
 use cutlab::scene::panorama::Panorama;
 use cutlab::scene::scene_mesh::SceneMesh;
@@ -74,7 +75,7 @@ pub fn readers(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
     let read: Result<Option<Design>, FormatError> = match FORMATS.get(usize::from(how & FOUND)) {
         Some(format) => {
-            let source = Input { name: "fuzzed", bytes, folder: None };
+            let source = Input { name: "fuzzed", bytes, folder: None, limits: Limits::default() };
             (format.read)(&source).map(|parsed| match parsed.shape {
                 ParsedShape::Design(design) => Some(design),
                 ParsedShape::Mesh { .. } => None,
@@ -220,7 +221,7 @@ pub fn scenes(data: &[u8]) {
 
 /// A mesh that stands around stones, of any shape: rays meet it in front of them on the side they see.
 pub fn sceneries(data: &[u8]) {
-    let source = Input { name: "fuzzed", bytes: data, folder: None };
+    let source = Input { name: "fuzzed", bytes: data, folder: None, limits: Limits::default() };
     let mesh = match triangle_mesh::triangles_from(&source) {
         Ok(mesh) => mesh,
         Err(error) => return is_one_line(&error),
@@ -229,7 +230,7 @@ pub fn sceneries(data: &[u8]) {
     if mesh.vertices.iter().any(|v| v.length() > 1e9) {
         return;
     }
-    let mesh = match SceneMesh::new(&mesh, DMat3::IDENTITY, 1.0, DVec3::ZERO) {
+    let mesh = match SceneMesh::new(&mesh, DMat3::IDENTITY, 1.0, DVec3::ZERO, Limits::default()) {
         Ok(mesh) => mesh,
         Err(error) => return is_one_line(&error),
     };
@@ -242,7 +243,7 @@ pub fn sceneries(data: &[u8]) {
 
 /// A panorama: light from it is finite, or there is an error.
 pub fn panoramas(data: &[u8]) {
-    match Panorama::from_bytes(data) {
+    match Panorama::from_bytes(data, Limits::default()) {
         Ok(sky) => {
             assert!(sky.mean().is_finite() && sky.mean() >= 0.0, "mean {}", sky.mean());
             for u in [[0.0, 0.0], [0.3, 0.7], [0.999_999, 0.5]] {
@@ -289,10 +290,10 @@ pub fn tables(data: &[u8]) {
         return;
     }
     let form = [TableFormat::Csv, TableFormat::JsonLines, TableFormat::Json][usize::from(how % 4)];
-    if let Err(error) = NumericColumns::read(bytes, form) {
+    if let Err(error) = NumericColumns::read(bytes, form, Limits::default()) {
         is_one_line(&error);
     }
-    let Ok(mut rows) = RowReader::new(form, bytes) else { return };
+    let Ok(mut rows) = RowReader::new(form, bytes, Limits::default()) else { return };
     while let Ok(Some(row)) = rows.row() {
         assert!(row.len() <= 4 * bytes.len() + 2, "a row longer than what it is from");
     }

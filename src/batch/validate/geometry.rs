@@ -5,7 +5,7 @@ use super::stones::brilliant;
 use super::{Check, CheckError, Figure, FigureSource, Measured, SourceKind, TRACER};
 use crate::design::{Design, proportions};
 use crate::formats;
-use rayon::prelude::*;
+use crate::parallel;
 
 const SUBJECT: &str = "geometry";
 
@@ -176,12 +176,12 @@ fn corpus() -> Check {
             let read = formats::read(&folder.join(name)).ok()?;
             Some(read.design.solid().ok()?.volume())
         };
-        let volumes: Vec<_> = known.par_iter().map(|(name, known)| (volume(name), known)).collect();
+        let volumes = parallel::map(known.len(), |i| (volume(&known[i].0), known[i].1));
         if volumes.is_empty() {
             return Err(CheckError::Missing("geometry.csv lists no closed design".into()));
         }
         let unread = volumes.iter().filter(|(v, _)| v.is_none()).count();
-        let off = volumes.iter().filter(|(v, k)| v.is_some_and(|v| (v / **k - 1.0).abs() > 1e-6)).count();
+        let off = volumes.iter().filter(|(v, k)| v.is_some_and(|v| (v / k - 1.0).abs() > 1e-6)).count();
         Ok(Measured::exact([unread, off].map(|n| n as f64)))
     })
 }

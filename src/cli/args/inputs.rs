@@ -3,6 +3,7 @@
 use super::stone;
 use crate::batch::sidecar::TableMeta;
 use crate::cli::exit_code::CliError;
+use crate::cli::limits::limits;
 use crate::formats;
 use crate::stone::StoneSpec;
 use globset::{GlobBuilder, GlobMatcher};
@@ -73,8 +74,9 @@ pub fn expanded(arguments: &[OsString]) -> Result<Vec<OsString>, CliError> {
 
 /// The tables that `merge` joins: of what a pattern matches, neither companions nor whole tables.
 pub fn parts(arguments: &[OsString]) -> Result<Vec<PathBuf>, CliError> {
-    let is_whole =
-        |table: &Path| TableMeta::read(&TableMeta::find_for(table)).is_ok_and(|meta| meta.shard.is_none());
+    let is_whole = |table: &Path| {
+        TableMeta::read(&TableMeta::find_for(table), limits()).is_ok_and(|meta| meta.shard.is_none())
+    };
     let mut all = Vec::new();
     for argument in arguments {
         if is_pattern(argument) {
@@ -160,7 +162,7 @@ fn match_below(
 pub fn is_meant_as_stone(file: &Path) -> bool {
     file.is_dir()
         || (!TableMeta::is_companion(file)
-            && formats::is_meant_as_stone(file)
+            && formats::is_meant_as_stone(file, limits())
             && !TableMeta::exists_for(file))
 }
 

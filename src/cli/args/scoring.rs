@@ -7,6 +7,7 @@ use crate::batch::request::TableRequest;
 use crate::batch::table_job::RowStatus;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::limits::limits;
 use crate::design::USUAL_WIDTH_MM;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
@@ -184,10 +185,10 @@ impl InputFiles {
         for stone in stones {
             identity.add(stone.as_encoded_bytes());
             if stone == STANDARD_INPUT {
-                identity.add_file(&FileDigest::of_standard_input());
+                identity.add_file(&FileDigest::of_standard_input(limits()));
             }
             if let Some(file) = inputs::file_of(stone) {
-                let held = FileDigest::of_file(&file);
+                let held = FileDigest::of_file(&file, limits());
                 identity.add_file(&held);
                 files.insert(stone.to_owned(), (file, held));
             }
@@ -200,7 +201,7 @@ impl InputFiles {
     pub fn checked(&self, stone: &OsStr, scored: (ScoreRow, RowStatus)) -> (ScoreRow, RowStatus) {
         let (mut row, outcome) = scored;
         let Some((file, held)) = self.files.get(stone) else { return (row, outcome) };
-        let now = FileDigest::of_file(file);
+        let now = FileDigest::of_file(file, limits());
         let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
         if now == *held || read_in_time {
             return (row, outcome);

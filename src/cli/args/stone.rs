@@ -2,6 +2,7 @@
 
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::limits::limits;
 use crate::materials::Material;
 use crate::parse;
 use crate::stone::{Orientation, Stone, StoneOptions, UpAxis, grammar};
@@ -48,6 +49,7 @@ impl StoneArgs {
             ri: self.ri,
             size_mm,
             orientation: Orientation { up, align },
+            limits: limits(),
         }
     }
 

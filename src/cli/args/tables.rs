@@ -10,6 +10,7 @@ use crate::batch::table_job::{FinishedRow, JobEvent, Order, TableJob, TableJobEr
 use crate::cli::console::Console;
 use crate::cli::exit_code;
 use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
 use crate::cli::terminal_table;
@@ -186,7 +187,7 @@ impl TableCommand<'_> {
         bar.finish_and_clear();
         let bytes = copied.copy.unwrap_or_default();
         if to_read {
-            let table = NumericColumns::read(&bytes, batch.form)?;
+            let table = NumericColumns::read(&bytes, batch.form, limits())?;
             console.print(&terminal_table::text(&self.columns, &table, &self.request.scores().metrics))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
@@ -208,7 +209,7 @@ impl TableCommand<'_> {
 
     /// The table that is there already, if it is whole and of just this job.
     fn already(&self, table: &TableArgs, begun: bool, console: &Console) -> Option<TablePart> {
-        let part = TablePart::open(&table.output).ok().filter(|_| !begun && !console.force)?;
+        let part = TablePart::open(&table.output, limits()).ok().filter(|_| !begun && !console.force)?;
         let is_same = part.meta.study == self.identity && part.meta.shard == self.shard_of(table);
         is_same.then_some(part)
     }
@@ -278,9 +279,10 @@ pub fn claim_table(
     outputs: &mut Outputs,
 ) -> Result<(), CliError> {
     // a kill may have come between the new companion and the new table
-    let says_so = |companion: &Path| TableMeta::read(companion).is_ok_and(|meta| is_of(&meta));
+    let says_so = |companion: &Path| TableMeta::read(companion, limits()).is_ok_and(|meta| is_of(&meta));
     let is_own = |there: &Path| {
-        TableMeta::belongs_to(there, is_of, shard) || (begun && says_so(&TableMeta::find_for(there)))
+        TableMeta::belongs_to(there, is_of, shard, limits())
+            || (begun && says_so(&TableMeta::find_for(there)))
     };
     outputs.claim(output, is_own)?;
     outputs.claim(&TableMeta::path_for(output), says_so)

@@ -7,13 +7,13 @@ use crate::color::{Illuminant, cie};
 use crate::design::design_file::DesignFile;
 use crate::design::{families, library};
 use crate::formats::{FORMATS, Format};
+use crate::limits::{self as limit, Limit};
 use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric, MetricSource, Statistic};
 use crate::optics::dispersion::lines;
 use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
-use crate::storage::limits::{self as limit, Limit};
 use serde_json::{Value, json};
 
 /// Width of a block's text, without its label.
@@ -233,11 +233,15 @@ pub fn lights() -> Vec<CatalogueEntry> {
 
 /// How much a file may hold.
 pub fn limits() -> Vec<CatalogueEntry> {
-    let entry = |l: &&Limit| CatalogueEntry {
-        name: l.max().to_string(),
-        about: l.of.into(),
-        text: format!("{} {}", l.max(), l.of),
-        facts: json!({ "most": l.max(), "of": l.of }),
+    let limits = crate::cli::limits::limits();
+    let entry = |l: &&Limit| {
+        let (most, of) = (limits.max(l), l.of);
+        CatalogueEntry {
+            name: most.to_string(),
+            about: of.into(),
+            text: format!("{most} {of}"),
+            facts: json!({ "most": most, "of": of }),
+        }
     };
     limit::ALL.iter().map(entry).collect()
 }

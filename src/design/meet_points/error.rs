@@ -1,7 +1,7 @@
 //! Why a tier cannot be placed. Each error is one line.
 
 use crate::geometry::SolidError;
-use crate::storage::limits::Exceeded;
+use crate::limits::Exceeded;
 
 /// Why a tier cannot be placed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -4,7 +4,7 @@ use super::document::Accessor;
 use super::{GltfReader, PACKED, unsigned};
 use crate::formats::error::{FormatError, quoted_excerpt};
 use crate::formats::include;
-use crate::storage::limits;
+use crate::limits;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};

@@ -7,7 +7,7 @@ use crate::formats::error::FormatError;
 use crate::formats::input::{Input, lines, number, without_comment};
 use crate::formats::mesh_import::Digits;
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use glam::DVec3;
 
 /// One row: its line, its letter if any, its numbers, and whether all are written as whole ones.

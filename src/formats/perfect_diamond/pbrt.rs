@@ -10,7 +10,7 @@ use crate::formats::include;
 use crate::formats::input::{Input, is_no_value};
 use crate::formats::mesh_import::Digits;
 use crate::geometry::facet_recovery::Polygon;
-use crate::storage::limits;
+use crate::limits;
 use crate::storage::text;
 use glam::{DMat4, DVec3};
 use std::iter::Peekable;
@@ -55,7 +55,7 @@ impl PbrtScene {
     fn file(&mut self, source: &Input, depth: usize) -> Result<(), FormatError> {
         self.bytes += source.bytes.len();
         let too_large = |cause| FormatError::TooLarge { file: source.name.into(), cause };
-        limits::FILE.check(self.bytes).map_err(too_large)?;
+        source.limits.check(&limits::FILE, self.bytes).map_err(too_large)?;
         let text = source.text();
         let mut words = words(&text).peekable();
         while let Some((line, word)) = words.next() {
@@ -114,7 +114,7 @@ impl PbrtScene {
         let bytes = include::fetch(source, name)
             .ok_or_else(|| source.at_line(line, "a file in the scene's own folder", name))??;
         let path = source.folder.map_or_else(|| name.to_owned(), |f| text::display_name(f.join(name)));
-        self.file(&Input { name: &path, bytes: &bytes, folder: source.folder }, depth + 1)
+        self.file(&Input { name: &path, bytes: &bytes, ..*source }, depth + 1)
     }
 
     fn shape<'t>(

@@ -2,7 +2,7 @@
 
 use crate::formats::error::FormatError;
 use crate::formats::input::{Input, lines};
-use crate::storage::limits;
+use crate::limits;
 
 /// How the values after the header are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

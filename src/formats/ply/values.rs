@@ -4,7 +4,7 @@ use super::header::{Header, PlyScalar, Storage};
 use crate::formats::error::{FormatError, counted};
 use crate::formats::input::{Input, is_no_value, lines, number};
 use crate::formats::mesh_import::Digits;
-use crate::storage::limits;
+use crate::limits;
 
 /// Reads value after value.
 pub struct PlyValues<'s> {
