@@ -1,7 +1,10 @@
-//! Numbers and names as people type them on a command line or in a stone's parameters.
+//! Numbers and names as people type them on a command line or in a stone's parameters; data files and tables
+//! of spectra.
 
+pub mod data_file;
 pub mod plain;
 pub mod shell;
+pub mod spectral_table;
 
 use std::ops::RangeInclusive;
 

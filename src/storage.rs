@@ -2,6 +2,7 @@
 
 pub mod atomic_write;
 pub mod checkpoint;
+pub mod include;
 pub mod journal;
 pub mod limits;
 pub mod lock;

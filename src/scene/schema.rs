@@ -253,7 +253,7 @@ impl StoneEntry {
                 require_name("material", Material::by_name(name), name, &all)?.clone()
             }
             (None, None, Some(n)) => Material::from_index(n),
-            (None, None, None) => MATERIALS[0].clone(),
+            (None, None, None) => Material::diamond().clone(),
         };
         let size = cast.size_mm.or(self.size);
         if size.is_some_and(|mm| !(1e-3..=1e3).contains(&mm)) {

@@ -75,6 +75,10 @@ pub static PIXELS: Limit = Limit::new(1 << 25, "pixels of a panorama");
 pub static PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for each byte of its file");
 /// Both maps of the most photons that can be asked for.
 pub static PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
+/// Materials and illuminants, and the tables of spectra beside them: a thousand times the size of any.
+pub static SPECTRUM: Limit = Limit::new(4 << 20, "bytes in a material, an illuminant or a table beside it");
+/// A hundred times what a spectrometer writes from the ultraviolet to the infrared.
+pub static SPECTRUM_ROWS: Limit = Limit::new(100_000, "rows in a table of a spectrum");
 /// The companion of a table.
 pub static COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
 /// One row of a table that is read back.
@@ -107,6 +111,8 @@ pub static ALL: &[&Limit] = &[
     &PIXELS,
     &PIXELS_PER_BYTE,
     &PHOTON_MAP,
+    &SPECTRUM,
+    &SPECTRUM_ROWS,
     &COMPANION,
     &ROW,
 ];
