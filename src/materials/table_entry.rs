@@ -20,7 +20,11 @@ pub fn read_rows(
         TableEntry::Rows(pairs) => from_pairs(pairs, layout.wavelength),
         TableEntry::File(name) => {
             let text = tables(name).map_err(|why| {
-                ValueProblem::new("table", "a table beside the file", format!("'{name}': {why}"))
+                ValueProblem::new(
+                    "table",
+                    "a table beside the file",
+                    format!("'{}': {why}", name.escape_debug()),
+                )
             })?;
             from_text(&text, layout)
         }
@@ -38,7 +42,7 @@ pub fn read_rows(
 pub fn at(table: &TableEntry, line: usize, expected: impl Into<String>, found: String) -> ValueProblem {
     let place = match table {
         TableEntry::Rows(_) => format!("row {line}"),
-        TableEntry::File(name) => format!("line {line} of {name}"),
+        TableEntry::File(name) => format!("line {line} of {}", name.escape_debug()),
     };
     ValueProblem::new("table", expected, format!("{found} in {place}"))
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StoneOptions {
-    /// A material of the catalogue, by name; none for what each design is drawn for, or diamond.
+    /// A material of the catalogue, by name, or a file of one; none for what each design is drawn for, or diamond.
     pub material: Option<String>,
     /// One refractive index, without dispersion, in place of a material.
     pub ri: Option<f64>,

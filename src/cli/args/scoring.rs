@@ -1,5 +1,6 @@
 //! Arguments of every command that scores: metrics, accuracy, light, material.
 
+use super::material::material;
 use super::{inputs, orientation, stone, values};
 use crate::batch::fingerprint::{FileDigest, Fingerprint};
 use crate::batch::request::TableRequest;
@@ -121,7 +122,7 @@ impl ScoringArgs {
     /// What is asked for of every stone.
     pub fn options(&self) -> StoneOptions {
         StoneOptions {
-            material: self.substance.material.map(|m| m.name.to_string()),
+            material: self.substance.material.map(|m| m.argument().into()),
             ri: self.substance.ri,
             size_mm: self.size,
             orientation: orientation::requested(),
@@ -210,8 +211,11 @@ impl InputFiles {
     /// Those of a table of these stones.
     pub fn new<'a>(request: &TableRequest, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
         let (mut identity, mut files) = (Fingerprint::of_request(request), BTreeMap::new());
+        add_material(&mut identity, request.options().material.as_deref().and_then(|m| material(m).ok()));
         for stone in stones {
             identity.add(stone.as_encoded_bytes());
+            let own = stone::MaterialArgs::default().within(stone);
+            add_material(&mut identity, own.ok().and_then(|own| own.material));
             if stone == STANDARD_INPUT {
                 identity.add_file(&FileDigest::of_standard_input());
             }
@@ -242,6 +246,13 @@ impl InputFiles {
         row.samples.clear();
         row.error = Some(format!("the file {what} since the table was begun: start again"));
         (row, outcome)
+    }
+}
+
+/// Adds what the file of a user's material holds, tables beside it included.
+fn add_material(identity: &mut Fingerprint, material: Option<&Material>) {
+    if let Some(material) = material.filter(|m| m.file.is_some()) {
+        identity.add(format!("{material:?}"));
     }
 }
 

@@ -1,12 +1,12 @@
 //! STONE arguments: opened in parallel, each on its own, and the options about them.
 
+use super::material::material;
 use super::orientation;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::design::families::Family;
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM, families, library};
 use crate::formats::Loaded;
-use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::parse;
 use crate::stone_spec;
@@ -218,14 +218,6 @@ pub fn on_off(text: &str) -> Result<bool, String> {
     }
 }
 
-/// Value parser of `--material`.
-pub fn material(name: &str) -> Result<&'static Material, String> {
-    Material::by_name(name).ok_or_else(|| {
-        let near = parse::nearest_name(name, MATERIALS.iter().map(|m| m.name.as_ref()));
-        format!("no material is called '{name}'{} (all: cutlab list materials)", parse::did_you_mean(near))
-    })
-}
-
 /// Value parser of `--ri`.
 pub fn refractive_index(text: &str) -> Result<f64, String> {
     parse::parse_number_within(text, parse::NumberUnit::None, 1.0..=10.0, "a refractive index is a number")
@@ -234,7 +226,8 @@ pub fn refractive_index(text: &str) -> Result<f64, String> {
 /// What a stone is made of, as asked for on the command line.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct MaterialArgs {
-    /// Material, see `cutlab list materials` [the file's own index, or diamond]
+    /// Material, see `cutlab list materials`, or a TOML file of your own, see `cutlab help materials` [the
+    /// file's own index, or diamond]
     #[arg(long, value_name = "NAME", value_parser = material)]
     pub material: Option<&'static Material>,
     /// One refractive index, without dispersion, in place of a material

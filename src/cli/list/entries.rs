@@ -15,6 +15,7 @@ use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
 use crate::storage::limits::{self as limit, Limit};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Width of a block's text, without its label.
 const WIDTH: usize = 84;
@@ -88,7 +89,7 @@ fn metric(m: &Metric) -> CatalogueEntry {
 
 /// Materials.
 pub fn materials() -> Vec<CatalogueEntry> {
-    MATERIALS.iter().map(|m| material(m)).collect()
+    MATERIALS.iter().map(material).collect()
 }
 
 fn material(m: &Material) -> CatalogueEntry {
@@ -187,10 +188,10 @@ fn cut(name: &'static str) -> CatalogueEntry {
 
 /// Lights by which colours are judged.
 pub fn illuminants() -> Vec<CatalogueEntry> {
-    let entry = |i: &&Illuminant| CatalogueEntry {
-        name: i.name.into(),
-        about: i.about.into(),
-        text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.into())]),
+    let entry = |i: &Arc<Illuminant>| CatalogueEntry {
+        name: i.name.to_string(),
+        about: i.about.to_string(),
+        text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.to_string())]),
         facts: json!({ "source": i.source }),
     };
     ILLUMINANTS.iter().map(entry).collect()
