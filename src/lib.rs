@@ -4,7 +4,7 @@
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house.rs` keeps:
 //!
-//! `sampling parse limits parallel progress` → `color optics geometry storage` → `materials design trace` →
+//! `sampling parse limits parallel progress` → `storage` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →
 //! `render` → `report manual` → `cli`
 //!

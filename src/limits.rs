@@ -71,6 +71,8 @@ pub const PIXELS: Limit = Limit::new(1 << 25, "pixels of a panorama");
 pub const PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for each byte of its file");
 /// Both maps of the most photons that can be asked for.
 pub const PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
+/// Materials and illuminants, and the tables of spectra beside them: a thousand times the size of any.
+pub const SPECTRUM: Limit = Limit::new(4 << 20, "bytes in a material, an illuminant or a table beside it");
 /// The companion of a table.
 pub const COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
 /// One row of a table that is read back.
@@ -103,6 +105,7 @@ pub const ALL: &[&Limit] = &[
     &PIXELS,
     &PIXELS_PER_BYTE,
     &PHOTON_MAP,
+    &SPECTRUM,
     &COMPANION,
     &ROW,
 ];

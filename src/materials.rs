@@ -1,89 +1,59 @@
-//! The catalogue of materials: one a file where a law was measured, and a table of gems known by their
-//! figures at the D line.
+//! The catalogue of materials, one TOML file each, and the reader of materials that users bring.
 
-mod beryl;
-mod calcite;
-mod cape_diamond;
-mod chrysoberyl;
-mod corundum;
-mod cubic_zirconia;
-mod diamond;
-mod diamond_rgb;
-mod emerald;
-mod fluorite;
-mod fused_silica;
-mod gems;
+mod absorption_entry;
+mod catalogue;
+mod index_entry;
 mod material;
-mod moissanite;
-mod n_bk7;
-mod quartz;
-mod ruby;
-mod rutile;
-mod sapphire;
-mod spinel;
-mod strontium_titanate;
-mod topaz;
-mod tourmaline;
+pub mod material_file;
+#[cfg(feature = "files")]
+mod open;
+mod table_entry;
 pub mod weight;
-mod yag;
-mod zircon;
 
+use crate::limits::Limits;
 use crate::optics::dispersion::Dispersion;
 use crate::parse;
+pub use catalogue::{MATERIAL_FILES, MATERIALS};
 pub use material::Material;
-
-/// Those that are a file each, by name.
-const FILES: [&Material; 25] = [
-    &diamond::DIAMOND,
-    &cape_diamond::CAPE_DIAMOND,
-    &diamond_rgb::DIAMOND_RGB,
-    &corundum::CORUNDUM,
-    &ruby::RUBY,
-    &sapphire::SAPPHIRE,
-    &beryl::BERYL,
-    &emerald::EMERALD,
-    &quartz::QUARTZ,
-    &quartz::AMETHYST,
-    &quartz::CITRINE,
-    &topaz::TOPAZ,
-    &tourmaline::TOURMALINE,
-    &zircon::ZIRCON,
-    &chrysoberyl::CHRYSOBERYL,
-    &spinel::SPINEL,
-    &fluorite::FLUORITE,
-    &calcite::CALCITE,
-    &moissanite::MOISSANITE,
-    &cubic_zirconia::CUBIC_ZIRCONIA,
-    &yag::YAG,
-    &strontium_titanate::STRONTIUM_TITANATE,
-    &rutile::RUTILE,
-    &n_bk7::N_BK7,
-    &fused_silica::FUSED_SILICA,
-];
-
-const COUNT: usize = FILES.len() + gems::COUNT;
-
-/// Every material.
-pub static MATERIALS: &[&Material] = &ALL;
-
-static ALL: [&Material; COUNT] = {
-    let mut all = [FILES[0]; COUNT];
-    let mut i = 0;
-    while i < COUNT {
-        all[i] = if i < FILES.len() { FILES[i] } else { &gems::GEMS[i - FILES.len()] };
-        i += 1;
-    }
-    all
-};
+#[cfg(feature = "files")]
+use std::path::Path;
 
 /// Refractive indices at the D line that differ by less than this are taken for one material's: designs
 /// state them to two decimals, and a stone's own varies by about as much.
 pub const NEAR: f64 = 0.01;
 
+/// Whether a material's name is that of a file, whatever the catalogue has: it has a `/` or ends in `.toml`.
+pub fn is_path(name: &str) -> bool {
+    name.contains(['/', std::path::MAIN_SEPARATOR]) || name.to_lowercase().ends_with(".toml")
+}
+
 impl Material {
+    /// The material that `argument` names: one of the catalogue, or a TOML file; a path is never a name of the
+    /// catalogue. The error suggests a name that is near, or says where in the file what was expected and found.
+    pub fn open(argument: &str, limits: Limits) -> Result<Material, String> {
+        if !is_path(argument)
+            && let Some(material) = Material::by_name(argument)
+        {
+            return Ok(material.clone());
+        }
+        #[cfg(feature = "files")]
+        if is_path(argument) || Path::new(argument).is_file() {
+            return Material::read(Path::new(argument), argument, false, limits).map_err(|e| e.to_string());
+        }
+        let _ = limits;
+        let near = parse::nearest_name(argument, MATERIALS.iter().map(|m| m.name.as_ref()));
+        let near = parse::did_you_mean(near);
+        Err(format!("no material is called '{argument}'{near} (all: cutlab list materials)"))
+    }
+
     /// The material called `name`, or none.
     pub fn by_name(name: &str) -> Option<&'static Material> {
-        MATERIALS.iter().copied().find(|m| parse::is_name(&m.name, name))
+        MATERIALS.iter().find(|m| parse::is_name(&m.name, name))
+    }
+
+    /// Diamond, which a stone is taken to be of where nobody says otherwise.
+    pub fn diamond() -> &'static Material {
+        catalogue::diamond()
     }
 
     /// The index of a material of which nothing else is known ([`Material::from_index`]).
@@ -96,7 +66,7 @@ impl Material {
     /// nearest first.
     pub fn near(n: f64) -> Vec<&'static Material> {
         let off = |m: &Material| (m.index_d() - n).abs();
-        let mut known: Vec<&Material> = MATERIALS.iter().copied().filter(|m| off(m) <= NEAR).collect();
+        let mut known: Vec<&Material> = MATERIALS.iter().filter(|m| off(m) <= NEAR).collect();
         known.sort_by(|a, b| off(a).total_cmp(&off(b)));
         known
     }
@@ -114,7 +84,7 @@ impl Material {
 
     /// The material of a stone of which at most an index is known: that index alone, or diamond.
     pub fn drawn_for(index: Option<f64>) -> Material {
-        index.map_or_else(|| MATERIALS[0].clone(), Material::from_index)
+        index.map_or_else(|| Material::diamond().clone(), Material::from_index)
     }
 }
 
@@ -124,11 +94,25 @@ mod tests {
     use crate::optics::dispersion::lines;
 
     #[test]
+    fn every_file_is_a_material_of_its_name() {
+        for (name, text) in MATERIAL_FILES {
+            assert_eq!(catalogue::read(name, text).map(|m| m.name.to_string()).as_deref(), Ok(*name));
+        }
+        assert_eq!(MATERIALS.len(), MATERIAL_FILES.len());
+        assert_eq!(Material::diamond().name, "diamond");
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/materials");
+        let files = std::fs::read_dir(folder).expect("the folder is there");
+        let files =
+            files.filter(|f| f.as_ref().is_ok_and(|f| f.path().extension().is_some_and(|e| e == "toml")));
+        assert_eq!(files.count(), MATERIAL_FILES.len(), "a file is missing in the catalogue");
+    }
+
+    #[test]
     fn every_material_has_a_source_and_falls_with_wavelength_over_its_range() {
-        for m in MATERIALS {
+        for m in MATERIALS.iter() {
             assert!(!m.source.is_empty() && !m.about.is_empty(), "{}", m.name);
             let (from, to) = (m.valid_nm.0.max(380.0), m.valid_nm.1.min(730.0));
-            for law in [Some(m.dispersion), m.extraordinary].into_iter().flatten() {
+            for law in [Some(&m.dispersion), m.extraordinary.as_ref()].into_iter().flatten() {
                 let n: Vec<f64> =
                     (0..=100).map(|i| law.index(from + (to - from) * f64::from(i) / 100.0)).collect();
                 assert!(n.iter().all(|n| *n > 1.0), "{}", m.name);
@@ -140,7 +124,7 @@ mod tests {
     #[test]
     fn every_absorption_says_what_it_is_and_lets_some_light_pass() {
         let mut coloured = 0;
-        for (m, a) in MATERIALS.iter().filter_map(|m| Some((m, m.absorption?))) {
+        for (m, a) in MATERIALS.iter().filter_map(|m| Some((m, m.absorption.as_ref()?))) {
             coloured += 1;
             assert!(!m.is_clear() && !a.source.is_empty() && !a.about.is_empty(), "{}", m.name);
             let spectrum: Vec<f64> = (380..=730).map(|nm| a.per_mm(f64::from(nm))).collect();

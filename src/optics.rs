@@ -3,4 +3,5 @@
 pub mod absorption;
 pub mod dispersion;
 pub mod fresnel;
+pub mod spectral_curve;
 pub mod stokes;

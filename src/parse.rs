@@ -1,8 +1,11 @@
-//! Numbers and names as people type them on a command line or in a stone's parameters.
+//! Numbers and names as people type them on a command line or in a stone's parameters; data files and tables
+//! of spectra.
 
+pub mod data_file;
 mod display;
 pub mod plain;
 pub mod shell;
+pub mod spectral_table;
 
 pub use display::display_name;
 use std::ops::RangeInclusive;

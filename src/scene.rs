@@ -10,6 +10,7 @@ pub mod file_access;
 pub mod intersection;
 pub mod light_schema;
 pub mod lights;
+mod named_data;
 pub mod panorama;
 pub mod photon_guide;
 pub mod pose;

@@ -6,7 +6,7 @@ use cutlab::color::cie::{adapted_srgb, chromaticity, matching, srgb_encode, srgb
 use cutlab::materials::Material;
 use glam::Vec3;
 
-fn light(name: &str) -> &'static Illuminant {
+fn light(name: &str) -> std::sync::Arc<Illuminant> {
     Illuminant::by_name(name).expect("in the catalogue")
 }
 

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 /// strangers.
 const ROWS: &[&[&str]] = &[
     &["sampling", "parse", "limits", "parallel", "progress"],
-    &["color", "optics", "geometry", "storage"],
+    &["storage"],
+    &["color", "optics", "geometry"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],
     &["stone", "metrics"],

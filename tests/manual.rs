@@ -5,8 +5,10 @@ mod bench;
 
 use bench::{Bench, text};
 use clap::error::ErrorKind;
+use cutlab::color::Illuminant;
 use cutlab::design::design_file::DesignFile;
 use cutlab::manual::{SCENE_GRAMMAR, TOPICS};
+use cutlab::materials::Material;
 use cutlab::scene::SceneFile;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -128,7 +130,24 @@ fn toml_in_the_manual_is_understood() {
         let solid = design.unwrap_or_else(|e| panic!("{e}: {text}")).solid();
         assert!(solid.is_ok(), "{text}: {:?}", solid.err());
     }
-    assert!(blocks(topic("scenes"), "toml").iter().any(|block| block == SCENE_GRAMMAR));
+    let no_table = |_: &str| Err("it names no table".into());
+    let materials = blocks(topic("materials"), "toml");
+    assert!(materials.len() >= 2);
+    for text in materials {
+        let material = Material::parse("manual", &text, &no_table).unwrap_or_else(|e| panic!("{e}: {text}"));
+        assert!(!material.is_clear() && material.is_dispersive(), "{text}");
+    }
+    let scenes = blocks(topic("scenes"), "toml");
+    assert!(scenes.iter().any(|block| block == SCENE_GRAMMAR));
+    for text in scenes.iter().filter(|block| *block != SCENE_GRAMMAR) {
+        let lamp = Illuminant::parse("manual", text, &no_table).unwrap_or_else(|e| panic!("{e}: {text}"));
+        assert!(lamp.power(450.0) > lamp.power(500.0), "{text}");
+        // what stands in comments is understood too
+        for other in text.lines().filter_map(|line| line.strip_prefix("# ")) {
+            let other = format!("name = \"other\"\n[power]\n{other}");
+            assert!(Illuminant::parse("manual", &other, &no_table).is_ok(), "{other}");
+        }
+    }
     let grammar = SceneFile::parse("grammar", "grammar", SCENE_GRAMMAR, Path::new(""));
     assert!(grammar.is_ok(), "{:?}", grammar.err());
 }

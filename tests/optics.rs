@@ -55,7 +55,7 @@ fn extraordinary_indices_match_the_published_ones() {
         ("moissanite", 2.68897, f64::NAN, 0.0),
         ("rutile", 2.90865, 0.40, 5e-3),
     ] {
-        let law = Material::by_name(name).and_then(|m| m.extraordinary).expect("uniaxial");
+        let law = Material::by_name(name).and_then(|m| m.extraordinary.as_ref()).expect("uniaxial");
         assert!((law.index(lines::D) - n_d).abs() < 7e-6, "{name}: {}", law.index(lines::D));
         let separation = law.index(lines::G) - law.index(lines::B);
         assert!(b_g.is_nan() || (separation - b_g).abs() < 2.0 * digits, "{name}: {separation}");
@@ -64,7 +64,7 @@ fn extraordinary_indices_match_the_published_ones() {
         [("beryl", -0.006), ("emerald", -0.006), ("tourmaline", -0.020), ("zircon", 0.059)]
     {
         let m = Material::by_name(name).expect("in the catalogue");
-        let law = m.extraordinary.expect("uniaxial");
+        let law = m.extraordinary.as_ref().expect("uniaxial");
         assert!((law.index(lines::D) - m.index_d() - birefringence).abs() < 1e-12, "{name}");
     }
     let cubic = Material::by_name("spinel").expect("in the catalogue");
@@ -89,7 +89,7 @@ fn the_materials_beside_the_table_have_their_indices() {
     }
     let glass = named("n-bk7");
     assert!((glass.index(lines::F) - glass.index(lines::C) - 0.008054).abs() < 2e-6);
-    let calcite = named("calcite").extraordinary.expect("uniaxial").index(lines::D);
+    let calcite = named("calcite").extraordinary.as_ref().expect("uniaxial").index(lines::D);
     assert!((calcite - 1.4864).abs() < 1e-3, "{calcite}");
 }
 
@@ -157,7 +157,7 @@ fn the_three_colours_of_the_original_project() {
 
 #[test]
 fn every_material_loses_less_than_all_and_bends_what_it_says() {
-    for m in MATERIALS {
+    for m in MATERIALS.iter() {
         let n = m.index_d();
         for i in 0..900 {
             let cos_i = (f64::from(i) / 10.0).to_radians().cos();

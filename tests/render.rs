@@ -156,7 +156,7 @@ fn a_stone_in_uniform_light_disappears() {
     let shots = PhotonSets { caustic: PhotonSet { photons, emitted: 1 }, indirect: PhotonSet::default() };
     let maps = PhotonMaps::new(&room, shots, 500);
     // look at the stone alone
-    let mut camera = room.camera;
+    let mut camera = room.camera.clone();
     camera.target = room.stones[0].position;
     camera.lens = Lens::Perspective(6.0);
     camera.position = Vec3::new(0.3, -2.7, 1.2);

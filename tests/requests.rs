@@ -20,6 +20,7 @@ fn requests() -> [TableRequest; 3] {
         material: Some("ruby".into()),
         ri: Some(1.76),
         size_mm: Some(6.5),
+        opened_material: None,
         limits: Default::default(),
         orientation: Orientation { up: Some(UpAxis::NegY), align: true },
     };

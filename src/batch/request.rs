@@ -99,6 +99,15 @@ impl TableRequest {
         }
     }
 
+    /// What is asked for of every stone.
+    pub fn options(&self) -> &StoneOptions {
+        match self {
+            TableRequest::Score(table) => &table.options,
+            TableRequest::Sweep(table) => &table.options,
+            TableRequest::Compare(table) => &table.options,
+        }
+    }
+
     /// The command line that makes the table, every setting spelled out, without output and shard.
     pub fn command(&self) -> String {
         match self {

@@ -170,8 +170,11 @@ fn folder(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliError
     if args.facets.is_some() || !args.parameters.0.is_empty() {
         return Err(CliError::input(format!("{stone} is a folder: its stones have no parameters to set")));
     }
-    let made =
-        import::GenerateSettings { carat: args.carat, paper: Some(args.paper), stone_args: args.stone_args };
+    let made = import::GenerateSettings {
+        carat: args.carat,
+        paper: Some(args.paper),
+        stone_args: args.stone_args.clone(),
+    };
     let to = args.to.as_deref().unwrap_or(USUAL_FORMAT);
     let args = import::ImportArgs::for_folder(args.stone.clone(), output.clone(), to, args.size, made);
     import::run(&args, console)

@@ -50,7 +50,7 @@ pub struct ImportArgs {
 }
 
 /// What `generate` sets, of which `import` has no options.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct GenerateSettings {
     /// Weight in carats, in place of a size.
     pub carat: Option<f64>,
@@ -186,7 +186,7 @@ fn import(
             output_path::check_writable(&job.target)?;
         }
     }
-    let GenerateSettings { carat, paper, stone_args } = args.made;
+    let GenerateSettings { carat, paper, stone_args } = args.made.clone();
     let stone = StoneArgs { orientation: args.orientation, ..stone_args }.open(&job.stone)?;
     let size = match (carat, stone.design()) {
         (Some(carats), Some(design)) => {

@@ -74,7 +74,7 @@ fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
     let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
     let stones = args.stones.iter().map(OsString::as_os_str).chain(first.map(OsStr::new));
     let mut parts: Vec<OsString> = stones.map(stone_name).collect();
-    parts.extend(args.stone_args.material.map(|m| m.name.as_ref().into()));
+    parts.extend(args.stone_args.material.as_ref().map(|m| m.name.as_ref().into()));
     parts.extend(args.stone_args.ri.map(|n| format!("n{n}").into()));
     parts.extend(args.size.map(|mm| format!("{mm}mm").into()));
     parts.push(file.name.clone().into());

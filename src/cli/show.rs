@@ -27,7 +27,7 @@ use crate::stone::Stone;
 use crate::storage::atomic_write;
 use crate::storage::terminal::in_line;
 use crate::trace::ConvexStone;
-use measured::{MeasuredProportions, figure};
+use measured::{MeasuredProportions, figure, symmetry};
 use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -388,14 +388,4 @@ impl StoneSheet {
         self.warnings.iter().for_each(|w| line("note", w.clone()));
         out
     }
-}
-
-/// `8-fold with mirror, facets within 0.02° of it`
-fn symmetry(s: &Symmetry) -> String {
-    let turns = if s.order > 1 { format!("{}-fold", s.order) } else { "no repetition".into() };
-    let mirror = if s.mirror { "with mirror" } else { "without mirror" };
-    if s.order == 1 && !s.mirror {
-        return "none".into();
-    }
-    format!("{turns}, {mirror}; facets stray by at most {:.3}°", s.deviation_deg)
 }

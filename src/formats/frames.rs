@@ -3,7 +3,6 @@
 
 use super::error::FormatError;
 use crate::design::{Design, LengthUnit};
-use crate::materials::MATERIALS;
 use crate::materials::Material;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -53,7 +52,7 @@ pub fn for_gem_cut_studio(design: &Design) -> Result<Design, FormatError> {
 /// The index of refraction that a design file states: the one that the design was drawn for, or
 /// diamond's to three decimals if none is known.
 pub fn index_drawn_for(design: &Design) -> f64 {
-    design.refractive_index.unwrap_or_else(|| stated(MATERIALS[0]))
+    design.refractive_index.unwrap_or_else(|| stated(Material::diamond()))
 }
 
 /// The design as drawn for that material's index, to three decimals.

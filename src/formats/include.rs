@@ -2,25 +2,13 @@
 
 use super::input::Input;
 use super::{FormatError, read_file};
-use crate::storage::text;
-use std::path::{Component, Path};
+use crate::storage::{include, text};
 
 /// The bytes of the file called `reference` in the source's folder; none if the reference leads
-/// out of that folder (absolute, `..`, a link that points outside, a URL) or there is no folder.
+/// out of that folder ([`include::resolve`]) or there is no folder.
 pub fn fetch(source: &Input, reference: &str) -> Option<Result<Vec<u8>, FormatError>> {
-    let folder = match source.folder? {
-        here if here == Path::new("") => Path::new("."),
-        folder => folder,
-    };
-    let relative = Path::new(reference);
-    let inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
-    if reference.contains("://") || reference.contains('\\') || !relative.components().all(inside) {
-        return None;
-    }
-    let path = folder.join(relative);
-    match (folder.canonicalize(), path.canonicalize()) {
-        (Ok(folder), Ok(real)) if !real.starts_with(&folder) => None,
-        (_, Err(cause)) => Some(Err(FormatError::Read { file: text::display_name(path), cause })),
-        _ => Some(read_file(&path, source.limits)),
-    }
+    Some(match include::resolve(source.folder?, reference)? {
+        Ok(path) => read_file(&path, source.limits),
+        Err((path, cause)) => Err(FormatError::Read { file: text::display_name(path), cause }),
+    })
 }

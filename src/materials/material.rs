@@ -10,9 +10,9 @@ pub struct Material {
     /// The name on the command line.
     pub name: Cow<'static, str>,
     /// One line for people.
-    pub about: &'static str,
+    pub about: Cow<'static, str>,
     /// Where the figures are from.
-    pub source: &'static str,
+    pub source: Cow<'static, str>,
     /// Index against wavelength; for a uniaxial crystal the ordinary ray, with which light is
     /// traced.
     pub dispersion: Dispersion,
@@ -25,6 +25,8 @@ pub struct Material {
     pub specific_gravity: Option<f64>,
     /// What it absorbs; none if it is clear.
     pub absorption: Option<Absorption>,
+    /// The file that it was read from, as it was named; none for the catalogue's.
+    pub file: Option<String>,
 }
 
 impl Material {
@@ -32,14 +34,20 @@ impl Material {
     pub fn from_index(n: f64) -> Material {
         Material {
             name: format!("n={n}").into(),
-            about: "one refractive index, no dispersion",
-            source: "given",
+            about: "one refractive index, no dispersion".into(),
+            source: "given".into(),
             dispersion: Dispersion::Constant(n),
             extraordinary: None,
             valid_nm: (0.0, f64::INFINITY),
             specific_gravity: None,
             absorption: None,
+            file: None,
         }
+    }
+
+    /// What names it on a command line: its file, or its name in the catalogue.
+    pub fn argument(&self) -> &str {
+        self.file.as_deref().unwrap_or(&self.name)
     }
 
     /// Refractive index at `nm`.
@@ -74,7 +82,7 @@ impl Material {
 
     /// Absorption coefficient at `nm`, natural logarithm, 1/mm.
     pub fn absorption_per_mm(&self, nm: f64) -> f64 {
-        self.absorption.map_or(0.0, |a| a.per_mm(nm))
+        self.absorption.as_ref().map_or(0.0, |a| a.per_mm(nm))
     }
 
     /// Mass in carats of `volume_mm3`, if the material's weight is known.

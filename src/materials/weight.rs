@@ -1,7 +1,7 @@
 //! The material that a stone is weighed as.
 
 use super::Material;
-use super::{MATERIALS, NEAR};
+use super::NEAR;
 
 /// A material to weigh by, or why there is none.
 #[derive(Debug, Clone)]
@@ -39,7 +39,7 @@ impl Weight {
 
     /// Whether the stone is of diamond, for which alone grading proportions are published.
     pub fn is_diamond(&self) -> bool {
-        let diamond = MATERIALS[0];
+        let diamond = Material::diamond();
         self.material.as_ref().is_some_and(|m| {
             m.specific_gravity == diamond.specific_gravity && (m.index_d() - diamond.index_d()).abs() < NEAR
         })
@@ -74,7 +74,7 @@ mod tests {
         assert_eq!((of(3.5).name(), of(3.5).carats(1.0)), (None, None));
         assert!(of(3.5).note().is_some_and(|said| said.starts_with("no material of n = 3.5 is known")));
         assert!(of(3.5).volume_mm3(1.0).is_err_and(|why| why.contains("n = 3.5")));
-        let diamond = Weight::new(MATERIALS[0]);
+        let diamond = Weight::new(Material::diamond());
         assert!(diamond.is_diamond() && diamond.note().is_none() && !of(1.544).is_diamond());
         assert!((diamond.volume_mm3(3.52).expect("known") - 200.0).abs() < 0.5);
     }

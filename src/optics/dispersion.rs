@@ -1,5 +1,8 @@
 //! Refractive index as a function of wavelength.
 
+use super::spectral_curve::SpectralCurve;
+use std::sync::Arc;
+
 /// The Fraunhofer lines used for scores, vacuum-to-air differences ignored, wavelengths in nm.
 pub mod lines {
     /// B, oxygen.
@@ -27,31 +30,43 @@ pub const VISIBLE_NM: (f64, f64) = (380.0, 730.0);
 
 /// A dispersion law: refractive index as a function of wavelength. Coefficients are those of the
 /// published formulas, in which λ is in µm; [`Dispersion::index`] takes nm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Dispersion {
     /// The same index at every wavelength.
     Constant(f64),
     /// n² = 1 + c₀ + Σ B λ² / (λ² − C²), pairs (B, C with C in µm). Formula 1 of
     /// refractiveindex.info.
-    Sellmeier { c0: f64, terms: &'static [(f64, f64)] },
+    Sellmeier { c0: f64, terms: Arc<[(f64, f64)]> },
     /// n² = 1 + c₀ + Σ B λ² / (λ² − C), pairs (B, C with C in µm²). Formula 2.
-    SellmeierSquared { c0: f64, terms: &'static [(f64, f64)] },
+    SellmeierSquared { c0: f64, terms: Arc<[(f64, f64)]> },
     /// n = A + B/λ², B in µm².
     Cauchy { a: f64, b: f64 },
+    /// n = A + B/λ² + C/λ⁴ + …, with any number of coefficients.
+    CauchySeries(Arc<[f64]>),
     /// n² = A + B/(λ² − C) + D λ².
     Resonance { a: f64, b: f64, c: f64, d: f64 },
     /// A step function: pairs (greatest wavelength in nm, n) in rising order, the last for all longer
     /// wavelengths. The dispersion of renderers of three colours.
-    Steps(&'static [(f64, f64)]),
+    Steps(Arc<[(f64, f64)]>),
+    /// A table of n against nm.
+    Table(SpectralCurve),
 }
 
 impl Dispersion {
+    /// Cauchy's law through an index at D and a difference between G and B; one index if that is not known.
+    pub fn through(n_d: f64, b_g: Option<f64>) -> Dispersion {
+        let Some(b_g) = b_g else { return Self::Constant(n_d) };
+        let (b_um, d_um, g_um) = (lines::B / 1000.0, lines::D / 1000.0, lines::G / 1000.0);
+        let b = b_g / (1.0 / (g_um * g_um) - 1.0 / (b_um * b_um));
+        Self::Cauchy { a: n_d - b / (d_um * d_um), b }
+    }
+
     /// Refractive index at the wavelength `nm`.
     pub fn index(&self, nm: f64) -> f64 {
         let um = nm / 1000.0;
         let l2 = um * um;
-        match *self {
-            Self::Constant(n) => n,
+        match self {
+            Self::Constant(n) => *n,
             Self::Sellmeier { c0, terms } => {
                 let sum: f64 = terms.iter().map(|(b, c)| b * l2 / (l2 - c * c)).sum();
                 (1.0 + c0 + sum).sqrt()
@@ -61,10 +76,12 @@ impl Dispersion {
                 (1.0 + c0 + sum).sqrt()
             }
             Self::Cauchy { a, b } => a + b / l2,
+            Self::CauchySeries(coefficients) => coefficients.iter().rev().fold(0.0, |n, c| n / l2 + c),
             Self::Resonance { a, b, c, d } => (a + b / (l2 - c) + d * l2).sqrt(),
             Self::Steps(steps) => {
                 steps.iter().find(|(up_to, _)| nm <= *up_to).or(steps.last()).map_or(1.0, |(_, n)| *n)
             }
+            Self::Table(curve) => curve.at(nm),
         }
     }
 }

@@ -3,7 +3,6 @@
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
 use crate::geometry::Polyhedron;
 use crate::limits::Limits;
-use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::sampling::stats::Estimate;
@@ -49,7 +48,7 @@ impl References {
             std::array::from_fn(|i| Some(Estimate { value: cell(values, i)?, error: cell(errors, i)? }))
         };
         let scores = METRICS.iter().map(|m| (m.name, of(m))).collect();
-        Ok(References { material: MATERIALS[0].name.to_string(), scores })
+        Ok(References { material: Material::diamond().name.to_string(), scores })
     }
 
     /// The stones in `material`: those of the table for diamond, else scored as `plan` says, with fewer
@@ -57,7 +56,7 @@ impl References {
     ///
     /// - `width_mm`: girdle width, on which the scores depend if the material absorbs
     pub fn within(material: &Material, width_mm: f64, plan: &ScoreRequest) -> Result<References, TableError> {
-        if material == MATERIALS[0] {
+        if material == Material::diamond() {
             return References::read();
         }
         let plan =

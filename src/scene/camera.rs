@@ -3,6 +3,7 @@
 use crate::color::Illuminant;
 use crate::sampling::warps;
 use glam::{Mat3, Vec2, Vec3};
+use std::sync::Arc;
 
 /// A camera's projection.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +49,7 @@ impl Lens {
 }
 
 /// A camera.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Camera {
     /// Position, world frame.
     pub position: Vec3,
@@ -61,7 +62,7 @@ pub struct Camera {
     /// Exposure in stops.
     pub stops: f32,
     /// Light that it shows as white.
-    pub white: &'static Illuminant,
+    pub white: Arc<Illuminant>,
     /// Whether its colours are flat: each camera ray shows white, red, green, blue or black, whichever has
     /// the greatest share of its light, as in drawings of what gem viewers show. Linear light keeps the
     /// shares, by the three bands of [`crate::color::rgb_upsampling::basis`].
@@ -103,7 +104,7 @@ impl Camera {
 
     /// The camera turned about its target.
     pub fn turned(&self, turn: Mat3) -> Camera {
-        Camera { position: self.target + turn * (self.position - self.target), ..*self }
+        Camera { position: self.target + turn * (self.position - self.target), ..self.clone() }
     }
 
     /// The camera's horizontal axis, to the right of the picture.
@@ -130,7 +131,7 @@ mod tests {
         let (_, left) = camera.ray(0.0, 0.5);
         assert!((left.x.atan2(left.y).to_degrees() + 19.0).abs() < 1e-4);
         assert!(camera.ray(0.5, 0.0).1.z > 0.0);
-        let parallel = Camera { lens: Lens::Orthographic(3.0), ..camera };
+        let parallel = Camera { lens: Lens::Orthographic(3.0), ..camera.clone() };
         let (from, along) = parallel.ray(1.0, 0.5);
         assert!((from.x - 1.5).abs() < 1e-5 && along == Vec3::Y);
         let behind = camera.turned(Mat3::from_rotation_z(std::f32::consts::PI));

@@ -12,3 +12,13 @@ pub struct FieldError {
 pub(super) fn field_error(key: &'static str, problem: impl Into<String>) -> FieldError {
     FieldError { key, problem: problem.into() }
 }
+
+/// An entry of a catalogue by name; the error lists all.
+pub(super) fn require_name<T>(
+    key: &'static str,
+    found: Option<T>,
+    name: &str,
+    all: &[&str],
+) -> Result<T, FieldError> {
+    found.ok_or_else(|| field_error(key, format!("{key} '{name}' is not one of {}", all.join(", "))))
+}

@@ -11,9 +11,10 @@ pub mod sun;
 
 use super::PhotonGuide;
 use super::light_schema::LightEntry;
+use super::named_data::illuminant;
 use super::scene_file::BuildContext;
 use super::schema::FieldError;
-use super::schema::{field_error, illuminant, positive, require_name};
+use super::schema::{field_error, positive, require_name};
 use super::{BoundingSphere, PlacedStone};
 use crate::color::rgb_upsampling;
 use glam::Vec3;
@@ -87,7 +88,11 @@ impl LightEntry {
             ));
         }
         let colour = self.colour.map_or(Vec3::ONE, |c| rgb_upsampling::upsample(c.into()));
-        Ok(Light::new(emitter, illuminant("spectrum", self.spectrum.as_deref())?, colour * radiance))
+        Ok(Light::new(
+            emitter,
+            illuminant("spectrum", self.spectrum.as_deref(), place.files, place.limits)?,
+            colour * radiance,
+        ))
     }
 }
 

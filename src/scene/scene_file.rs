@@ -202,7 +202,11 @@ impl SceneFile {
         let cuts = document.stone.iter().map(|entry| entry.get_ref().cut());
         let meshes = document.surface.iter().filter_map(|entry| entry.get_ref().mesh.as_deref());
         let panoramas = document.light.iter().filter_map(|entry| entry.get_ref().panorama.as_deref());
-        cuts.chain(meshes).chain(panoramas).map(|name| self.folder.join(name)).collect()
+        let materials = document.stone.iter().filter_map(|entry| entry.get_ref().material());
+        let spectra = document.light.iter().filter_map(|entry| entry.get_ref().spectrum.as_deref());
+        let white = document.camera.get_ref().white();
+        let named = cuts.chain(meshes).chain(panoramas).chain(materials).chain(spectra).chain(white);
+        named.map(|name| self.folder.join(name)).collect()
     }
 
     /// Sets the scene up.
@@ -233,7 +237,7 @@ impl SceneFile {
                 size_mm: cast.size_mm,
                 ..SceneOverrides::default()
             };
-            let (stone, material) = self.with_line(entry, entry.get_ref().stone(design, &of))?;
+            let (stone, material) = self.with_line(entry, entry.get_ref().stone(design, &of, &files))?;
             if i == 0 && document.unit == SceneUnit::Stone {
                 unit = stone.unit as f32;
             }

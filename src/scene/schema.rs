@@ -2,40 +2,23 @@
 
 use super::build_context::{BuildContext, GREATEST, SceneOverrides, stone_to_trace};
 pub use super::field_error::FieldError;
-pub(super) use super::field_error::field_error;
+pub(super) use super::field_error::{field_error, require_name};
 use super::file_access::Files;
+use super::named_data;
 use super::scene_mesh::SceneMesh;
 use super::surface::{Bsdf, Quad, Shape};
 use super::{Camera, Lens, PlacedStone, Pose, Reflectance, Surface};
-use crate::color::illuminants::ILLUMINANTS;
-use crate::color::{Illuminant, rgb_upsampling};
+use crate::color::rgb_upsampling;
 use crate::design::Design;
 use crate::design::{families, library};
 use crate::formats::{self, triangle_mesh};
 use crate::limits::Limits;
-use crate::materials::MATERIALS;
 use crate::materials::Material;
 use crate::stone::{StoneError, grammar};
 use crate::trace::ConvexStone;
 use glam::{DMat3, Vec3};
 use serde::Deserialize;
 use std::sync::Arc;
-
-/// An entry of a catalogue by name; the error lists all.
-pub(super) fn require_name<T>(
-    key: &'static str,
-    found: Option<T>,
-    name: &str,
-    all: &[&str],
-) -> Result<T, FieldError> {
-    found.ok_or_else(|| field_error(key, format!("{key} '{name}' is not one of {}", all.join(", "))))
-}
-
-pub(super) fn illuminant(key: &'static str, name: Option<&str>) -> Result<&'static Illuminant, FieldError> {
-    let name = name.unwrap_or(Illuminant::equal_energy().name);
-    let all: Vec<&str> = ILLUMINANTS.iter().map(|i| i.name).collect();
-    require_name(key, Illuminant::by_name(name), name, &all)
-}
 
 /// A number above 0.
 pub(super) fn positive(key: &'static str, value: Option<f32>) -> Result<f32, FieldError> {
@@ -118,6 +101,11 @@ enum Focus {
 }
 
 impl CameraEntry {
+    /// The illuminant that it shows as white.
+    pub(super) fn white(&self) -> Option<&str> {
+        self.white.as_deref()
+    }
+
     pub(super) fn camera(&self, place: &BuildContext, aspect: f32) -> Result<Camera, FieldError> {
         let lens = match (self.field, self.field_short, self.width) {
             (Some(deg), None, None) if deg > 0.0 && deg < 175.0 => Lens::Perspective(deg),
@@ -145,7 +133,7 @@ impl CameraEntry {
             return Err(field_error("at", "the camera stands where it looks"));
         }
         let lens = self.opened(lens, place, position, target)?;
-        let white = illuminant("white", self.white.as_deref())?;
+        let white = named_data::illuminant("white", self.white.as_deref(), place.files, place.limits)?;
         if self.exposure.abs() > MOST_STOPS {
             let most = format!("an exposure is a number of stops from -{MOST_STOPS} to {MOST_STOPS}");
             return Err(field_error("exposure", most));
@@ -222,6 +210,11 @@ impl StoneEntry {
         self.cut.as_deref().unwrap_or("round-brilliant")
     }
 
+    /// The material that it names.
+    pub(super) fn material(&self) -> Option<&str> {
+        self.material.as_deref()
+    }
+
     /// The design of that STONE: of the library, or of a regular file beside the scene.
     pub(super) fn design(&self, files: &Files, limits: Limits) -> Result<Design, FieldError> {
         let cut = self.cut();
@@ -246,15 +239,13 @@ impl StoneEntry {
         &self,
         design: Design,
         cast: &SceneOverrides,
+        files: &Files,
     ) -> Result<(ConvexStone, Material), FieldError> {
         let material = match (&cast.material, &self.material, design.refractive_index) {
             (Some(material), _, _) => material.clone(),
-            (None, Some(name), _) => {
-                let all: Vec<&str> = MATERIALS.iter().map(|m| m.name.as_ref()).collect();
-                require_name("material", Material::by_name(name), name, &all)?.clone()
-            }
+            (None, Some(name), _) => named_data::material(name, files, cast.limits)?,
             (None, None, Some(n)) => Material::from_index(n),
-            (None, None, None) => MATERIALS[0].clone(),
+            (None, None, None) => Material::diamond().clone(),
         };
         let size = cast.size_mm.or(self.size);
         if size.is_some_and(|mm| !(1e-3..=1e3).contains(&mm)) {

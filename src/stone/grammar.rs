@@ -6,9 +6,8 @@ use crate::design::families::Family;
 use crate::design::{Design, families, library};
 #[cfg(feature = "files")]
 use crate::formats::{self, Content, FormatError, Loaded};
-#[cfg(feature = "files")]
 use crate::limits::Limits;
-use crate::materials::{MATERIALS, Material};
+use crate::materials::Material;
 use crate::parse::{self, display_name};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
@@ -66,7 +65,7 @@ impl StoneSpec {
                 return Err(wrong("one material or index".into()));
             }
             spec.material = Some(if has_key(item, MATERIAL) {
-                material(value.trim()).map_err(wrong)?.clone()
+                Material::open(value.trim(), Limits::default()).map_err(wrong)?
             } else {
                 Material::from_index(refractive_index(value.trim()).map_err(wrong)?)
             });
@@ -290,14 +289,6 @@ fn parameters(spec: &str, rest: Option<&str>) -> Result<BTreeMap<String, f64>, S
         last = part;
     }
     Ok(values)
-}
-
-/// The material called `name`; the error suggests one whose name is near.
-pub fn material(name: &str) -> Result<&'static Material, String> {
-    Material::by_name(name).ok_or_else(|| {
-        let near = parse::nearest_name(name, MATERIALS.iter().map(|m| m.name.as_ref()));
-        format!("no material is called '{name}'{} (all: cutlab list materials)", parse::did_you_mean(near))
-    })
 }
 
 /// A refractive index, from 1 to 10.

@@ -1,6 +1,5 @@
 //! Stone options: what a STONE is made of, how large it is and how it stands, where it does not say so itself.
 
-use super::grammar;
 use crate::limits::Limits;
 use crate::materials::Material;
 use glam::DVec3;
@@ -11,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StoneOptions {
-    /// A material of the catalogue, by name; none for what each design is drawn for, or diamond.
+    /// A material of the catalogue, by name, or a file of one; none for what each design is drawn for, or diamond.
     pub material: Option<String>,
     /// One refractive index, without dispersion, in place of a material.
     pub ri: Option<f64>,
@@ -19,6 +18,9 @@ pub struct StoneOptions {
     pub size_mm: Option<f64>,
     /// How the stones of files are turned.
     pub orientation: Orientation,
+    /// The material in place of the one that is named, opened already.
+    #[serde(skip)]
+    pub opened_material: Option<Material>,
     /// Limits on the files that are read. They are no part of what is asked for: within any of them the stone is the
     /// same.
     #[serde(skip)]
@@ -28,10 +30,11 @@ pub struct StoneOptions {
 impl StoneOptions {
     /// The material or bare index asked for, if any; the error says that there is no such material.
     pub fn asked_material(&self) -> Result<Option<Material>, String> {
-        match (&self.material, self.ri) {
-            (Some(name), _) => Ok(Some(grammar::material(name)?.clone())),
-            (None, Some(index)) => Ok(Some(Material::from_index(index))),
-            (None, None) => Ok(None),
+        match (&self.opened_material, &self.material, self.ri) {
+            (Some(material), ..) => Ok(Some(material.clone())),
+            (None, Some(name), _) => Material::open(name, self.limits).map(Some),
+            (None, None, Some(index)) => Ok(Some(Material::from_index(index))),
+            (None, None, None) => Ok(None),
         }
     }
 }

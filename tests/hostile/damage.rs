@@ -56,6 +56,13 @@ fn samples() -> Vec<Sample> {
         add(extension, targets::panoramas, None, &fs::read(&path).expect("was written"));
     }
     add("scene", targets::scenes, None, SCENE.as_bytes());
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/materials");
+    for name in ["plate.toml", "bands.toml", "lamp.toml"] {
+        let table = fs::read(data.join("plate.csv")).expect("is there");
+        let document = fs::read(data.join(name)).expect("is there");
+        // the table's beginning: a corruption of every byte of all of it adds nothing
+        add(name, targets::materials, None, &[&document[..], b"\0", &table[..200]].concat());
+    }
     for (name, bytes) in good_files(&["octahedron.obj", "octahedron-odd.obj", "octahedron.gltf"]) {
         add(&format!("{name} as scenery"), targets::sceneries, None, &bytes);
     }

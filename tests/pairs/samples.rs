@@ -129,7 +129,7 @@ const SAMPLES: &[Sample] = &[
     ("*", "pixels", &[&["64"]]),
     ("*", "colours", &[&["greys"]]),
     // stones' stuff
-    ("*", "material", &[&["diamond"], &["quartz"], &["ruby"]]),
+    ("*", "material", &[&["diamond"], &["quartz"], &["ruby"], &["gem.toml"]]),
     ("*", "ri", &[&["1.54"]]),
     ("*", "size", &[&["4"]]),
     ("*", "carat", &[&["1"]]),

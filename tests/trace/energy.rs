@@ -90,7 +90,7 @@ fn the_twin_keeps_energy_to_twelve_digits() {
 /// every material of the catalogue, 1e-5 in lanes and 1e-12 in the twin.
 #[test]
 fn every_cut_of_every_material_gives_uniform_light_back() {
-    let materials = materials::MATERIALS;
+    let materials = &*materials::MATERIALS;
     for (number, name) in library::names().enumerate() {
         let design = library::design(name, &BTreeMap::new()).expect("in the library").expect("good");
         let stone = ConvexStone::new(design.solid().expect("closed"));

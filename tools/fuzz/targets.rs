@@ -7,11 +7,13 @@
 
 use cutlab::batch::sidecar::TableMeta;
 use cutlab::batch::table::{NumericColumns, RowReader, TableFormat};
+use cutlab::color::Illuminant;
 use cutlab::design::Design;
 use cutlab::design::families::{self, FAMILIES};
 use cutlab::formats::{self, FORMATS, FormatError, Input, ParsedShape, triangle_mesh};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::limits::Limits;
+use cutlab::materials::Material;
 use cutlab::photons::map_file;
 use cutlab::scene::panorama::Panorama;
 use cutlab::scene::scene_mesh::SceneMesh;
@@ -203,6 +205,26 @@ pub fn cuts(data: &[u8]) {
             Ok(solid) => is_correct(&solid),
             Err(error) => is_one_line(&error),
         },
+        Err(error) => is_one_line(&error),
+    }
+}
+
+/// A material or an illuminant: its TOML, and after a NUL the table that it names.
+pub fn materials(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    let (document, table) = text.split_once('\0').unwrap_or((&text, ""));
+    let tables = |_: &str| Ok(table.to_owned());
+    match Material::parse("fuzzed.toml", document, &tables) {
+        Ok(material) => {
+            for nm in (380..=730).map(f64::from) {
+                let (n, a) = (material.index(nm), material.absorption_per_mm(nm));
+                assert!((1.0..=10.0).contains(&n) && a >= 0.0, "n {n}, absorption {a} at {nm} nm");
+            }
+        }
+        Err(error) => is_one_line(&error),
+    }
+    match Illuminant::parse("fuzzed.toml", document, &tables) {
+        Ok(light) => assert!(light.luminance() > 0.0 && light.luminance().is_finite(), "{light:?}"),
         Err(error) => is_one_line(&error),
     }
 }

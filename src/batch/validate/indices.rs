@@ -91,8 +91,11 @@ fn index_check((name, extraordinary, (n, digits), b_g, source): IndexRow) -> Che
     Check::new(SUBJECT, figures, move |_| {
         let material = material(name)?;
         let none = || CheckError::Unknown(format!("extraordinary ray of {name}"));
-        let law: Dispersion =
-            if extraordinary { material.extraordinary.ok_or_else(none)? } else { material.dispersion };
+        let law: &Dispersion = if extraordinary {
+            material.extraordinary.as_ref().ok_or_else(none)?
+        } else {
+            &material.dispersion
+        };
         Ok(Measured::exact([law.index(lines::D), law.index(lines::G) - law.index(lines::B)]))
     })
 }

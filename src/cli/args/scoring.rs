@@ -9,6 +9,7 @@ use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::cli::limits::limits;
 use crate::design::USUAL_WIDTH_MM;
+use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
@@ -74,7 +75,7 @@ impl ScoringArgs {
     /// - `sized`: whether all stones have a size
     pub fn notes(&self, sized: bool) -> Vec<String> {
         let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
-        let coloured = self.stone_args.material.is_some_and(|m| !m.is_clear());
+        let coloured = self.stone_args.material.as_ref().is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
             (true, _) => VISIBLE_NM,
             (false, true) => (lines::G, lines::B),
@@ -182,8 +183,11 @@ impl InputFiles {
     /// Those of a table of these stones.
     pub fn new<'a>(request: &TableRequest, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
         let (mut identity, mut files) = (Fingerprint::of_request(request), BTreeMap::new());
+        add_material(&mut identity, request.options().asked_material().ok().flatten().as_ref());
         for stone in stones {
             identity.add(stone.as_encoded_bytes());
+            let parts = StoneSpec::parse(stone).ok();
+            add_material(&mut identity, parts.as_ref().and_then(StoneSpec::material));
             if stone == STANDARD_INPUT {
                 identity.add_file(&FileDigest::of_standard_input(limits()));
             }
@@ -214,6 +218,13 @@ impl InputFiles {
         row.samples.clear();
         row.error = Some(format!("the file {what} since the table was begun: start again"));
         (row, outcome)
+    }
+}
+
+/// Adds what the file of a user's material holds, tables beside it included.
+fn add_material(identity: &mut Fingerprint, material: Option<&Material>) {
+    if let Some(material) = material.filter(|m| m.file.is_some()) {
+        identity.add(format!("{material:?}"));
     }
 }
 

@@ -1,5 +1,6 @@
 //! STONE arguments: opened in parallel, each on its own, and the options about them.
 
+use super::material::material;
 use crate::cli::console::Console;
 use crate::cli::exit_code::{CliError, ExitStatus};
 use crate::cli::limits::limits;
@@ -14,11 +15,12 @@ use std::ffi::OsStr;
 pub const DEFAULT_STONE: &str = "round-brilliant";
 
 /// What is asked for of every stone of a command, but for its size.
-#[derive(Debug, Clone, Copy, Default, clap::Args)]
+#[derive(Debug, Clone, Default, clap::Args)]
 pub struct StoneArgs {
-    /// Material, see `cutlab list materials` [the file's own index, or diamond]
-    #[arg(long, value_name = "NAME", value_parser = grammar::material)]
-    pub material: Option<&'static Material>,
+    /// Material, see `cutlab list materials`, or a TOML file of your own, see `cutlab help materials` [the
+    /// file's own index, or diamond]
+    #[arg(long, value_name = "NAME", value_parser = material)]
+    pub material: Option<Material>,
     /// One refractive index, without dispersion, in place of a material
     #[arg(long, value_name = "N", value_parser = grammar::refractive_index, conflicts_with = "material")]
     pub ri: Option<f64>,
@@ -45,17 +47,18 @@ impl StoneArgs {
     pub fn options(&self, size_mm: Option<f64>) -> StoneOptions {
         let OrientationArgs { up, align } = self.orientation;
         StoneOptions {
-            material: self.material.map(|m| m.name.to_string()),
+            material: self.material.as_ref().map(|m| m.argument().into()),
             ri: self.ri,
             size_mm,
             orientation: Orientation { up, align },
+            opened_material: self.material.clone(),
             limits: limits(),
         }
     }
 
     /// The material or index asked for, if any.
     pub fn asked(&self) -> Option<Material> {
-        self.material.cloned().or(self.ri.map(Material::from_index))
+        self.material.clone().or(self.ri.map(Material::from_index))
     }
 
     /// Opens a stone as it is asked for, in its own size.
@@ -72,7 +75,7 @@ impl StoneArgs {
 
     /// What to say if the index of the material asked for is a guess within `from`..=`to` (nm).
     pub fn range_note(&self, from: f64, to: f64) -> Option<String> {
-        Some(format!("note: {}", self.material?.extrapolated(from, to)?))
+        Some(format!("note: {}", self.material.as_ref()?.extrapolated(from, to)?))
     }
 }
 

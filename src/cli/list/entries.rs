@@ -15,6 +15,7 @@ use crate::optics::dispersion::lines;
 use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Width of a block's text, without its label.
 const WIDTH: usize = 84;
@@ -88,16 +89,16 @@ fn metric(m: &Metric) -> CatalogueEntry {
 
 /// Materials.
 pub fn materials() -> Vec<CatalogueEntry> {
-    MATERIALS.iter().map(|m| material(m)).collect()
+    MATERIALS.iter().map(material).collect()
 }
 
 fn material(m: &Material) -> CatalogueEntry {
-    let n_e = m.extraordinary.map(|law| law.index(lines::D));
+    let n_e = m.extraordinary.as_ref().map(|law| law.index(lines::D));
     let b_g = m.index(lines::G) - m.index(lines::B);
     let valid = <[f64; 2]>::from(m.valid_nm);
     let density = m.specific_gravity.map_or_else(|| "unknown".into(), |sg| format!("{sg} g/cm³"));
     let colour = through(m);
-    let absorption = m.absorption.map_or_else(String::new, |a| format!("{}; {}", a.about, a.source));
+    let absorption = m.absorption.as_ref().map_or_else(String::new, |a| format!("{}; {}", a.about, a.source));
     let text = block(
         &format!("{}: {}", m.name, m.about),
         &[
@@ -119,7 +120,7 @@ fn material(m: &Material) -> CatalogueEntry {
                     .map_or_else(|| "none".into(), |c| format!("{c} through {DEPTH_MM} mm by daylight")),
             ),
             ("absorption", absorption),
-            ("source", m.source.into()),
+            ("source", m.source.to_string()),
         ],
     );
     let facts = json!({
@@ -129,7 +130,7 @@ fn material(m: &Material) -> CatalogueEntry {
         "valid_nm": valid.map(f64::round),
         "density_g_cm3": m.specific_gravity,
         "colour_10_mm": colour,
-        "absorption": m.absorption.map(|a| json!({ "about": a.about, "source": a.source })),
+        "absorption": m.absorption.as_ref().map(|a| json!({ "about": a.about, "source": a.source })),
         "source": m.source,
     });
     let about = format!("n {:.4}, B–G {b_g:.4}, {density}: {}", m.index_d(), m.about);
@@ -146,7 +147,7 @@ const DEPTH_MM: f64 = 10.0;
 
 /// The colour of daylight through [`DEPTH_MM`] of a material that absorbs, as `#rrggbb`.
 fn through(m: &Material) -> Option<String> {
-    let absorption = m.absorption?;
+    let absorption = m.absorption.as_ref()?;
     let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm))).exp() as f32;
     let byte = |x| (255.0 * cie::srgb_encode(x)).round() as u8;
     let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
@@ -187,10 +188,10 @@ fn cut(name: &'static str) -> CatalogueEntry {
 
 /// Lights by which colours are judged.
 pub fn illuminants() -> Vec<CatalogueEntry> {
-    let entry = |i: &&Illuminant| CatalogueEntry {
-        name: i.name.into(),
-        about: i.about.into(),
-        text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.into())]),
+    let entry = |i: &Arc<Illuminant>| CatalogueEntry {
+        name: i.name.to_string(),
+        about: i.about.to_string(),
+        text: block(&format!("{}: {}", i.name, i.about), &[("source", i.source.to_string())]),
         facts: json!({ "source": i.source }),
     };
     ILLUMINANTS.iter().map(entry).collect()

@@ -1,6 +1,7 @@
 //! Measures of a stone, as `cutlab show` prints them.
 
 use crate::design::proportions::Proportions;
+use crate::design::symmetry::Symmetry;
 use crate::design::{Design, LengthUnit};
 use crate::formats;
 use crate::materials::weight::Weight;
@@ -89,4 +90,14 @@ pub fn figure(value: f64, decimals: usize) -> String {
     } else {
         format!("{value:.decimals$}")
     }
+}
+
+/// `8-fold with mirror, facets within 0.02° of it`
+pub fn symmetry(s: &Symmetry) -> String {
+    let turns = if s.order > 1 { format!("{}-fold", s.order) } else { "no repetition".into() };
+    let mirror = if s.mirror { "with mirror" } else { "without mirror" };
+    if s.order == 1 && !s.mirror {
+        return "none".into();
+    }
+    format!("{turns}, {mirror}; facets stray by at most {:.3}°", s.deviation_deg)
 }

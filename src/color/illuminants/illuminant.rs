@@ -2,22 +2,24 @@
 
 use super::super::cie;
 use glam::Vec3;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A light source's spectrum.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Illuminant {
     /// Its name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// One line for people.
-    pub about: &'static str,
+    pub about: Cow<'static, str>,
     /// Where its figures are from.
-    pub source: &'static str,
+    pub source: Cow<'static, str>,
     /// Relative power per nm.
     pub spectrum: SpectralPower,
 }
 
 /// Relative spectral power; only its shape counts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum SpectralPower {
     /// The same at every wavelength.
     Equal,
@@ -26,22 +28,25 @@ pub enum SpectralPower {
         /// c₂/T in nm.
         c2_over_t: f64,
     },
-    /// Values at 380, 390 … 730 nm, linear between them.
-    Table(&'static [f32; 36]),
+    /// Two or more values at even steps from 380 to 730 nm, linear between them.
+    Table(Arc<[f32]>),
 }
 
 impl Illuminant {
     /// Relative power per nm at `nm`, within 380–730.
     pub fn power(&self, nm: f32) -> f32 {
-        match self.spectrum {
+        match &self.spectrum {
             SpectralPower::Equal => 1.0,
             SpectralPower::Planck { c2_over_t } => {
-                let planck = |nm: f64| ((c2_over_t / nm).exp() - 1.0).recip() * nm.powi(-5);
+                let planck = |nm: f64| ((*c2_over_t / nm).exp() - 1.0).recip() * nm.powi(-5);
                 (planck(nm.into()) / planck(560.0)) as f32
             }
             SpectralPower::Table(values) => {
-                let t = ((nm - cie::RANGE_NM.0) / 10.0).clamp(0.0, 35.0);
-                let i = (t as usize).min(34);
+                let (first, last) = cie::RANGE_NM;
+                let intervals = values.len() - 1;
+                let step_nm = (last - first) / intervals as f32;
+                let t = ((nm - first) / step_nm).clamp(0.0, intervals as f32);
+                let i = (t as usize).min(intervals - 1);
                 values[i] + (values[i + 1] - values[i]) * (t - i as f32)
             }
         }

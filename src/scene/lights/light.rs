@@ -74,7 +74,7 @@ pub struct Light {
     /// Shape.
     pub emitter: Arc<dyn Emitter>,
     /// Spectrum.
-    pub spectrum: &'static Illuminant,
+    pub spectrum: Arc<Illuminant>,
     /// Radiance as a mixture of colours of the spectrum; grey for a light of the spectrum alone.
     /// Scaled so that a grey light has the luminance of equal-energy light of that radiance.
     pub radiance: Vec3,
@@ -89,8 +89,8 @@ impl Light {
     /// A light of any spectrum.
     ///
     /// - `radiance`: that of equal-energy light of the same luminance
-    pub fn new(emitter: Arc<dyn Emitter>, spectrum: &'static Illuminant, radiance: Vec3) -> Light {
-        Light { emitter, spectrum, radiance: radiance / spectrum.luminance() }
+    pub fn new(emitter: Arc<dyn Emitter>, spectrum: Arc<Illuminant>, radiance: Vec3) -> Light {
+        Light { emitter, radiance: radiance / spectrum.luminance(), spectrum }
     }
 
     /// The light turned about a point.
