@@ -1,6 +1,8 @@
 //! The features of the package: what the library needs without any, and that each names what it adds.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// The most that the library may depend on directly without any feature.
@@ -52,4 +54,50 @@ fn every_optional_dependency_belongs_to_one_feature() {
     assert_eq!(features["default"].as_array().map(Vec::len), Some(1), "the default is the program");
     let program: &[Value] = manifest["bin"].as_array().expect("the program");
     assert_eq!(program[0]["required-features"].as_array().map(|f| f[0].as_str()), Some(Some("cli")));
+}
+
+fn source(path: &Path) -> String {
+    fs::read_to_string(path).expect("a source file is UTF-8")
+}
+
+/// The modules that `src/lib.rs` compiles without any feature.
+fn modules_without_features() -> Vec<String> {
+    let lib = source(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs"));
+    let lines: Vec<&str> = lib.lines().collect();
+    let is_gated = |i: usize| i > 0 && lines[i - 1].starts_with("#[cfg(feature");
+    let module = |line: &str| Some(line.strip_prefix("pub mod ")?.strip_suffix(';')?.to_owned());
+    (0..lines.len()).filter(|&i| !is_gated(i)).filter_map(|i| module(lines[i])).collect()
+}
+
+/// Every Rust file at or below a path.
+fn rust_files(path: PathBuf) -> Vec<PathBuf> {
+    match fs::read_dir(&path) {
+        Ok(entries) => entries.flat_map(|e| rust_files(e.expect("can be listed").path())).collect(),
+        Err(_) => Some(path).filter(|p| p.extension().is_some_and(|e| e == "rs")).into_iter().collect(),
+    }
+}
+
+/// A page has no files, no clock that `Instant` would read, and no threads.
+#[test]
+fn the_library_without_features_asks_nothing_of_the_system() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let modules = modules_without_features();
+    assert!(modules.iter().any(|m| m == "scoring") && !modules.iter().any(|m| m == "storage"), "{modules:?}");
+    for file in modules.iter().flat_map(|m| [src.join(format!("{m}.rs")), src.join(m)]).flat_map(rust_files) {
+        let text = source(&file);
+        for word in ["std::fs", "std::env", "std::thread", "std::process", "Instant", "SystemTime"] {
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            assert!(!code.contains(word), "{}: {word}", file.display());
+        }
+    }
+}
+
+/// What depends on a feature is a whole module, or one way of doing the loops of `parallel`.
+#[test]
+fn features_are_asked_for_in_two_files() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for file in rust_files(src.clone()) {
+        let may_ask = [src.join("lib.rs"), src.join("parallel.rs")].contains(&file);
+        assert!(may_ask || !source(&file).contains("(feature = "), "{} asks for a feature", file.display());
+    }
 }

@@ -1,20 +1,57 @@
 //! Journals: records of finished work, appended beside its output, which survive a kill at any moment.
 //!
-//! The file is an append-only list of records, each with its checksum, headed by the identity of
-//! the work. One process at a time has it, by a lock that ends with the process.
+//! The file is an append-only list of records, headed by the identity of the work. A record is a line of JSON
+//! with its key, length and checksum, then its payload and the end of a line. One process at a time has the
+//! file, by a lock that ends with the process.
 
 use super::atomic_write::WriteError;
 use super::{bounded_read, lock};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// First word of the file, with the version of its form.
-const MAGIC: &str = "cutlab-progress-2";
+/// Version of the file's form: files of others are set aside.
+const VERSION: u32 = 3;
 
-/// No record is longer: a length beyond it is no length.
+/// No payload is longer, in bytes: a length beyond it is no length.
 const LONGEST: u64 = 1 << 24;
+
+/// No record's first line is longer, in bytes.
+const LONGEST_HEAD: u64 = 4096;
+
+/// What a record is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum RecordKey {
+    /// The first record: whose progress the file is.
+    Work {
+        /// [`VERSION`].
+        version: u32,
+        /// Of the work.
+        identity: String,
+    },
+    /// The payload of a position.
+    Position(u64),
+}
+
+impl RecordKey {
+    fn of_work(identity: &str) -> RecordKey {
+        RecordKey::Work { version: VERSION, identity: identity.into() }
+    }
+}
+
+/// The first line of a record, as JSON, which has no end of a line inside.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RecordHead {
+    key: RecordKey,
+    /// Of the payload, in bytes.
+    length: u64,
+    /// CRC-32 of the key as JSON, the end of a line, and the payload.
+    crc32: u32,
+}
 
 /// A progress file that this process has to itself.
 #[derive(Debug)]
@@ -68,7 +105,7 @@ impl Journal {
     pub fn belongs_to(path: &Path, identity: &str) -> bool {
         let file = bounded_read::open_regular(path).ok();
         let first = file.and_then(|file| record(&mut BufReader::new(file)).ok());
-        matches!(first, Some(JournalRecord::Whole { key, .. }) if key == format!("{MAGIC} {identity}"))
+        matches!(first, Some(JournalRecord::Whole { key, .. }) if key == RecordKey::of_work(identity))
     }
 
     /// Opens the progress of the work called `identity`, or begins it; waits while another process
@@ -78,7 +115,7 @@ impl Journal {
     /// this work. Checked in `tests/progress.rs`.
     pub fn open(path: &Path, identity: &str, tell: &dyn Fn(JournalRemark)) -> Result<Journal, WriteError> {
         let fail = |cause| WriteError { path: path.to_owned(), cause };
-        let head = format!("{MAGIC} {identity}");
+        let head = RecordKey::of_work(identity);
         loop {
             let mut file = lock::acquire(path, &|| tell(JournalRemark::Waiting)).map_err(fail)?;
             match content(&mut file, &head).map_err(fail)? {
@@ -86,7 +123,7 @@ impl Journal {
                     file.set_len(end).and_then(|()| file.seek(SeekFrom::Start(end))).map_err(fail)?;
                     let mut progress = Journal { path: path.to_owned(), file, start, done };
                     if end == 0 {
-                        progress.start = progress.write_record(&head, b"")?;
+                        progress.start = progress.write_record(head, b"")?;
                     }
                     return Ok(progress);
                 }
@@ -116,19 +153,23 @@ impl Journal {
 
     /// Adds the record at `position`, in one write.
     pub fn append(&mut self, position: u64, payload: &[u8]) -> Result<(), WriteError> {
-        self.write_record(&position.to_string(), payload)?;
+        self.write_record(RecordKey::Position(position), payload)?;
         self.done.insert(position);
         Ok(())
     }
 
     /// Writes a record; its length in bytes.
-    fn write_record(&mut self, key: &str, payload: &[u8]) -> Result<u64, WriteError> {
-        let mut record = format!("{:08x} {} {key}\n", checksum(key, payload), payload.len()).into_bytes();
-        record.extend_from_slice(payload);
-        record.push(b'\n');
-        let written = self.file.write_all(&record);
-        written.map_err(|cause| WriteError { path: self.path.clone(), cause })?;
-        Ok(record.len() as u64)
+    fn write_record(&mut self, key: RecordKey, payload: &[u8]) -> Result<u64, WriteError> {
+        let write = || {
+            let crc32 = checksum(&key, payload)?;
+            let mut record = serde_json::to_vec(&RecordHead { key, length: payload.len() as u64, crc32 })?;
+            record.push(b'\n');
+            record.extend_from_slice(payload);
+            record.push(b'\n');
+            self.file.write_all(&record)?;
+            Ok(record.len() as u64)
+        };
+        write().map_err(|cause| WriteError { path: self.path.clone(), cause })
     }
 
     /// Gives the payloads in the order of their positions. Memory holds only those that were added
@@ -141,7 +182,8 @@ impl Journal {
             reader.seek(SeekFrom::Start(self.start))?;
             let (mut next, mut early) = (0, BTreeMap::new());
             while let JournalRecord::Whole { key, payload, .. } = record(&mut reader)? {
-                early.insert(key.parse::<u64>().unwrap_or(u64::MAX), payload);
+                let RecordKey::Position(position) = key else { break };
+                early.insert(position, payload);
                 while let Some(payload) = early.remove(&next) {
                     take(&payload)?;
                     next += 1;
@@ -168,18 +210,18 @@ fn free_place(path: &Path) -> PathBuf {
     std::iter::once(first.clone()).chain((2..1000).map(numbered)).find(is_free).unwrap_or(first)
 }
 
-fn checksum(key: &str, payload: &[u8]) -> u32 {
+fn checksum(key: &RecordKey, payload: &[u8]) -> std::io::Result<u32> {
     let mut sum = crc32fast::Hasher::new();
-    sum.update(key.as_bytes());
+    sum.update(&serde_json::to_vec(key)?);
     sum.update(b"\n");
     sum.update(payload);
-    sum.finalize()
+    Ok(sum.finalize())
 }
 
 /// One record as it stands in the file.
 enum JournalRecord {
     Whole {
-        key: String,
+        key: RecordKey,
         payload: Vec<u8>,
         length: u64,
     },
@@ -190,17 +232,17 @@ enum JournalRecord {
 
 fn record(reader: &mut impl BufRead) -> std::io::Result<JournalRecord> {
     let mut line = Vec::new();
-    reader.by_ref().take(4096).read_until(b'\n', &mut line)?;
+    reader.by_ref().take(LONGEST_HEAD).read_until(b'\n', &mut line)?;
     if line.last() != Some(&b'\n') {
-        return Ok(if line.len() < 4096 { JournalRecord::Ends } else { JournalRecord::Broken });
+        let is_cut = (line.len() as u64) < LONGEST_HEAD;
+        return Ok(if is_cut { JournalRecord::Ends } else { JournalRecord::Broken });
     }
-    let Some((sum, length, key)) = std::str::from_utf8(&line).ok().and_then(parts) else {
-        return Ok(JournalRecord::Broken);
-    };
+    let head = serde_json::from_slice(&line).ok().filter(|head: &RecordHead| head.length <= LONGEST);
+    let Some(RecordHead { key, length, crc32 }) = head else { return Ok(JournalRecord::Broken) };
     let mut payload = Vec::new();
     reader.by_ref().take(length + 1).read_to_end(&mut payload)?;
     match payload.pop() {
-        Some(b'\n') if payload.len() as u64 == length && checksum(&key, &payload) == sum => {
+        Some(b'\n') if payload.len() as u64 == length && checksum(&key, &payload)? == crc32 => {
             Ok(JournalRecord::Whole { key, payload, length: line.len() as u64 + length + 1 })
         }
         Some(_) if payload.len() as u64 == length => Ok(JournalRecord::Broken),
@@ -208,22 +250,14 @@ fn record(reader: &mut impl BufRead) -> std::io::Result<JournalRecord> {
     }
 }
 
-/// Checksum, payload's length and key of a record's first line.
-fn parts(line: &str) -> Option<(u32, u64, String)> {
-    let (sum, rest) = line.trim_end_matches('\n').split_once(' ')?;
-    let (length, key) = rest.split_once(' ')?;
-    let length = length.parse().ok().filter(|n| *n <= LONGEST)?;
-    Some((u32::from_str_radix(sum, 16).ok()?, length, key.to_owned()))
-}
-
-fn content(file: &mut File, head: &str) -> std::io::Result<JournalContent> {
+fn content(file: &mut File, head: &RecordKey) -> std::io::Result<JournalContent> {
     file.seek(SeekFrom::Start(0))?;
     let mut reader = BufReader::new(&*file);
     let start = match record(&mut reader)? {
         JournalRecord::Ends => {
             return Ok(JournalContent::Good { start: 0, end: 0, done: DonePositions::default() });
         }
-        JournalRecord::Whole { key, length, .. } if key == head => length,
+        JournalRecord::Whole { key, length, .. } if key == *head => length,
         JournalRecord::Whole { .. } => {
             return Ok(JournalContent::Useless("it is of another command or other inputs"));
         }
@@ -234,10 +268,12 @@ fn content(file: &mut File, head: &str) -> std::io::Result<JournalContent> {
         match record(&mut reader)? {
             JournalRecord::Ends => return Ok(JournalContent::Good { start, end, done }),
             JournalRecord::Broken => return Ok(JournalContent::Useless("it is broken")),
-            JournalRecord::Whole { key, length, .. } => {
-                let Ok(position) = key.parse() else { return Ok(JournalContent::Useless("it is broken")) };
+            JournalRecord::Whole { key: RecordKey::Position(position), length, .. } => {
                 done.insert(position);
                 end += length;
+            }
+            JournalRecord::Whole { key: RecordKey::Work { .. }, .. } => {
+                return Ok(JournalContent::Useless("it is broken"));
             }
         }
     }
