@@ -50,7 +50,7 @@ fn rain(stone: &ConvexStone, stream: &mut Stream, polarised: bool) -> (Packet, [
 fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
     for isa in Isa::all() {
         let stone = ConvexStone::with_isa(brilliant(), isa);
-        let mut stream = Stream::new(SEED, Purpose::Test, 0);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 0);
         for polarised in [false, true] {
             for _ in 0..40 {
                 let (mut packet, reflected) = rain(&stone, &mut stream, polarised);
@@ -78,7 +78,7 @@ fn lanes_absorb_as_their_twin_does() {
     for isa in Isa::all() {
         let stone = ConvexStone::with_isa(brilliant(), isa);
         let planes = stone.kernel_planes();
-        let mut stream = Stream::new(SEED, Purpose::Test, 1);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 1);
         let mut compared = 0;
         for _ in 0..20 {
             let (mut packet, _) = rain(&stone, &mut stream, true);
@@ -206,7 +206,7 @@ fn photons_through_a_plate_keep_what_it_does_not_absorb() {
     let stone = ConvexStone::new(cube(side));
     let radius = stone.unit as f32;
     let placed = PlacedStone::resting_on(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
-    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 2);
     let top = placed.stone.intersect(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
     let arrival =
         StoneHit { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };

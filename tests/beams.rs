@@ -113,7 +113,7 @@ fn hard_stones() -> Vec<(String, Polyhedron)> {
     let cube = DVec3::AXES.map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).concat();
     stones.push(("cube".into(), Polyhedron::from_planes(&cube).expect("closed")));
     // thirty-two planes through an apex that rounding has moved
-    let mut stream = Stream::new(SEED, Purpose::Test, 99);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 99);
     let mut planes = vec![Plane::new(DVec3::Z, 0.2)];
     for i in 0..32 {
         let (s, c) = (std::f64::consts::TAU * f64::from(i) / 32.0).sin_cos();
@@ -130,7 +130,7 @@ fn hard_stones() -> Vec<(String, Polyhedron)> {
 fn no_light_is_clipped_away() {
     for (name, solid) in hard_stones() {
         let stone = ConvexStone::new(solid);
-        let mut stream = Stream::new(SEED, Purpose::Test, 0);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 0);
         let mut toward = || {
             let (z, phi) = (2.0 * stream.unit64() - 1.0, std::f64::consts::TAU * stream.unit64());
             DVec3::new((1.0 - z * z).sqrt() * phi.cos(), (1.0 - z * z).sqrt() * phi.sin(), z)

@@ -134,7 +134,7 @@ fn brightness_and_contrast_against_a_plain_tracer() {
     let design = cut("single-cut");
     let index = 1.76;
     let stone: ConvexStone = stone(&design);
-    let mut stream = Stream::new(SEED, Purpose::Test, 77);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 77);
     let outline: Vec<DVec2> =
         stone.solid.outline().iter().map(|p| stone.point_from_design(p.extend(0.0)).truncate()).collect();
     let inside = |p: DVec2| {

@@ -1,12 +1,12 @@
 //! What the programs that read our files accept: a stand-in of each receiver's limits, because a round
 //! trip through cutlab's own readers cannot show them.
 
+use base64::Engine;
 use cutlab::design::{Design, Gear, Tier, library};
 use cutlab::formats::{self};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::materials::Material;
 use cutlab::stone_spec;
-use base64::Engine;
 use glam::DVec3;
 use std::path::Path;
 

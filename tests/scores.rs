@@ -111,7 +111,7 @@ fn wlr_against_a_plain_tracer() {
             triangles.push((area, facet, [corners[0], pair[0], pair[1]]));
         }
     }
-    let (mut s, n, count) = (Stream::new(SEED, Purpose::Test, 0), 2.417, 40_000);
+    let (mut s, n, count) = (Stream::new(SEED, Purpose::TEST, 0), 2.417, 40_000);
     let (mut accepted, mut sum, mut squares) = (0, 0.0, 0.0);
     while accepted < count {
         let u = area * s.unit64();

@@ -11,6 +11,9 @@ use crate::sampling::stats::Accumulate;
 use crate::trace::ConvexStone;
 use std::ops::Range;
 
+/// Cells of the picture, one stream a batch and one a run of it.
+const STREAM: Purpose = Purpose::named("contrast");
+
 /// The picture of a stone under a white dome with a dark observer, in cells.
 ///
 /// The product of the luminances of two independent points of a cell has the square of the cell's
@@ -110,8 +113,8 @@ impl Estimator for Contrast<'_> {
         let start = points.start;
         let mut pairs = Pairs {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Contrast, batch, start),
-            points: KroneckerPoints::new(seed, Purpose::Contrast, batch, points),
+            stream: pixel_cells::stream(seed, STREAM, batch, start),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
         };
         self.seen.trace(&mut pairs, seed, batch, start);

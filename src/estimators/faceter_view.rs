@@ -3,7 +3,7 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
 use super::view::ObserverDome;
-use super::wavelengths::Wavelengths;
+use super::wavelengths::{HUE_STREAM, Wavelengths};
 use super::{EstimatorError, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
@@ -11,6 +11,9 @@ use crate::sampling::stats::Accumulate;
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
+
+/// Points of the outline, one stream a batch.
+const STREAM: Purpose = Purpose::named("faceter view");
 
 /// Bounces inside that a ray is followed for: ten segments, the incoming one and nine inside.
 pub const MAX_BOUNCES: u32 = 9;
@@ -187,8 +190,8 @@ impl Estimator for FaceterView<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut FaceterTally) {
         let mut client = FaceterClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::Iso, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             power: [[0.0; LANES]; 3],
             table: [0.0; LANES],

@@ -3,13 +3,16 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Crown, Silhouette};
 use super::horizon::is_up;
-use super::wavelengths::Wavelengths;
+use super::wavelengths::{HUE_STREAM, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::{random::Purpose, stats::Accumulate, warps};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
+
+/// Points of the dome, one stream a batch.
+pub(super) const STREAM: Purpose = Purpose::named("hemisphere");
 
 /// The dome over one stone.
 ///
@@ -185,8 +188,8 @@ impl Estimator for Hemisphere<'_> {
         let zero = [0.0; LANES];
         let mut dome = HemisphereClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::Hemisphere, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             returned: zero,
             returned_cos2: zero,

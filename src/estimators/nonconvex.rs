@@ -12,7 +12,7 @@ use super::batches::Estimator;
 use super::entry_sampling::{self, Crown};
 use super::horizon::is_up;
 use super::view::{ViewerLighting, band};
-use super::wavelengths::Wavelengths;
+use super::wavelengths::{HUE_STREAM, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame, hemisphere, view};
 use crate::optics::stokes::Stokes;
 use crate::sampling::kronecker::KroneckerPoints;
@@ -22,6 +22,9 @@ use crate::trace::nonconvex::{MeshStone, Side};
 use crate::trace::reference::{ScalarInteraction, ScalarRay};
 use glam::DVec3;
 use std::ops::Range;
+
+/// Which way light goes on in a concavity, one stream a ray.
+const STREAM: Purpose = Purpose::named("nonconvex");
 
 /// A ray of a stone that absorbs is given up below this share of its light: of a dark stone little
 /// comes out. It is soon reached there.
@@ -87,7 +90,7 @@ impl<'a> NonconvexTracer<'a> {
 
 /// Random numbers for a point of a batch.
 fn chance(seed: u64, batch: u64, point: u64) -> Stream {
-    Stream::new(seed, Purpose::Nonconvex, (batch << 48) | point)
+    Stream::new(seed, STREAM, (batch << 48) | point)
 }
 
 /// The dome over a stone that is not convex: [`hemisphere::Hemisphere`].
@@ -125,9 +128,9 @@ impl Estimator for NonconvexHemisphere<'_> {
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
         let NonconvexTracer { stone, view_frame, .. } = &self.lit;
-        let hues = KroneckerPoints::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, batch, points.clone());
         let numbers = points.clone().zip(hues);
-        let places = KroneckerPoints::new(seed, Purpose::Hemisphere, batch, points);
+        let places = KroneckerPoints::new(seed, hemisphere::STREAM, batch, points);
         for ((number, [hue]), [a, b, c, d]) in numbers.zip(places) {
             tally.drawn += 1.0;
             let (facet, point) = self.entrance.sample([a, b]);
@@ -187,9 +190,9 @@ impl Estimator for NonconvexView<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
         let ViewFrame { axis, right, top } = self.lit.view_frame;
         let ViewerLighting { scope, dome } = self.surroundings;
-        let hues = KroneckerPoints::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, batch, points.clone());
         let numbers = points.clone().zip(hues);
-        for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, Purpose::View, batch, points))
+        for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, view::STREAM, batch, points))
         {
             // the stone lies within the unit sphere
             let from = axis * FAR_AWAY + right * (2.0 * a - 1.0) + top * (2.0 * b - 1.0);

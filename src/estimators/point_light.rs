@@ -16,6 +16,9 @@ use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use glam::DVec3;
 use std::ops::Range;
 
+/// Points of the outline, one stream a batch.
+const STREAM: Purpose = Purpose::named("point light");
+
 /// A path is followed while it holds this share of the light that fell on its point.
 const STOP_POWER: f32 = 1e-6;
 
@@ -242,7 +245,7 @@ impl Estimator for PointLight<'_> {
         for (optics, paired) in passes.into_iter().filter(|(_, paired)| *paired || self.needs.lit) {
             let mut shine = PointLightClient {
                 estimator: self,
-                points: KroneckerPoints::new(seed, Purpose::Beam, batch, points.clone()),
+                points: KroneckerPoints::new(seed, STREAM, batch, points.clone()),
                 tally: &mut *tally,
                 optics,
                 paired,

@@ -16,6 +16,9 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+/// Directions of the dome, one stream a batch.
+const STREAM: Purpose = Purpose::named("quadrature");
+
 /// Beams weaker than this share of the light on the outline are left to photons.
 const STOP_POWER: f64 = 3e-4;
 
@@ -97,8 +100,7 @@ impl Estimator for Quadrature<'_> {
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut hemisphere::HemisphereTally) {
         let first = points.start;
-        for (i, [u, v]) in (first..).zip(KroneckerPoints::<2>::new(seed, Purpose::Quadrature, batch, points))
-        {
+        for (i, [u, v]) in (first..).zip(KroneckerPoints::<2>::new(seed, STREAM, batch, points)) {
             let (sin, cos) = (TAU * v).sin_cos();
             let across = (1.0 - u * u).sqrt();
             let ViewFrame { axis, right, top } = self.view_frame;

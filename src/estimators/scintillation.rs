@@ -15,6 +15,9 @@ use crate::trace::ConvexStone;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
+/// Cells of the rocked picture, one stream a batch and one a run of it.
+const STREAM: Purpose = Purpose::named("scintillation");
+
 /// Tilts to each side, in steps of a degree, about the picture's right and top.
 const REACH: i32 = 15;
 
@@ -222,8 +225,8 @@ impl Estimator for Scintillation<'_> {
         let start = points.start;
         let mut changes = Changes {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Scintillation, batch, start),
-            points: KroneckerPoints::new(seed, Purpose::Scintillation, batch, points),
+            stream: pixel_cells::stream(seed, STREAM, batch, start),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             changes: Vec::new(),
         };
@@ -251,7 +254,7 @@ mod tests {
         }
         let of = |(i, p): (usize, &f64)| p * (2.0 * i as f64 / f64::from(n) - 1.0).abs();
         let expected: f64 = law.iter().enumerate().map(of).sum();
-        let mut stream = Stream::new(1, Purpose::Test, 3);
+        let mut stream = Stream::new(1, Purpose::TEST, 3);
         let (runs, mut sum, mut squares) = (400_000, 0.0, 0.0);
         for _ in 0..runs {
             let level = level(&mut stream);

@@ -3,7 +3,7 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
 use super::horizon::{self, MAX_LEVEL_SINE, is_above, is_up};
-use super::wavelengths::{LINES_PER_RAY, Wavelengths};
+use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 pub use crate::color::viewers::{GIA_OBSERVER_DEG, SCOPE_DEG};
 use crate::sampling::kronecker::KroneckerPoints;
@@ -89,6 +89,9 @@ impl Default for ViewerLighting {
         }
     }
 }
+
+/// Points of the outline, one stream a batch.
+pub(super) const STREAM: Purpose = Purpose::named("view");
 
 /// Share of the dome's luminance below which a point counts as dark.
 pub const DARK: f32 = 0.1;
@@ -339,8 +342,8 @@ impl View<'_> {
         let zero = [0.0; LANES];
         let mut client = ViewClient::<K> {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::View, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             bands: [zero; 4],
             up_cos2: zero,

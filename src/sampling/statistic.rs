@@ -179,7 +179,7 @@ mod tests {
     /// Batches of 64 independent values each.
     fn batches(run: u64, value: impl Fn(f64) -> f64) -> Vec<Histogram> {
         let batch = |b: u64| {
-            let mut stream = Stream::new(11, Purpose::Test, run * 32 + b);
+            let mut stream = Stream::new(11, Purpose::TEST, run * 32 + b);
             let mut histogram = Histogram::default();
             (0..64).for_each(|_| histogram.insert(value(stream.unit64()), 1.0));
             histogram
@@ -245,7 +245,7 @@ mod tests {
         for (case, truth) in [0.0003, 0.001, 0.003, 0.02, 0.3, 0.999].into_iter().enumerate() {
             let runs = 2000;
             let held = (0..runs).filter(|run| {
-                let mut stream = Stream::new(12, Purpose::Test, 10_000 * case as u64 + run);
+                let mut stream = Stream::new(12, Purpose::TEST, 10_000 * case as u64 + run);
                 let batch = |_| [(0..64).filter(|_| stream.unit64() < truth).count() as f64, 64.0];
                 let batches: Vec<[f64; 2]> = (0..32).map(batch).collect();
                 let e = share.sampled(&batches).expect("has samples");

@@ -180,7 +180,7 @@ mod tests {
         for run in 0..runs {
             let batches: Vec<_> = (0..32)
                 .map(|b| {
-                    let mut s = Stream::new(9, Purpose::Test, run * 32 + b);
+                    let mut s = Stream::new(9, Purpose::TEST, run * 32 + b);
                     ((0..64).map(|_| s.unit64()).sum::<f64>(), 64.0)
                 })
                 .collect();

@@ -124,7 +124,7 @@ mod tests {
         let triangles = Triangles { vertices: mesh.vertices, triangles: mesh.triangles };
         let scale = 1.0 / stone.unit;
         let mesh = SceneMesh::new(&triangles, DMat3::IDENTITY, scale, -stone.centre * scale).expect("few");
-        let mut stream = Stream::new(5, Purpose::Test, 0);
+        let mut stream = Stream::new(5, Purpose::TEST, 0);
         let mut met = 0;
         for _ in 0..2000 {
             let from =

@@ -139,7 +139,7 @@ fn luminance_of_a_nonconvex_stone_is_that_of_a_tree_of_rays() {
         let seen = gaze.estimate(|t| t.luminance / t.rays);
         let mut ups = Vec::new();
         let mut open = 0.0;
-        for [a, b] in KroneckerPoints::<2>::new(SEED, Purpose::Test, 930, 0..SIGHTS) {
+        for [a, b] in KroneckerPoints::<2>::new(SEED, Purpose::TEST, 930, 0..SIGHTS) {
             let point = DVec3::new(2.0 * a - 1.0, 2.0 * b - 1.0, 3.0);
             let ray = crate::nonconvex::falling(point, -DVec3::Z, polarised);
             if stone.next_facet(point, -DVec3::Z, cutlab::trace::nonconvex::Side::Outside).is_some() {
