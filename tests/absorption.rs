@@ -1,7 +1,7 @@
 //! Absorption along the tracer: energy, the `f64` twin, a plate's closed form, and what size does.
 
 use cutlab::design::Design;
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::integrators::{self, PhotonMaps, Tone};
 use cutlab::materials::Material;
@@ -13,6 +13,7 @@ use cutlab::optics::stokes::Stokes;
 use cutlab::photons::stone_scattering::{IncidentPhoton, scatter};
 use cutlab::photons::{self, PhotonSets};
 use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::tally::Tally;
 use cutlab::sampling::warps;
 use cutlab::scene::intersection::StoneHit;
 use cutlab::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
@@ -150,11 +151,10 @@ fn a_plate_follows_its_closed_form() {
         let x = (-per_mm * side).exp();
         let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
         let back = through * r * x;
-        let share =
-            |of: fn(&cutlab::estimators::view::ViewTally) -> f64| traced.estimate(|t| of(t) / t.rays).value;
-        assert!((share(|t| t.bands[3]) - through).abs() < 2e-4, "{per_mm}: {through}");
-        assert!((share(|t| t.up()) - back).abs() < 2e-4, "{per_mm}: {back}");
-        assert!((share(|t| t.absorbed) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
+        let share = |of: fn(&Tally) -> f64| traced.estimate(|t| of(t) / t[view::RAYS]).value;
+        assert!((share(|t| t[view::BELOW]) - through).abs() < 2e-4, "{per_mm}: {through}");
+        assert!((share(view::up) - back).abs() < 2e-4, "{per_mm}: {back}");
+        assert!((share(|t| t[view::ABSORBED]) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
     }
 }
 

@@ -4,7 +4,7 @@ use cutlab::design::{families, library};
 use cutlab::estimators::beam_view;
 use cutlab::estimators::colour_separation;
 use cutlab::estimators::weighted_exits::{BeamEffort, WeightedSums, integrate_exits};
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, View};
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, View, point_light, view};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::materials::Material;
 use cutlab::sampling::random::{Purpose, Stream};
@@ -192,13 +192,15 @@ fn beams_agree_with_photons(polarised: bool) {
             let (beams, index) = (Beams::new(&stone), material.index_d());
             let gaze = beam_view::beam_view(&beams, DVec3::NEG_Z, index, polarised, &effort).expect("lit");
             let mut pairs = vec![
-                (view.estimate(|t| t.reflected / t.rays), gaze.reflected),
-                (view.estimate(|t| t.up() / t.rays), gaze.up),
-                (view.estimate(|t| t.up_cos2 / t.rays), gaze.up_cos2),
+                (view.estimate(|t| t[view::REFLECTED] / t[view::RAYS]), gaze.reflected),
+                (view.estimate(|t| view::up(t) / t[view::RAYS]), gaze.up),
+                (view.estimate(|t| t[view::UP_COS2] / t[view::RAYS]), gaze.up_cos2),
             ];
-            pairs.extend((0..4).map(|b| (view.estimate(|t| t.bands[b] / t.rays), gaze.bands[b])));
+            pairs.extend(
+                (0..4).map(|b| (view.estimate(|t| t[view::BANDS[b]] / t[view::RAYS]), gaze.bands[b])),
+            );
             // photons are given up at 1e-4 of their power, and trace in f32
-            let given_up = view.estimate(|t| t.lost / t.rays).value + 1e-6;
+            let given_up = view.estimate(|t| t[view::LOST] / t[view::RAYS]).value + 1e-6;
             let mut worst = 0.0f64;
             for (i, (photons, beams)) in pairs.into_iter().enumerate() {
                 let off = (photons.value - beams.value).abs() - given_up;
@@ -340,7 +342,7 @@ fn the_separation_of_colours_agrees_with_photons() {
         let medium = TraceOptics { material, polarised: false };
         let mut photons = BatchedEstimate::new(PointLight::new(&stone, &medium).expect("lit"), SEED);
         photons.extend_to(100_000);
-        let photons = photons.estimate(|t| t.power_angle_deg / t.paired_power);
+        let photons = photons.estimate(|t| t[point_light::POWER_ANGLE_DEG] / t[point_light::PAIRED_POWER]);
         for stop_power in [1e-4, 1e-5] {
             let effort =
                 BeamEffort { stop: StopCriteria::at_power(stop_power), seed: SEED, ..BeamEffort::default() };

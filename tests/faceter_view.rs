@@ -6,7 +6,7 @@ mod brilliants;
 use brilliants::{SEED, n2417, named, plan, scores, stone, subject};
 use cutlab::design::{Design, library};
 use cutlab::estimators::{
-    BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, view::ObserverDome,
+    BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, scintillation, view::ObserverDome,
 };
 use cutlab::formats;
 use cutlab::geometry::{Plane, Polyhedron};
@@ -215,8 +215,10 @@ fn cells_have_points_enough_for_scintillation() {
     let rocked = Scintillation::in_frame(&stone, &medium, ViewFrame::FACE_UP, sky).expect("lit");
     let mut traced = BatchedEstimate::new(rocked, SEED);
     traced.extend_to(1 << 20);
-    let (change, last) =
-        (traced.estimate(|t| t.change / t.luminance), traced.estimate(|t| t.last / t.luminance));
+    let (change, last) = (
+        traced.estimate(|t| t[scintillation::CHANGE] / t[scintillation::LUMINANCE]),
+        traced.estimate(|t| t[scintillation::LAST] / t[scintillation::LUMINANCE]),
+    );
     println!("scintillation {change:?}, the last doubling {last:?}");
     assert!(last.value.abs() + 2.0 * last.error < 0.0005, "{last:?} of {change:?}");
 }

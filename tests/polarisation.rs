@@ -1,7 +1,7 @@
 //! Polarised light: the Mueller matrices against field components, the lanes against the twin,
 //! energy, and what polarisation does to a view.
 
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
 use cutlab::materials::Material;
 use cutlab::optics::fresnel::FresnelCoefficients;
 use cutlab::optics::stokes::Stokes;
@@ -187,7 +187,7 @@ fn polarisation_changes_a_view_by_as_much_as_is_known() {
             SEED,
         );
         traced.extend_to(1 << 17);
-        traced.estimate(|t| t.up() / t.rays)
+        traced.estimate(|t| view::up(t) / t[view::RAYS])
     };
     let (with, without) = (up(true), up(false));
     let change = (with.value - without.value).abs();

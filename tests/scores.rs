@@ -12,6 +12,7 @@ use cutlab::design::library;
 use cutlab::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, hemisphere, view};
 use cutlab::materials::Material;
 use cutlab::sampling::stats::Estimate;
+use cutlab::sampling::tally::Tally;
 use std::collections::BTreeMap;
 
 #[track_caller]
@@ -57,7 +58,7 @@ fn wlr_by_other_normalisations() {
         SEED,
     );
     dome.extend_to(1 << 18);
-    let drawn = dome.estimate(|t: &hemisphere::HemisphereTally| t.returned_cos2 / t.drawn);
+    let drawn = dome.estimate(|t| t[hemisphere::RETURNED_COS2] / t[hemisphere::DRAWN]);
     assert_near("rejected counted", drawn, 0.264, 0.001);
     let areas = dome.estimator().crown_area / dome.estimator().outline_area;
     let disc = Estimate { value: drawn.value * areas, error: drawn.error * areas };
@@ -228,12 +229,12 @@ fn vertical_view_splits_as_the_reference_tracer_says() {
             .expect("lit");
     let mut seen = BatchedEstimate::new(view, SEED);
     seen.extend_to(1 << 18);
-    let share = |of: fn(&view::ViewTally) -> f64| seen.estimate(|t| of(t) / t.rays);
-    assert_near("reflected", share(|t| t.reflected), 0.174347, 1e-6);
-    assert_near("up", share(view::ViewTally::up), 0.74693, 2e-4);
-    assert_near("up cos²", share(|t| t.up_cos2), 0.58104, 2e-4);
-    assert_near("down", share(|t| t.bands[3]), 0.07872, 2e-4);
-    let all = share(|t| t.reflected + t.up() + t.bands[3] + t.lost);
+    let share = |of: fn(&Tally) -> f64| seen.estimate(|t| of(t) / t[view::RAYS]);
+    assert_near("reflected", share(|t| t[view::REFLECTED]), 0.174347, 1e-6);
+    assert_near("up", share(view::up), 0.74693, 2e-4);
+    assert_near("up cos²", share(|t| t[view::UP_COS2]), 0.58104, 2e-4);
+    assert_near("down", share(|t| t[view::BELOW]), 0.07872, 2e-4);
+    let all = share(|t| t[view::REFLECTED] + view::up(t) + t[view::BELOW] + t[view::LOST]);
     assert!((all.value - 1.0).abs() < 1e-5, "{all:?}");
 }
 

@@ -5,7 +5,7 @@
 //! points of one cell in ways whose expectation is free of it.
 
 use super::entry_sampling::Silhouette;
-use super::view::ObserverDome;
+use super::viewer_lighting::ObserverDome;
 use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::random::{Purpose, Stream};

@@ -99,7 +99,7 @@ mod tests {
         assert_eq!(names.len(), STONES.len());
         assert!(names.iter().zip(STONES).all(|(line, (.., stone))| line.starts_with(stone)), "{names:?}");
         let references = References::read().expect("can be read");
-        for metric in METRICS {
+        for metric in METRICS.iter() {
             assert!(
                 references.scores(metric).iter().all(Option::is_some),
                 "{}: score them afresh",

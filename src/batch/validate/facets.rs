@@ -10,6 +10,7 @@ use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::fresnel;
 use crate::sampling::stats::Estimate;
+use crate::sampling::tally::Tally;
 use crate::scoring::score::{ScoreRequest, Target};
 use crate::trace::ConvexStone;
 use crate::trace::beams::{
@@ -136,9 +137,13 @@ fn limit_by_photons() -> Check {
         let medium = TraceOptics { material: &material, polarised: false };
         let mut seen = BatchedEstimate::new(View::new(&stone, &medium)?, lab.seed);
         seen.extend_to(1 << 18);
-        let share = |of: fn(&view::ViewTally) -> f64| seen.estimate(|t| of(t) / t.rays);
-        let found =
-            [share(|t| t.reflected), share(view::ViewTally::up), share(|t| t.up_cos2), share(|t| t.bands[3])];
+        let share = |of: fn(&Tally) -> f64| seen.estimate(|t| of(t) / t[view::RAYS]);
+        let found = [
+            share(|t| t[view::REFLECTED]),
+            share(view::up),
+            share(|t| t[view::UP_COS2]),
+            share(|t| t[view::BELOW]),
+        ];
         Ok(Measured::new(found.into()))
     })
 }

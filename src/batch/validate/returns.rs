@@ -88,7 +88,7 @@ fn normalisations() -> Check {
         let medium = TraceOptics { material: &Material::from_index(INDEX), polarised: false };
         let mut dome = BatchedEstimate::new(Hemisphere::new(&stone, &medium)?, lab.seed);
         dome.extend_to(USUAL);
-        let drawn = dome.estimate(|t: &hemisphere::HemisphereTally| t.returned_cos2 / t.drawn);
+        let drawn = dome.estimate(|t| t[hemisphere::RETURNED_COS2] / t[hemisphere::DRAWN]);
         let areas = dome.estimator().crown_area / dome.estimator().outline_area;
         let disc = Estimate { value: drawn.value * areas, error: drawn.error * areas };
         Ok(Measured::new(vec![drawn, disc]))
