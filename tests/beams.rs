@@ -1,5 +1,6 @@
 //! Exact beams: an independent tracer's figures, the sum of all light, photons.
 
+use cutlab::batch::validate::figures;
 use cutlab::design::{families, library};
 use cutlab::estimators::beam_view;
 use cutlab::estimators::colour_separation;
@@ -59,18 +60,15 @@ fn follow<L: BeamLight>(
 fn the_figures_of_an_independent_tracer_come_out() {
     let stone = ConvexStone::new(brilliant(&[]));
     assert_eq!(stone.facet_count(), 153);
-    for (stop, expected) in [
-        (1e-5, [11_025.0, 0.734823, 0.067648, 0.576448, 0.023181]),
-        (1e-6, [87_049.0, 0.743030, 0.075199, 0.579620, 0.007424]),
-        (1e-7, [436_465.0, 0.745918, 0.077765, 0.580646, 0.001969]),
-    ] {
+    for rows in figures::set("beams").chunk_by(|a, b| a.at == b.at) {
+        let stop = rows[0].at.expect("the set varies it");
         let until = StopCriteria { facets: 201, ..StopCriteria::at_power(stop) };
         let (t, [up, down, cos2]) = follow(&stone, DVec3::NEG_Z, UnpolarisedLight(1.0), until);
-        assert_eq!(t.beams as f64, expected[0], "beams at {stop}");
-        for (got, expected) in [up, down, cos2, t.not_followed].iter().zip(&expected[1..]) {
-            assert!((got - expected).abs() < 0.6e-6, "{got} for {expected} at {stop}");
+        let ours = [t.beams as f64, up, down, cos2, t.not_followed, t.reflected];
+        assert_eq!(rows.len(), ours.len());
+        for (f, ours) in rows.iter().zip(ours) {
+            assert!((ours - f.expected).abs() <= f.tolerance(), "{f:?}: {ours}");
         }
-        assert!((t.reflected - 0.17435).abs() < 0.6e-5, "{}", t.reflected);
         assert!((t.sum() - 1.0).abs() < 1e-9, "{}", t.sum());
     }
     let (t, _) = follow(&stone, DVec3::NEG_Z, UnpolarisedLight(1.0), StopCriteria::at_power(1e-7));
@@ -86,9 +84,9 @@ fn photons_finish_what_beams_leave_over() {
     for stop_power in [1e-4, 1e-5, 1e-6] {
         let effort = BeamEffort { stop: StopCriteria::at_power(stop_power), photons: 32_768, seed: SEED };
         let gaze = beam_view::beam_view(&beams, DVec3::NEG_Z, DIAMOND, false, &effort).expect("lit");
-        for (got, limit) in
-            [(gaze.reflected, 0.174347), (gaze.up, 0.74693), (gaze.up_cos2, 0.58104), (gaze.down, 0.07872)]
-        {
+        let ours = [gaze.reflected, gaze.up, gaze.up_cos2, gaze.down];
+        for (got, f) in ours.into_iter().zip(figures::set("vertical view")) {
+            let limit = f.expected;
             assert!(
                 (got.value - limit).abs() < 3.0 * got.error + 2e-5,
                 "{got:?} for {limit} at {stop_power}"
