@@ -227,6 +227,15 @@ fn streams_of_random_numbers_have_names_of_their_own() {
     }
 }
 
+/// The program's data stand in `src`: `reports/` is what it makes.
+#[test]
+fn nothing_in_the_program_reads_reports() {
+    for (path, text) in sources() {
+        let reads = code(&text).lines().any(|l| l.contains("include") && l.contains("reports/"));
+        assert!(!reads, "{} reads reports/", path.display());
+    }
+}
+
 #[test]
 fn the_top_level_holds_the_folders_of_the_house() {
     for entry in fs::read_dir(root()).expect("the repository can be listed") {
