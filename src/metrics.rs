@@ -1,47 +1,60 @@
-//! The catalogue of scores, one a file. A score reads one estimator and is a function of its sums.
+//! The catalogue of scores: the tables of all estimators as one list.
 
-mod absorbed;
-mod aset_blue;
-mod aset_blue_strongest;
-mod aset_green;
-mod aset_green_strongest;
-mod aset_leak;
-mod aset_leak_strongest;
-mod aset_red;
-mod aset_red_strongest;
-mod brightness;
-mod contrast;
-mod cos;
-mod dispersion_mean;
-mod dispersion_median;
-mod extinction;
-mod fire_lit;
-mod fire_streak;
-mod glare;
-mod ideal_scope_black;
-mod ideal_scope_red;
-mod ideal_scope_white;
-mod iso;
-mod leakage;
-mod leakage_strongest;
-mod light_return;
-mod metric;
-mod sc2;
-mod scintillation;
-mod spread;
-mod table_cos;
-mod table_iso;
-mod table_sc2;
-mod untraced;
-mod weight_ratio;
-mod windowing;
-mod wlr;
-
+use crate::estimators::ESTIMATORS;
+pub use crate::estimators::kind::{Better, Metric, MetricSource};
 use crate::parse;
 pub use crate::sampling::statistic::Statistic;
-pub use metric::{Better, Metric, MetricSource};
 use serde::{Deserialize, Deserializer};
 use std::borrow::Cow;
+use std::sync::LazyLock;
+
+/// Metrics whose columns come first, in the order in which published tables have them; the others follow in
+/// the order of [`ESTIMATORS`]. New metrics need no row.
+const FIRST_COLUMNS: [&str; 35] = [
+    "wlr",
+    "light_return",
+    "leakage",
+    "leakage_strongest",
+    "glare",
+    "absorbed",
+    "lost",
+    "brightness",
+    "aset_green",
+    "aset_red",
+    "aset_blue",
+    "aset_leak",
+    "aset_green_strongest",
+    "aset_red_strongest",
+    "aset_blue_strongest",
+    "aset_leak_strongest",
+    "ideal_scope_red",
+    "ideal_scope_white",
+    "ideal_scope_black",
+    "fire_lit",
+    "fire_streak",
+    "dispersion_mean",
+    "dispersion_median",
+    "contrast",
+    "scintillation",
+    "iso",
+    "cos",
+    "sc2",
+    "table_iso",
+    "table_cos",
+    "table_sc2",
+    "windowing",
+    "extinction",
+    "spread",
+    "weight_ratio",
+];
+
+/// Every metric, in the order of the columns.
+pub static METRICS: LazyLock<Vec<&'static Metric>> = LazyLock::new(|| {
+    let place = |m: &&Metric| FIRST_COLUMNS.iter().position(|name| *name == m.name);
+    let mut all: Vec<&Metric> = ESTIMATORS.iter().flat_map(|e| e.kind.metrics()).collect();
+    all.sort_by_key(|m| place(m).unwrap_or(FIRST_COLUMNS.len()));
+    all
+});
 
 impl Metric {
     /// What it tells, and which values are the better.
@@ -67,62 +80,48 @@ impl<'de> Deserialize<'de> for &'static Metric {
     }
 }
 
-/// Every metric, in the order of the columns.
-pub static METRICS: &[&Metric] = &[
-    &wlr::WLR,
-    &light_return::LIGHT_RETURN,
-    &leakage::LEAKAGE,
-    &leakage_strongest::LEAKAGE_STRONGEST,
-    &glare::GLARE,
-    &absorbed::ABSORBED,
-    &untraced::UNTRACED,
-    &brightness::BRIGHTNESS,
-    &aset_green::ASET_GREEN,
-    &aset_red::ASET_RED,
-    &aset_blue::ASET_BLUE,
-    &aset_leak::ASET_LEAK,
-    &aset_green_strongest::ASET_GREEN_STRONGEST,
-    &aset_red_strongest::ASET_RED_STRONGEST,
-    &aset_blue_strongest::ASET_BLUE_STRONGEST,
-    &aset_leak_strongest::ASET_LEAK_STRONGEST,
-    &ideal_scope_red::IDEAL_SCOPE_RED,
-    &ideal_scope_white::IDEAL_SCOPE_WHITE,
-    &ideal_scope_black::IDEAL_SCOPE_BLACK,
-    &fire_lit::FIRE_LIT,
-    &fire_streak::FIRE_STREAK,
-    &dispersion_mean::DISPERSION_MEAN,
-    &dispersion_median::DISPERSION_MEDIAN,
-    &contrast::CONTRAST,
-    &scintillation::SCINTILLATION,
-    &iso::ISO,
-    &cos::COS,
-    &sc2::SC2,
-    &table_iso::TABLE_ISO,
-    &table_cos::TABLE_COS,
-    &table_sc2::TABLE_SC2,
-    &windowing::WINDOWING,
-    &extinction::EXTINCTION,
-    &spread::SPREAD,
-    &weight_ratio::WEIGHT_RATIO,
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sampling::tally::Tally;
 
     #[test]
     fn every_metric_says_what_it_is_and_has_a_name_of_its_own() {
         for (i, m) in METRICS.iter().enumerate() {
+            let definition = m.definition();
             assert!(!m.source.is_empty() && !m.about.is_empty() && m.range.0 < m.range.1, "{}", m.name);
             let light = !matches!(m.read_from, MetricSource::Solid(_));
             for word in ["npolarised", "Fresnel", "D line"].iter().filter(|_| light && !m.needs_dispersion())
             {
-                assert!(m.definition.contains(word), "{} does not state: {word}", m.name);
+                assert!(definition.contains(word), "{} does not state: {word}", m.name);
             }
-            assert_eq!(m.observer.is_some(), m.definition.contains("--observer"), "{}", m.name);
+            assert_eq!(m.observer.is_some(), definition.contains("--observer"), "{}", m.name);
             assert_eq!(m.scale == 100.0, m.unit == "%", "{}", m.name);
             assert!(METRICS[..i].iter().all(|other| other.name != m.name), "{}", m.name);
             assert_eq!(Metric::by_name(m.name).map(|m| m.name), Some(m.name));
+        }
+        for name in FIRST_COLUMNS {
+            assert!(Metric::by_name(name).is_some(), "no metric is called {name}");
+        }
+    }
+
+    /// A metric reads columns of its own estimator: with a number in each of them it has a value.
+    #[test]
+    fn every_row_belongs_to_its_table() {
+        for estimator in &ESTIMATORS {
+            let kind = estimator.kind;
+            let same =
+                |other: &&crate::estimators::catalogue::CataloguedEstimator| other.kind.name() == kind.name();
+            assert_eq!(ESTIMATORS.iter().filter(same).count(), 1, "{}", kind.name());
+            let mut tally = Tally::default();
+            kind.columns().iter().for_each(|column| tally[*column] = 1.0);
+            tally.histogram.insert(1.0, 1.0);
+            for metric in kind.metrics() {
+                assert!(metric.is_of(kind), "{} stands in the table of {}", metric.name, kind.name());
+                if let MetricSource::Sums(of) = metric.read_from {
+                    assert!(of.value(&tally).is_finite(), "{} reads a column of no tally", metric.name);
+                }
+            }
         }
     }
 }

@@ -17,6 +17,12 @@ use crate::sampling::random::Purpose;
 use crate::scene::intersection::SurfacePoint;
 use glam::Vec3;
 
+/// Photons of the caustic map, one stream a photon.
+const CAUSTIC_STREAM: Purpose = Purpose::named("caustic photon");
+
+/// Photons of the global map, one stream a photon.
+const GLOBAL_STREAM: Purpose = Purpose::named("global photon");
+
 /// Which class of light a map holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
@@ -29,8 +35,8 @@ pub enum Class {
 impl Class {
     pub(super) fn purpose(self) -> Purpose {
         match self {
-            Class::Caustic => Purpose::CausticPhoton,
-            Class::Indirect => Purpose::GlobalPhoton,
+            Class::Caustic => CAUSTIC_STREAM,
+            Class::Indirect => GLOBAL_STREAM,
         }
     }
 }

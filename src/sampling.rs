@@ -5,4 +5,5 @@ pub mod kronecker;
 pub mod random;
 pub mod statistic;
 pub mod stats;
+pub mod tally;
 pub mod warps;

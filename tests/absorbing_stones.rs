@@ -152,7 +152,7 @@ impl<'a> Exhaustive<'a> {
     fn scores(&self, rays: u64) -> [Estimate; 3] {
         const BATCHES: u64 = 64;
         let batch = |b| {
-            let mut stream = Stream::new(SEED, Purpose::Test, b);
+            let mut stream = Stream::new(SEED, Purpose::TEST, b);
             let mut sums = [(0.0, 0.0); 3];
             for _ in 0..rays / BATCHES {
                 let ([all, weighted], weight) = self.dome(&mut stream);

@@ -1,7 +1,7 @@
 //! Absorption along the tracer: energy, the `f64` twin, a plate's closed form, and what size does.
 
 use cutlab::design::Design;
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
 use cutlab::geometry::{Plane, Polyhedron};
 use cutlab::integrators::{self, PhotonMaps, Tone};
 use cutlab::materials::Material;
@@ -13,6 +13,7 @@ use cutlab::optics::stokes::Stokes;
 use cutlab::photons::stone_scattering::{IncidentPhoton, scatter};
 use cutlab::photons::{self, PhotonSets};
 use cutlab::sampling::random::{Purpose, Stream};
+use cutlab::sampling::tally::Tally;
 use cutlab::sampling::warps;
 use cutlab::scene::intersection::StoneHit;
 use cutlab::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
@@ -50,7 +51,7 @@ fn rain(stone: &ConvexStone, stream: &mut Stream, polarised: bool) -> (Packet, [
 fn what_enters_leaves_or_is_absorbed_or_counted_as_lost() {
     for isa in Isa::all() {
         let stone = ConvexStone::with_isa(brilliant(), isa);
-        let mut stream = Stream::new(SEED, Purpose::Test, 0);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 0);
         for polarised in [false, true] {
             for _ in 0..40 {
                 let (mut packet, reflected) = rain(&stone, &mut stream, polarised);
@@ -78,7 +79,7 @@ fn lanes_absorb_as_their_twin_does() {
     for isa in Isa::all() {
         let stone = ConvexStone::with_isa(brilliant(), isa);
         let planes = stone.kernel_planes();
-        let mut stream = Stream::new(SEED, Purpose::Test, 1);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 1);
         let mut compared = 0;
         for _ in 0..20 {
             let (mut packet, _) = rain(&stone, &mut stream, true);
@@ -154,11 +155,10 @@ fn a_plate_follows_its_closed_form() {
         let x = (-per_mm * side).exp();
         let through = (1.0 - r).powi(2) * x / (1.0 - r * r * x * x);
         let back = through * r * x;
-        let share =
-            |of: fn(&cutlab::estimators::view::ViewTally) -> f64| traced.estimate(|t| of(t) / t.rays).value;
-        assert!((share(|t| t.bands[3]) - through).abs() < 2e-4, "{per_mm}: {through}");
-        assert!((share(|t| t.up()) - back).abs() < 2e-4, "{per_mm}: {back}");
-        assert!((share(|t| t.absorbed) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
+        let share = |of: fn(&Tally) -> f64| traced.estimate(|t| of(t) / t[view::RAYS]).value;
+        assert!((share(|t| t[view::BELOW]) - through).abs() < 2e-4, "{per_mm}: {through}");
+        assert!((share(view::up) - back).abs() < 2e-4, "{per_mm}: {back}");
+        assert!((share(|t| t[view::ABSORBED]) - (1.0 - r - through - back)).abs() < 2e-4, "{per_mm}");
     }
 }
 
@@ -210,7 +210,7 @@ fn photons_through_a_plate_keep_what_it_does_not_absorb() {
     let stone = ConvexStone::new(cube(side));
     let radius = stone.unit as f32;
     let placed = PlacedStone::resting_on(stone, grey(per_mm), DMat3::IDENTITY, radius, Vec3::ZERO);
-    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 2);
     let top = placed.stone.intersect(Vec3::Z * 2.0, Vec3::NEG_Z).expect("above it");
     let arrival =
         StoneHit { facet: top.facet, point: Vec3::Z * (2.0 - top.distance), direction: Vec3::NEG_Z };

@@ -55,10 +55,8 @@ fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
         let bias = (mean - truth.value) / error;
         println!("{name:24} {:10.6} ± {error:.6}: {share:.4} covered, bias {bias:+.3} errors", truth.value);
         let metric = Metric::by_name(name).expect("in the catalogue");
-        let longer_side = matches!(
-            metric.read_from,
-            MetricSource::View(Statistic::Share(_)) | MetricSource::PointLight(Statistic::Median(..))
-        );
+        let longer_side =
+            matches!(metric.read_from, MetricSource::Sums(Statistic::Share(..) | Statistic::Median(_)));
         if !(0.93..=if longer_side { 1.0 } else { 0.97 }).contains(&share) {
             wrong.push(format!("{name}: {share}"));
         }

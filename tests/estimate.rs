@@ -34,7 +34,7 @@ fn on_plate(x: f32, y: f32) -> SurfacePoint {
 
 /// Photons at random places of the plate, of powers from 0 to 2, that make an irradiance of 1.
 fn even_light(n: usize) -> PhotonSet {
-    let mut stream = Stream::new(SEED, Purpose::Test, 0);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 0);
     let mut photon = || {
         let [x, y] = stream.pair().map(|u| 2.0 * u - 1.0);
         let power = 2.0 * stream.unit() * 4.0 / n as f32;
@@ -51,7 +51,7 @@ fn even_light_is_as_bright_as_it_is() {
     let n = 100_000;
     for nearest in [4, 10, 30, 100, 1000] {
         let map = PhotonMap::new(&scene, even_light(n), nearest);
-        let mut stream = Stream::new(SEED, Purpose::Test, 1);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 1);
         let seen = 40_000;
         let (mut mean, mut nearby) = (0.0f64, 0.0f64);
         for _ in 0..seen {

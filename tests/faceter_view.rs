@@ -4,9 +4,10 @@
 mod brilliants;
 
 use brilliants::{SEED, n2417, named, plan, scores, stone, subject};
+use cutlab::batch::validate::figures;
 use cutlab::design::{Design, library};
 use cutlab::estimators::{
-    BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, view::ObserverDome,
+    BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, scintillation, view::ObserverDome,
 };
 use cutlab::formats;
 use cutlab::geometry::{Plane, Polyhedron};
@@ -26,14 +27,12 @@ fn cut(name: &str) -> Design {
 /// [P] usfacetersguild.org, without head shadow, ±4 points: COS and ISO at 1.54.
 #[test]
 fn published_cos_and_iso_come_out_without_head_shadow() {
-    for (name, cos, iso) in [("classic", 40.6, 46.5), ("first-stone", 82.1, 86.9)] {
-        let plan = ScoreRequest { observer: Some(0.0), ..plan(&["cos", "iso"], 1 << 16) };
-        let row = score(&subject(name, &cut(name), Material::from_index(1.54)), &plan);
-        for (e, expected) in row.scores.iter().zip([cos, iso]) {
-            let e = e.expect("applies");
-            println!("{name}: {:.2} ± {:.2}, published {expected}", e.value, e.error);
-            assert!((e.value - expected).abs() < 4.0, "{name}: {e:?}, published {expected}");
-        }
+    for f in figures::set("no head shadow") {
+        let plan = ScoreRequest { observer: Some(0.0), ..plan(&[&f.quantity], 1 << 16) };
+        let row = score(&subject(&f.of, &cut(&f.of), Material::from_index(1.54)), &plan);
+        let e = row.scores[0].expect("applies");
+        println!("{} {}: {:.2} ± {:.2}, published {}", f.of, f.quantity, e.value, e.error, f.expected);
+        assert!((e.value - f.expected).abs() < f.tolerance(), "{f:?}: {e:?}");
     }
 }
 
@@ -44,23 +43,17 @@ fn iso_cos_and_sc2_of_the_reference_tracer() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let corpus =
         std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
-    let metrics = ["iso", "cos", "sc2", "table_iso", "table_cos", "table_sc2"];
-    for (file, index, expected) in [
-        ("SRB.asc", 1.54, &[54.19, 49.88, 31.62, 42.91, 40.12, 27.25][..]),
-        ("SRB.asc", 2.417, &[69.51, 57.04, 53.73, 53.14, 45.87, 41.87]),
-        ("Turkey.asc", 1.76, &[70.35, 45.94, 51.34]),
-    ] {
-        let path = corpus.join("pairs").join(file);
+    for f in figures::set("head of 10°") {
+        let path = corpus.join("pairs").join(&f.of);
         if !path.is_file() {
             println!("skipped: no {}", path.display());
             continue;
         }
         let design = formats::read(&path).expect("reads").design;
-        let found = scores(&design, Material::from_index(index), metrics, 1 << 17);
-        for ((metric, e), expected) in metrics.iter().zip(found).zip(expected) {
-            println!("{file} {index} {metric}: {:.2} ± {:.2}, expected {expected}", e.value, e.error);
-            assert!((e.value - expected).abs() < 0.4, "{file} {metric}: {e:?}, expected {expected}");
-        }
+        let index = f.at.expect("the set varies it");
+        let [e] = scores(&design, Material::from_index(index), [f.quantity.as_str()], 1 << 17);
+        println!("{} {index} {}: {:.2} ± {:.2}, expected {}", f.of, f.quantity, e.value, e.error, f.expected);
+        assert!((e.value - f.expected).abs() < 0.4, "{f:?}: {e:?}");
     }
 }
 
@@ -69,8 +62,14 @@ fn iso_cos_and_sc2_of_the_reference_tracer() {
 #[test]
 fn a_ray_of_a_symmetric_gutter_turns_as_harding_says() {
     let at_10 = |index: f64| 45.0 - 0.5 * (5f64.to_radians().sin() / index).asin().to_degrees();
-    assert!((at_10(1.54) - 43.378).abs() < 5e-4 && (at_10(2.417) - 43.967).abs() < 5e-4);
-    for (index, pavilion) in [(1.54f64, 43.378f64), (2.417, 43.967), (1.76, 42.0)] {
+    let known = figures::set("turn by 10°").into_iter().map(|f| (f.at.expect("the set varies it"), f));
+    let mut gutters = vec![(1.76f64, 42.0f64)];
+    for (index, f) in known {
+        assert!((at_10(index) - f.expected).abs() < f.tolerance(), "{f:?}");
+        gutters.push((index, f.expected));
+    }
+    assert_eq!(gutters.len(), 3);
+    for (index, pavilion) in gutters {
         let (sin, cos) = pavilion.to_radians().sin_cos();
         let closed = 2.0 * (index * (2.0 * (45.0 - pavilion)).to_radians().sin()).asin().to_degrees();
         let planes = [
@@ -134,7 +133,7 @@ fn brightness_and_contrast_against_a_plain_tracer() {
     let design = cut("single-cut");
     let index = 1.76;
     let stone: ConvexStone = stone(&design);
-    let mut stream = Stream::new(SEED, Purpose::Test, 77);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 77);
     let outline: Vec<DVec2> =
         stone.solid.outline().iter().map(|p| stone.point_from_design(p.extend(0.0)).truncate()).collect();
     let inside = |p: DVec2| {
@@ -215,8 +214,10 @@ fn cells_have_points_enough_for_scintillation() {
     let rocked = Scintillation::in_frame(&stone, &medium, ViewFrame::FACE_UP, sky).expect("lit");
     let mut traced = BatchedEstimate::new(rocked, SEED);
     traced.extend_to(1 << 20);
-    let (change, last) =
-        (traced.estimate(|t| t.change / t.luminance), traced.estimate(|t| t.last / t.luminance));
+    let (change, last) = (
+        traced.estimate(|t| t[scintillation::CHANGE] / t[scintillation::LUMINANCE]),
+        traced.estimate(|t| t[scintillation::LAST] / t[scintillation::LUMINANCE]),
+    );
     println!("scintillation {change:?}, the last doubling {last:?}");
     assert!(last.value.abs() + 2.0 * last.error < 0.0005, "{last:?} of {change:?}");
 }

@@ -6,7 +6,7 @@ use brilliants::{SEED, diamond, named};
 use cutlab::design::library;
 use cutlab::estimators::point_light::PointLightNeeds;
 use cutlab::estimators::weighted_exits::BeamEffort;
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, ViewFrame, fire};
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, ViewFrame, fire, point_light};
 use cutlab::sampling::stats::jackknife;
 use cutlab::trace::ConvexStone;
 use cutlab::trace::beams::Beams;
@@ -31,11 +31,15 @@ fn beams_and_photons_agree_on_fire() {
         let beams =
             fire::fire(&Beams::new(&stone), &medium, aspect, PointLightNeeds::ALL, &effort).expect("lit");
         let pairs = [
-            ("lit", photons.estimate(|t| t.lit / t.points), jackknife(&beams, |t| t.lit / t.points)),
+            (
+                "lit",
+                photons.estimate(|t| t[point_light::LIT] / t[point_light::POINTS]),
+                jackknife(&beams, |t| t[point_light::LIT] / t[point_light::POINTS]),
+            ),
             (
                 "streak",
-                photons.estimate(|t| t.streak_deg / t.points),
-                jackknife(&beams, |t| t.streak_deg / t.points),
+                photons.estimate(|t| t[point_light::STREAK_DEG] / t[point_light::POINTS]),
+                jackknife(&beams, |t| t[point_light::STREAK_DEG] / t[point_light::POINTS]),
             ),
         ];
         for (what, a, b) in pairs {
@@ -55,7 +59,7 @@ fn streaks_are_the_same_without_what_cannot_be_seen() {
         let beam = PointLight::in_frame(&stone, &medium, ViewFrame::FACE_UP).expect("lit").for_needs(needs);
         let mut traced = BatchedEstimate::new(beam, SEED);
         traced.extend_to(1 << 13);
-        traced.tallies().iter().map(|t| t.streak_deg).sum::<f64>()
+        traced.tallies().iter().map(|t| t[point_light::STREAK_DEG]).sum::<f64>()
     };
     let (all, seen) = (sum(PointLightNeeds::ALL), sum(PointLightNeeds { lit: false, faint: false }));
     assert!(all > 0.0 && (all / seen - 1.0).abs() < 1e-9, "{all} {seen}");

@@ -113,7 +113,7 @@ fn in_even_light_everything_is_as_bright() {
 fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
     let shots = PhotonSets::emit(scene, &photons(200_000));
     let maps = PhotonMaps::new(scene, shots, 200);
-    let mut stream = Stream::new(SEED, Purpose::Test, 0);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 0);
     let mut sum = 0.0;
     for (surface, shape) in scene.surfaces.iter().map(|s| &s.shape).enumerate() {
         let patches: Vec<(Vec3, Vec3, Vec3, bool)> = match shape {

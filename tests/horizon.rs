@@ -18,7 +18,7 @@ fn cut(name: &str) -> Design {
 
 /// Every figure of one direction that beams give; all of the sky with `whole`.
 fn by_beams(whole: bool) -> Vec<&'static Metric> {
-    let of_one_direction = |m: &Metric| matches!(m.read_from.estimator(), "view" | "iso" | "beam");
+    let of_one_direction = |m: &Metric| matches!(m.estimator.name(), "view" | "iso" | "beam");
     METRICS.iter().copied().filter(|m| m.by_beams && (whole || of_one_direction(m))).collect()
 }
 

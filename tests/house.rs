@@ -1,6 +1,7 @@
 //! The rules of the house: rows of rooms, file headers and lengths, no way to panic, one file with
 //! `unsafe`, no folder that nobody expects.
 
+use cutlab::sampling::random::Purpose;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -207,6 +208,34 @@ fn only_the_dispatch_of_the_tracer_knows_architectures() {
     }
     let both = "fn a() {}\n#[cfg(target_arch = \"x86_64\")]\n#[inline]\nfn b() {\n    avx();\n}\nfn c() {}";
     assert_eq!(portable(both), "fn a() {}\nfn c() {}");
+}
+
+/// Streams of random numbers are told apart by name: each is declared in one place, and has a key of its own.
+#[test]
+fn streams_of_random_numbers_have_names_of_their_own() {
+    let mut names: Vec<(String, PathBuf)> = Vec::new();
+    for (path, text) in sources() {
+        for rest in code(&text).split("Purpose::named(\"").skip(1) {
+            let name = rest.split('"').next().unwrap_or_default();
+            names.push((name.to_owned(), path.clone()));
+        }
+    }
+    assert!(names.len() >= 20, "the check sees {names:?}");
+    for (i, (name, path)) in names.iter().enumerate() {
+        for (other, place) in &names[..i] {
+            let same = Purpose::named(name) == Purpose::named(other);
+            assert!(!same, "{} and {}: '{name}' and '{other}'", path.display(), place.display());
+        }
+    }
+}
+
+/// The program's data stand in `src`: `reports/` is what it makes.
+#[test]
+fn nothing_in_the_program_reads_reports() {
+    for (path, text) in sources() {
+        let reads = code(&text).lines().any(|l| l.contains("include") && l.contains("reports/"));
+        assert!(!reads, "{} reads reports/", path.display());
+    }
 }
 
 #[test]

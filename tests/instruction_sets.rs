@@ -7,12 +7,13 @@ use brilliants::{SEED, diamond, named};
 use cutlab::design::{Design, library};
 use cutlab::estimators::view::{ObserverDome, ViewerLighting};
 use cutlab::estimators::{
-    BatchedEstimate, Contrast, Estimator, FaceterView, Hemisphere, PointLight, Scintillation, TraceOptics,
-    View, ViewFrame, faceter_view, pixel_cells, view,
+    BatchedEstimate, Contrast, Estimator, EstimatorKind, FaceterView, Hemisphere, PointLight, Scintillation,
+    TraceOptics, View, ViewFrame, contrast, faceter_view, hemisphere, pixel_cells, point_light,
+    scintillation, view, view_metrics,
 };
 use cutlab::integrators::{self, PhotonMaps, Tone};
 use cutlab::materials::Material;
-use cutlab::metrics::{METRICS, MetricSource, Statistic};
+use cutlab::metrics::MetricSource;
 use cutlab::photons::{PhotonSets, PhotonSettings};
 use cutlab::sampling::stats::Estimate;
 use cutlab::scene::{PlacedStone, SceneOverrides, preset};
@@ -37,16 +38,11 @@ fn cut(name: &str) -> Design {
 /// Name, score, and score by batch.
 type Scores = Vec<(String, Estimate, Vec<f64>)>;
 
-fn take<E: Estimator>(
-    scores: &mut Scores,
-    experiment: E,
-    samples: u64,
-    of: impl Fn(MetricSource) -> Option<Statistic<E::Tally>>,
-) {
-    let mut traced = BatchedEstimate::new(experiment, SEED);
+fn take(scores: &mut Scores, kind: &dyn EstimatorKind, estimator: impl Estimator, samples: u64) {
+    let mut traced = BatchedEstimate::new(estimator, SEED);
     traced.extend_to(samples);
-    for metric in METRICS {
-        let Some(of) = of(metric.read_from) else { continue };
+    for metric in kind.metrics() {
+        let MetricSource::Sums(of) = metric.read_from else { continue };
         // a cut without a table has no scores of one, on every set
         let Some(score) = traced.score(&of) else { continue };
         let batches = traced.tallies().iter().map(|t| of.value(t)).collect();
@@ -69,22 +65,17 @@ fn scores(design: &Design, material: &Material, isa: Isa) -> Scores {
     );
     let mut all = Scores::new();
     let dome = Hemisphere::in_frame(stone, medium, up).expect("can be lit");
-    take(&mut all, dome, SAMPLES, |r| if let MetricSource::Hemisphere(f) = r { Some(f) } else { None });
+    take(&mut all, &hemisphere::HemisphereKind, dome, SAMPLES);
     let eye = View::in_frame(stone, medium, up, around).expect("can be seen");
-    take(&mut all, eye, SAMPLES, |r| if let MetricSource::View(f) = r { Some(f) } else { None });
+    take(&mut all, &view_metrics::ViewKind, eye, SAMPLES);
     let iso = FaceterView::in_frame(stone, medium, up, head).expect("can be seen");
-    take(&mut all, iso, SAMPLES, |r| if let MetricSource::FaceterView(f) = r { Some(f) } else { None });
+    take(&mut all, &faceter_view::FaceterViewKind, iso, SAMPLES);
     let cells = Contrast::in_frame(stone, medium, up, dark).expect("can be seen");
-    take(&mut all, cells, SAMPLES / 2, |r| if let MetricSource::Contrast(f) = r { Some(f) } else { None });
+    take(&mut all, &contrast::ContrastKind, cells, SAMPLES / 2);
     let rocking = Scintillation::in_frame(stone, medium, up, dark).expect("can be seen");
-    take(
-        &mut all,
-        rocking,
-        SAMPLES / 4,
-        |r| if let MetricSource::Scintillation(f) = r { Some(f) } else { None },
-    );
+    take(&mut all, &scintillation::ScintillationKind, rocking, SAMPLES / 4);
     let beam = PointLight::in_frame(stone, medium, up).expect("can be lit");
-    take(&mut all, beam, SAMPLES / 4, |r| if let MetricSource::PointLight(f) = r { Some(f) } else { None });
+    take(&mut all, &point_light::PointLightKind, beam, SAMPLES / 4);
     all
 }
 

@@ -1,7 +1,7 @@
 //! Polarised light: the Mueller matrices against field components, the lanes against the twin,
 //! energy, and what polarisation does to a view.
 
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View};
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
 use cutlab::materials::Material;
 use cutlab::optics::fresnel::FresnelCoefficients;
 use cutlab::optics::stokes::Stokes;
@@ -51,7 +51,7 @@ fn amplitudes(cos_i: f64, n: f64) -> (C, C) {
 /// lets out is the mean of both, carried as complex components over fifty facets.
 #[test]
 fn stokes_vectors_agree_with_fields() {
-    let mut stream = Stream::new(SEED, Purpose::Test, 0);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 0);
     let mut unit =
         || warps::to_world(Vec3::Z, warps::uniform_cone(stream.pair(), -1.0)).as_dvec3().normalize();
     for _ in 0..200 {
@@ -106,7 +106,7 @@ fn lanes_agree_with_the_twin_on_every_instruction_set() {
     for isa in Isa::all() {
         let stone = brilliant(isa);
         let planes = stone.kernel_planes();
-        let mut stream = Stream::new(SEED, Purpose::Test, 1);
+        let mut stream = Stream::new(SEED, Purpose::TEST, 1);
         let (mut compared, mut apart) = (0, 0);
         for _ in 0..40 {
             let mut packet = rain(&stone, &mut stream);
@@ -149,7 +149,7 @@ fn lanes_agree_with_the_twin_on_every_instruction_set() {
 #[test]
 fn entered_is_left_and_lost() {
     let stone = brilliant(Isa::best());
-    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 2);
     for _ in 0..50 {
         let mut packet = rain(&stone, &mut stream);
         let entered: f32 = packet.power.iter().sum();
@@ -163,7 +163,7 @@ fn entered_is_left_and_lost() {
 #[test]
 fn a_lane_at_rest_stays_dark() {
     for isa in Isa::all() {
-        let mut packet = rain(&brilliant(isa), &mut Stream::new(SEED, Purpose::Test, 3));
+        let mut packet = rain(&brilliant(isa), &mut Stream::new(SEED, Purpose::TEST, 3));
         packet.power[5] = 0.0;
         (packet.q[5], packet.u[5]) = (0.3, -0.2);
         let mut bounces = 0;
@@ -187,7 +187,7 @@ fn polarisation_changes_a_view_by_as_much_as_is_known() {
             SEED,
         );
         traced.extend_to(1 << 17);
-        traced.estimate(|t| t.up() / t.rays)
+        traced.estimate(|t| view::up(t) / t[view::RAYS])
     };
     let (with, without) = (up(true), up(false));
     let change = (with.value - without.value).abs();

@@ -157,7 +157,7 @@ fn rounds_approach_paths_in_light_and_in_dark() {
             (0..48 * 48).filter(|i| (inner..outer).contains(&place(*i).distance(foot))).collect();
         let seen: f64 = of_ring.iter().map(|i| f64::from(caustic[*i].y)).sum::<f64>() / of_ring.len() as f64
             * f64::from(PI / 0.3);
-        let mut stream = Stream::new(SEED, Purpose::Test, outer as u64);
+        let mut stream = Stream::new(SEED, Purpose::TEST, outer as u64);
         let (mut sum, mut squares) = (0.0, 0.0);
         for n in 0..paths {
             let pixel = place(of_ring[n % of_ring.len()]);

@@ -73,7 +73,7 @@ fn flux(shot: &PhotonSet) -> f64 {
 /// Share of the light's rays that meet the stone, the light itself, and walls first.
 fn first_meetings(room: &Scene) -> (f64, f64) {
     let light = small_light();
-    let mut stream = Stream::new(SEED, Purpose::Test, 1);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 1);
     let n = 400_000;
     let (mut on_stone, mut on_wall) = (0, 0);
     for _ in 0..n {
@@ -115,7 +115,7 @@ fn a_closed_grey_room_balances_with_and_without_the_stone() {
 #[test]
 fn the_estimate_is_uniform_to_the_edges() {
     let room = closed_room(0.5);
-    let mut stream = Stream::new(SEED, Purpose::Test, 2);
+    let mut stream = Stream::new(SEED, Purpose::TEST, 2);
     let floor = quad(&room.surfaces[0]);
     let n = 200_000;
     let area = floor.u.cross(floor.v).length();

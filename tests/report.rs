@@ -141,7 +141,7 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
     ] {
         assert!(page.contains(&format!("<h2>{head}</h2>")), "{head}");
     }
-    for metric in METRICS {
+    for metric in METRICS.iter() {
         let row = page.split("</tr>").find(|r| r.contains(&format!("<code>{}</code>", metric.name)));
         let row = row.unwrap_or_else(|| panic!("no row of {}", metric.name));
         assert_eq!(row.matches("data-stone=").count(), STONES.len(), "{}", metric.name);

@@ -94,7 +94,10 @@ fn reference_stones_are_current() {
     command.extend(stones);
     command.extend(["--material", "diamond", "-q", "-o", "references.csv"]);
     bench.ends(0, &command);
-    same_table("references.csv", &text(&fs::read(bench.path("references.csv")).expect("was written")));
+    same_table(
+        "../src/report/data/references.csv",
+        &text(&fs::read(bench.path("references.csv")).expect("was written")),
+    );
 }
 
 /// [C] The curve of the sweeps over the crown angle.

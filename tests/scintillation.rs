@@ -34,7 +34,7 @@ fn about(solid: &Polyhedron, material: &Material, pivot: Option<DVec3>) -> Estim
     };
     let mut traced = BatchedEstimate::new(rocked.expect("lit"), SEED);
     traced.extend_to(1 << 18);
-    traced.estimate(|t| t.change / t.luminance)
+    traced.estimate(|t| t[scintillation::CHANGE] / t[scintillation::LUMINANCE])
 }
 
 /// Heights of the middle of the box and of the girdle.

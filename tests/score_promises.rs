@@ -5,7 +5,7 @@ mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, stone, subject};
 use cutlab::batch::table;
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics};
+use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, point_light};
 use cutlab::materials::Material;
 use cutlab::metrics::METRICS;
 use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score, score_all};
@@ -115,6 +115,6 @@ fn a_constant_index_separates_nothing() {
         SEED,
     );
     beam.extend_to(1000);
-    assert_eq!(beam.estimate(|t| t.power_angle_deg / t.paired_power).value, 0.0);
-    assert_eq!(beam.estimate(|t| t.streak_deg / t.points).value, 0.0);
+    assert_eq!(beam.estimate(|t| t[point_light::POWER_ANGLE_DEG] / t[point_light::PAIRED_POWER]).value, 0.0);
+    assert_eq!(beam.estimate(|t| t[point_light::STREAK_DEG] / t[point_light::POINTS]).value, 0.0);
 }

@@ -4,7 +4,7 @@ mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, subject};
 use cutlab::estimators::view::ViewerLighting;
-use cutlab::estimators::{BatchedEstimate, FaceterView, TraceOptics, View, ViewFrame, faceter_view};
+use cutlab::estimators::{BatchedEstimate, FaceterView, TraceOptics, View, ViewFrame, faceter_view, view};
 use cutlab::sampling::stats::Estimate;
 use cutlab::scoring::score::{ScoreInput, Tilt, score};
 use cutlab::trace::ConvexStone;
@@ -29,8 +29,14 @@ fn a_turned_viewer_sees_a_turned_stone() {
         let view = View::in_frame(stone, &medium, aspect, ViewerLighting::default()).expect("lit");
         let mut seen = BatchedEstimate::new(view, SEED);
         seen.extend_to(1 << 16);
-        let bands = (0..4).map(|b| seen.estimate(|t| t.bands[b] / t.rays)).collect::<Vec<_>>();
-        (bands, [seen.estimate(|t| t.luminance / t.rays), seen.estimate(|t| t.scope_bright / t.rays)])
+        let bands = (0..4).map(|b| seen.estimate(|t| t[view::BANDS[b]] / t[view::RAYS])).collect::<Vec<_>>();
+        (
+            bands,
+            [
+                seen.estimate(|t| t[view::LUMINANCE] / t[view::RAYS]),
+                seen.estimate(|t| t[view::SCOPE_BRIGHT] / t[view::RAYS]),
+            ],
+        )
     };
     let (a, b) = (view(&still, aspect), view(&turned, ViewFrame::FACE_UP));
     for (a, b) in a.0.into_iter().chain(a.1).zip(b.0.into_iter().chain(b.1)) {
@@ -41,7 +47,7 @@ fn a_turned_viewer_sees_a_turned_stone() {
         let mut seen =
             BatchedEstimate::new(FaceterView::in_frame(stone, &medium, aspect, sky).expect("lit"), SEED);
         seen.extend_to(1 << 16);
-        seen.estimate(|t| t.percent(faceter_view::FaceterWeight::Sc2))
+        seen.estimate(|t| 100.0 * t[faceter_view::SC2] / t[faceter_view::RAYS])
     };
     assert_same("sc2", iso(&still, aspect), iso(&turned, ViewFrame::FACE_UP));
 }

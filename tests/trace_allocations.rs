@@ -61,7 +61,7 @@ fn the_count_sees_an_allocation() {
 fn lanes_allocate_nothing() {
     for isa in Isa::all() {
         let stone = brilliant(isa);
-        let stream = Stream::new(1, Purpose::Test, 0);
+        let stream = Stream::new(1, Purpose::TEST, 0);
         let mut rain = Rain { stone: &stone, stream, left: 5_000, power: 0.0 };
         let count = allocations(|| {
             lane_scheduler::trace_all(&stone, 1e-4, &mut rain);
@@ -75,10 +75,10 @@ fn lanes_allocate_nothing() {
 fn twin_and_nonconvex_stones_allocate_nothing() {
     let stone = brilliant(Isa::best());
     let mesh = MeshStone::new(&stone.solid.triangulate()).expect("closed");
-    let mut stream = Stream::new(1, Purpose::Test, 1);
+    let mut stream = Stream::new(1, Purpose::TEST, 1);
     let (mut packet, mut bounces) = (Packet::default(), 0);
     let mut rain =
-        Rain { stone: &stone, stream: Stream::new(1, Purpose::Test, 0), left: LANES as u32, power: 0.0 };
+        Rain { stone: &stone, stream: Stream::new(1, Purpose::TEST, 0), left: LANES as u32, power: 0.0 };
     let count = allocations(|| {
         while rain.load(&mut packet, 0) {
             let ray = reference::ScalarRay {

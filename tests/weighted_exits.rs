@@ -1,6 +1,7 @@
 //! Scores of a caller's own weights, by exact beams: GemRay's ISO, COS and SC2 of `physics.md` §4,
 //! followed for nine facets inside as GemRay does.
 
+use cutlab::batch::validate::figures;
 use cutlab::design::{Design, library};
 use cutlab::estimators::weighted_exits::{BeamEffort, integrate_exits};
 use cutlab::formats;
@@ -30,11 +31,12 @@ fn averages(design: &Design, index: f64, head_deg: f64) -> [f64; 3] {
 /// ±4 points that its grid and rounding leave open.
 #[test]
 fn averages_are_those_that_the_faceters_guild_prints() {
-    for (name, cos, iso) in [("classic", 40.6, 46.5), ("first-stone", 82.1, 86.9)] {
-        let design = library::design(name, &BTreeMap::new()).expect("there").expect("good");
-        let [got_iso, got_cos, _] = averages(&design, 1.54, 0.0);
-        println!("{name}: ISO {got_iso:.2}, COS {got_cos:.2}");
-        assert!((got_iso - iso).abs() < 4.0 && (got_cos - cos).abs() < 4.0, "{name} {got_iso} {got_cos}");
+    for f in figures::set("no head shadow") {
+        let design = library::design(&f.of, &BTreeMap::new()).expect("there").expect("good");
+        let [iso, cos, _] = averages(&design, 1.54, 0.0);
+        let got = if f.quantity == "iso" { iso } else { cos };
+        println!("{} {}: {got:.2}", f.of, f.quantity);
+        assert!((got - f.expected).abs() < f.tolerance(), "{f:?}: {got}");
     }
 }
 
@@ -44,20 +46,16 @@ fn averages_are_those_of_an_independent_tracer() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let corpus =
         std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
-    for (file, index, expected) in [
-        ("SRB", 1.54, [54.19, 49.88, 31.62]),
-        ("SRB", 2.417, [69.51, 57.04, 53.73]),
-        ("Turkey", 1.76, [70.35, 45.94, 51.34]),
-    ] {
-        let path = corpus.join("pairs").join(file).with_extension("asc");
+    let weights = ["iso", "cos", "sc2"];
+    for f in figures::set("head of 10°") {
+        let Some(weight) = weights.iter().position(|w| *w == f.quantity) else { continue };
+        let path = corpus.join("pairs").join(&f.of);
         let Ok(imported) = formats::read(&path) else {
             println!("no {}: not checked", path.display());
             continue;
         };
-        let got = averages(&imported.design, index, 10.0);
-        println!("{file} at {index}: {got:.2?}");
-        for (got, expected) in got.iter().zip(expected) {
-            assert!((got - expected).abs() < 0.5, "{file} at {index}: {got} for {expected}");
-        }
+        let got = averages(&imported.design, f.at.expect("the set varies it"), 10.0)[weight];
+        println!("{} {}: {got:.2}", f.of, f.quantity);
+        assert!((got - f.expected).abs() < 0.5, "{f:?}: {got}");
     }
 }

@@ -5,7 +5,7 @@
 mod timing;
 
 use cutlab::design::families;
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View, beam_view, weighted_exits::BeamEffort};
+use cutlab::estimators::{BatchedEstimate, TraceOptics, View, beam_view, view, weighted_exits::BeamEffort};
 use cutlab::materials::Material;
 use cutlab::optics::stokes::Stokes;
 use cutlab::trace::beams::{
@@ -129,7 +129,7 @@ fn errors(stone: &ConvexStone, material: &Material, real: bool, runs: usize) -> 
             let mut view =
                 BatchedEstimate::new(View::new(stone, &TraceOptics { material, polarised: false })?, 1);
             view.extend_to(samples);
-            Ok::<_, cutlab::estimators::EstimatorError>(view.estimate(|t| t.up() / t.rays))
+            Ok::<_, cutlab::estimators::EstimatorError>(view.estimate(|t| view::up(t) / t[view::RAYS]))
         };
         let (time, up) = best_of(runs.min(3), trace);
         let up = up?;

@@ -30,7 +30,7 @@ pub struct Shower<'a> {
 impl<'a> Shower<'a> {
     /// - `rays`: how many are aimed; some miss
     pub fn new(stone: &'a ConvexStone, rays: u64, polarised: bool) -> Self {
-        let stream = Stream::new(1, Purpose::Test, 0);
+        let stream = Stream::new(1, Purpose::TEST, 0);
         Shower { stone, stream, left: rays, polarised, absorption: 0.0, bounces: 0, kept: Vec::new() }
     }
 }

@@ -92,7 +92,7 @@ fn report(name: &str, bounces: f64, rays: f64, seconds: f64) {
 /// Rays from outside that look for their first facet.
 fn first_hits(stone: &ConvexStone, rays: u64, runs: usize) {
     let (seconds, hits) = timing::best_of(runs, || {
-        let mut stream = Stream::new(1, Purpose::Test, 1);
+        let mut stream = Stream::new(1, Purpose::TEST, 1);
         let hits = (0..rays).filter(|_| {
             let toward: Vec3 = -warps::uniform_cone(stream.pair(), 0.5);
             let target = warps::uniform_disc(stream.pair()).extend(0.0);

@@ -191,8 +191,8 @@ impl TableMeta {
                 unit: m.unit.into(),
                 scale: m.scale,
                 observer: m.observer.map(|own| plan.observer.unwrap_or(own)),
-                experiment: m.read_from.estimator().into(),
-                definition: m.definition.into(),
+                experiment: m.estimator.name().into(),
+                definition: m.definition(),
                 source: m.source.into(),
             })
             .collect()

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
+/// Scattered points of a sweep, one stream.
+const SCATTER_STREAM: Purpose = Purpose::named("scatter");
+
 /// Values at equal steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(into = "StatedSteps", try_from = "StatedSteps")]
@@ -199,7 +202,7 @@ impl Sweep {
     /// Scattered point number `i` of the unit cube.
     fn spread(&self, i: u64) -> Vec<f64> {
         fn at<const D: usize>(seed: u64, i: u64) -> Vec<f64> {
-            KroneckerPoints::<D>::new(seed, Purpose::Scatter, 0, i..i + 1).flatten().collect()
+            KroneckerPoints::<D>::new(seed, SCATTER_STREAM, 0, i..i + 1).flatten().collect()
         }
         match self.varied.len() {
             1 => at::<1>(self.seed, i),

@@ -8,10 +8,11 @@ mod check;
 mod context;
 mod faceters;
 mod facets;
+pub mod figures;
 mod fire;
 mod geometry;
 mod indices;
-pub mod returns;
+mod returns;
 pub mod stones;
 
 pub use check::{

@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn the_reach_of_a_hull_is_that_of_its_points() {
-        let mut stream = Stream::new(3, Purpose::Test, 0);
+        let mut stream = Stream::new(3, Purpose::TEST, 0);
         for n in [2, 3, 4, 5, 40, 600] {
             let mut draw = || DVec2::new(2.0 * stream.unit64() - 1.0, 2.0 * stream.unit64() - 1.0);
             let mut points: Vec<DVec2> = (0..n).map(|_| draw()).collect();

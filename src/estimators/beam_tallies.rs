@@ -3,14 +3,48 @@
 use super::beam_view::{StrongestShares, strongest};
 use super::colour_separation;
 use super::faceter_view::{self, weights};
-use super::view::{AsetBand, ObserverDome, ViewerLighting, band};
+use super::kind::{Method, Metric, MetricSource, Setup};
+use super::viewer_lighting::{ObserverDome, ViewerLighting, band};
 use super::weighted_exits::{BeamEffort, WeightedSums, integrate_exits};
-use super::{EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling, point_light, view};
+use super::{
+    EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling, point_light, view, view_metrics,
+};
 use crate::sampling::statistic::Statistic;
+use crate::sampling::tally::{Column, Tally};
+use crate::trace::ConvexStone;
 use crate::trace::beams::{
     BeamExit, BeamVisitor, Beams, EntryFacet, IncidentBeam, StopCriteria, UnpolarisedLight,
 };
 use glam::DVec3;
+
+/// The method by beams of the view's metrics.
+pub(super) fn view_methods<'a>(
+    stone: &'a ConvexStone,
+    setup: Setup<'a>,
+    asked: &[&Metric],
+) -> Vec<Method<'a>> {
+    let reads_strongest =
+        |m: &&Metric| matches!(m.read_from, MetricSource::Sums(s) if needs_strongest_path(&s));
+    let (lighting, strongest) = (view_metrics::lighting(&setup), asked.iter().any(reads_strongest));
+    vec![Method::beams("view by beams", move |effort| {
+        view(&Beams::new(stone), &setup.medium, setup.view_frame, lighting, strongest, effort)
+    })]
+}
+
+/// The method by beams of the faceters' metrics.
+pub(super) fn iso_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+    let dome = setup.dome(faceter_view::GEMRAY_OBSERVER_DEG);
+    vec![Method::beams("iso by beams", move |_| {
+        Ok(vec![iso(&Beams::new(stone), &setup.medium, setup.view_frame, dome)?])
+    })]
+}
+
+/// The method by beams of the point light's metrics.
+pub(super) fn colour_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+    vec![Method::beams("beam by beams", move |effort| {
+        colours(&Beams::new(stone), &setup.medium, setup.view_frame, effort)
+    })]
+}
 
 /// A beam that could still bring a stronger path to a point is followed down to this share of the light on
 /// the outline; the undecided rest covers some 1e-5 of the outline.
@@ -29,14 +63,33 @@ const UNKNOWN: StrongestShares = StrongestShares {
 };
 
 /// Whether a score of the view reads the strongest paths.
-pub fn needs_strongest_path(score: &Statistic<view::ViewTally>) -> bool {
-    let (strongest, windowed) = (UNKNOWN.bands, UNKNOWN.windowed);
-    score.value(&view::ViewTally { rays: 1.0, strongest, windowed, ..view::ViewTally::default() }).is_nan()
+pub fn needs_strongest_path(score: &Statistic) -> bool {
+    let mut unknown = Tally::of(&[(view::RAYS, 1.0)]);
+    add_strongest(&mut unknown, &UNKNOWN);
+    score.value(&unknown).is_nan()
 }
+
+/// Enters strongest paths into a tally of the view.
+fn add_strongest(tally: &mut Tally, shares: &StrongestShares) {
+    view::STRONGEST.into_iter().zip(shares.bands).for_each(|(band, share)| tally[band] = share);
+    tally[view::WINDOWED] = shares.windowed;
+}
+
+/// Columns of the view that are sums of exits, each with a weight.
+const WEIGHTED: [Column; 8] = [
+    view::GREEN,
+    view::RED,
+    view::BLUE,
+    view::BELOW,
+    view::UP_COS2,
+    view::SCOPE_BRIGHT,
+    view::SCOPE_DARK,
+    view::LUMINANCE,
+];
 
 /// The view's tally in batches, which share what beams give and have photons of their own.
 ///
-/// The luminance of single points is not known: `dark` stays 0. Strongest paths are followed if they are
+/// The luminance of single points is not known: dark rays stay 0. Strongest paths are followed if they are
 /// asked for; if not, or if there are too many beams, they are NaN. Checked in `tests/exact.rs` against
 /// [`super::View`].
 pub fn view(
@@ -46,42 +99,32 @@ pub fn view(
     surroundings: ViewerLighting,
     with_strongest: bool,
     effort: &BeamEffort,
-) -> Result<Vec<view::ViewTally>, EstimatorError> {
-    const COS2: usize = AsetBand::Below as usize + 1;
-    const SCOPE: usize = COS2 + 1;
-    const DOME: usize = COS2 + 2;
-    const HIDDEN: usize = COS2 + 3;
+) -> Result<Vec<Tally>, EstimatorError> {
     let (direction, index) = (-view_frame.axis, medium.material.index_d());
     let ViewerLighting { scope, dome } = surroundings;
     let lit = IncidentBeam { direction, indices: [index] };
     let weighed: WeightedSums<8> = integrate_exits(beams, &lit, medium.polarised, effort, |l| {
         let up = l.up as f32;
-        let mut weights = [0.0; 8];
-        weights[band(up) as usize] = 1.0;
-        weights[COS2] = l.up.max(0.0).powi(2);
-        weights[SCOPE] = f64::from(u8::from(scope.is_bright(up)));
-        weights[HIDDEN] = f64::from(u8::from(scope.is_hidden(up)));
-        weights[DOME] = f64::from(u8::from(dome.is_bright(up)));
-        weights
+        let share = |counts: bool| f64::from(u8::from(counts));
+        let [green, red, blue, below] = std::array::from_fn(|b| share(b == band(up) as usize));
+        let cos2 = l.up.max(0.0).powi(2);
+        let [bright, hidden] = [scope.is_bright(up), scope.is_hidden(up)].map(share);
+        [green, red, blue, below, cos2, bright, hidden, share(dome.is_bright(up))]
     })?;
     let mut shares = UNKNOWN;
     if with_strongest {
         let found = strongest(beams, direction, index, medium.polarised, STRONGEST_POWER)?;
         shares = if found.cut_short { UNKNOWN } else { found };
     }
-    let tally = |(sums, lost): ([f64; 8], f64)| view::ViewTally {
-        rays: 1.0,
-        reflected: weighed.reflected,
-        bands: std::array::from_fn(|b| sums[b]),
-        up_cos2: sums[COS2],
-        absorbed: 0.0,
-        lost,
-        strongest: shares.bands,
-        scope_bright: sums[SCOPE],
-        scope_dark: sums[HIDDEN],
-        luminance: weighed.glare[DOME] + sums[DOME],
-        windowed: shares.windowed,
-        dark: 0.0,
+    // the last of the weighted sums: reflection at entry counts for luminance alone
+    let glare = weighed.glare.last().copied().unwrap_or_default();
+    let tally = |(sums, lost): ([f64; 8], f64)| {
+        let mut tally =
+            Tally::of(&[(view::RAYS, 1.0), (view::REFLECTED, weighed.reflected), (view::LOST, lost)]);
+        WEIGHTED.into_iter().zip(sums).for_each(|(column, sum)| tally[column] = sum);
+        tally[view::LUMINANCE] += glare;
+        add_strongest(&mut tally, &shares);
+        tally
     };
     Ok(weighed.batches().into_iter().map(tally).collect())
 }
@@ -92,7 +135,7 @@ pub fn iso(
     medium: &TraceOptics,
     view_frame: ViewFrame,
     sky: ObserverDome,
-) -> Result<faceter_view::FaceterTally, EstimatorError> {
+) -> Result<Tally, EstimatorError> {
     let index = check_index(medium.material.index_d())?;
     let (facing, table) =
         (faceter_view::facing_flags(beams.stone(), view_frame), entry_sampling::table_flags(beams.stone()));
@@ -101,7 +144,7 @@ pub fn iso(
         sky,
         facing: &facing,
         table: &table,
-        tally: faceter_view::FaceterTally::default(),
+        tally: Tally::default(),
     };
     let lit = IncidentBeam { direction: -view_frame.axis, indices: [f64::from(index)] };
     let until = StopCriteria { facets: faceter_view::MAX_BOUNCES, ..StopCriteria::at_power(ISO_POWER) };
@@ -111,7 +154,9 @@ pub fn iso(
         facets.area(f) * facets.planes[f].normal.dot(view_frame.axis).max(0.0) * f64::from(table[f])
     };
     let table_rays = (0..facets.count()).map(seen).sum::<f64>() / totals.outline;
-    Ok(faceter_view::FaceterTally { rays: 1.0, table_rays, ..bright.tally })
+    let mut tally = bright.tally;
+    (tally[faceter_view::RAYS], tally[faceter_view::TABLE_RAYS]) = (1.0, table_rays);
+    Ok(tally)
 }
 
 /// Visitor that sums what is bright by the faceters' rules.
@@ -120,7 +165,7 @@ struct FaceterBeamVisitor<'a> {
     sky: ObserverDome,
     facing: &'a [f32],
     table: &'a [f32],
-    tally: faceter_view::FaceterTally,
+    tally: Tally,
 }
 
 impl FaceterBeamVisitor<'_> {
@@ -132,8 +177,8 @@ impl FaceterBeamVisitor<'_> {
         let table = f64::from(self.table[entered]);
         for (i, weight) in weights(height).into_iter().enumerate() {
             let power = power * f64::from(weight);
-            self.tally.all[i] += power;
-            self.tally.table[i] += table * power;
+            self.tally[faceter_view::ALL[i]] += power;
+            self.tally[faceter_view::TABLE[i]] += table * power;
         }
     }
 }
@@ -155,13 +200,14 @@ pub fn colours(
     medium: &TraceOptics,
     view_frame: ViewFrame,
     effort: &BeamEffort,
-) -> Result<Vec<point_light::PointLightTally>, EstimatorError> {
+) -> Result<Vec<Tally>, EstimatorError> {
     let weighed = colour_separation::weighted_mean(beams, -view_frame.axis, medium, effort)?;
-    let tally = |([power_angle_deg, paired_power], _): ([f64; 2], f64)| point_light::PointLightTally {
-        points: 1.0,
-        power_angle_deg,
-        paired_power,
-        ..point_light::PointLightTally::default()
+    let tally = |([power_angle_deg, paired_power], _): ([f64; 2], f64)| {
+        Tally::of(&[
+            (point_light::POINTS, 1.0),
+            (point_light::POWER_ANGLE_DEG, power_angle_deg),
+            (point_light::PAIRED_POWER, paired_power),
+        ])
     };
     Ok(weighed.batches().into_iter().map(tally).collect())
 }

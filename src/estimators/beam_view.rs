@@ -2,7 +2,7 @@
 //! none.
 
 use super::horizon::is_above;
-use super::view::{AsetBand, band};
+use super::viewer_lighting::{AsetBand, band};
 use super::weighted_exits::{BeamEffort, ExitSample, MAX_BEAMS, WeightedSums, integrate_exits};
 use super::{EstimatorError, check_index, entry_sampling};
 use crate::optics::stokes::Stokes;

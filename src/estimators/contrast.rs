@@ -2,14 +2,19 @@
 
 use super::batches::Estimator;
 use super::entry_sampling::Silhouette;
-use super::pixel_cells::{self, CellTracer, PixelCell, SampleGroups, SightLine};
-use super::view::ObserverDome;
+use super::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
+use super::pixel_cells::{self, AGS_OBSERVER_DEG, CellTracer, PixelCell, SampleGroups, SightLine};
+use super::viewer_lighting::ObserverDome;
 use super::{EstimatorError, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
-use crate::sampling::stats::Accumulate;
+use crate::sampling::statistic::Statistic;
+use crate::sampling::tally::{Column, Tally};
 use crate::trace::ConvexStone;
 use std::ops::Range;
+
+/// Cells of the picture, one stream a batch and one a run of it.
+const STREAM: Purpose = Purpose::named("contrast");
 
 /// The picture of a stone under a white dome with a dark observer, in cells.
 ///
@@ -23,31 +28,20 @@ pub struct Contrast<'a> {
     side: f64,
 }
 
-/// Sums of a batch.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ContrastTally {
+// Sums of a batch.
+crate::columns! {
     /// Cells, drawn in proportion to their share of the outline.
-    pub cells: f64,
+    CELLS,
     /// Σ luminance, dome = 1.
-    pub luminance: f64,
+    LUMINANCE,
     /// Σ square of a cell's mean luminance.
-    pub square: f64,
+    SQUARE,
 }
 
-impl ContrastTally {
-    /// Standard deviation of the cells over their mean.
-    pub fn contrast(&self) -> f64 {
-        let mean = self.luminance / self.cells;
-        (self.square / self.cells / (mean * mean) - 1.0).max(0.0).sqrt()
-    }
-}
-
-impl Accumulate for ContrastTally {
-    fn accumulate(&mut self, other: &ContrastTally) {
-        self.cells += other.cells;
-        self.luminance += other.luminance;
-        self.square += other.square;
-    }
+/// Standard deviation of the cells over their mean.
+fn contrast(sums: &Tally) -> f64 {
+    let mean = sums[LUMINANCE] / sums[CELLS];
+    (sums[SQUARE] / sums[CELLS] / (mean * mean) - 1.0).max(0.0).sqrt()
 }
 
 impl<'a> Contrast<'a> {
@@ -78,7 +72,7 @@ struct Pairs<'a> {
     estimator: &'a Contrast<'a>,
     points: KroneckerPoints<2>,
     stream: Stream,
-    tally: &'a mut ContrastTally,
+    tally: &'a mut Tally,
 }
 
 impl SampleGroups for Pairs<'_> {
@@ -97,23 +91,70 @@ impl SampleGroups for Pairs<'_> {
     fn accept(&mut self, luminances: &[f32]) {
         let [a, b] = luminances else { return };
         let (a, b) = (f64::from(*a), f64::from(*b));
-        self.tally.cells += 1.0;
-        self.tally.luminance += 0.5 * (a + b);
-        self.tally.square += a * b;
+        self.tally[CELLS] += 1.0;
+        self.tally[LUMINANCE] += 0.5 * (a + b);
+        self.tally[SQUARE] += a * b;
     }
 }
 
 impl Estimator for Contrast<'_> {
-    type Tally = ContrastTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ContrastTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let start = points.start;
         let mut pairs = Pairs {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Contrast, batch, start),
-            points: KroneckerPoints::new(seed, Purpose::Contrast, batch, points),
+            stream: pixel_cells::stream(seed, STREAM, batch, start),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
         };
         self.seen.trace(&mut pairs, seed, batch, start);
     }
 }
+
+/// So many points of the hemisphere are as dear as a cell of two points.
+const COST: u64 = 2;
+
+/// Contrast as scores have it.
+#[derive(Debug, Clone, Copy)]
+pub struct ContrastKind;
+
+impl EstimatorKind for ContrastKind {
+    fn name(&self) -> &'static str {
+        "contrast"
+    }
+
+    fn metrics(&self) -> &'static [Metric] {
+        &METRICS
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &COLUMNS
+    }
+
+    fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+        let cost = COST * setup.medium.wavelengths_per_point();
+        let dome = setup.dome(AGS_OBSERVER_DEG);
+        vec![Method::samples("contrast", cost, move || {
+            let estimator = Contrast::in_frame(stone, &setup.medium, setup.view_frame, dome)?;
+            Ok(estimator.with_stop_power(setup.stop_power))
+        })]
+    }
+}
+
+/// The metrics.
+static METRICS: [Metric; 1] = [Metric {
+    name: "contrast",
+    about: "how much the face-up picture varies: standard deviation per mean of its cells",
+    range: (0.0, 100.0),
+    observer: Some(AGS_OBSERVER_DEG),
+    definition: &[
+        "Parallel face-up view traced backward over the whole outline;",
+        LIGHT,
+        "White dome above the horizon with a dark observer cone of 15° half-angle, or --observer; \
+                reflection at entry included. The luminance is the mean over square cells of 1/100 of the \
+                girdle's width (what of them lies in the outline; mean over all ways to lay the grid). \
+                Standard deviation per mean of the cells, by their area in the outline.",
+    ],
+    source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem \
+            Society; the figure is cutlab's",
+    ..Metric::of(&ContrastKind, MetricSource::Sums(Statistic::Smooth(contrast)))
+}];

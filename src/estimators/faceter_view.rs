@@ -2,15 +2,21 @@
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
-use super::view::ObserverDome;
-use super::wavelengths::Wavelengths;
+use super::kind::{Better, EstimatorKind, Method, Metric, MetricSource, NOTHING_SEEN, Setup};
+use super::viewer_lighting::ObserverDome;
+use super::wavelengths::{HUE_STREAM, Wavelengths};
 use super::{EstimatorError, TraceOptics, ViewFrame};
+use crate::design::Zone;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
-use crate::sampling::stats::Accumulate;
+use crate::sampling::statistic::Statistic;
+use crate::sampling::tally::{Column, Tally};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
+
+/// Points of the outline, one stream a batch.
+const STREAM: Purpose = Purpose::named("faceter view");
 
 /// Bounces inside that a ray is followed for: ten segments, the incoming one and nine inside.
 pub const MAX_BOUNCES: u32 = 9;
@@ -42,51 +48,32 @@ pub(super) fn facing_flags(stone: &ConvexStone, view_frame: ViewFrame) -> Vec<f3
     entry_sampling::flags(stone, |n| n.dot(view_frame.axis) > MIN_FACING_COS)
 }
 
-/// The three weights of light from height h (sine of its elevation): 1, h, 2h√(1 − h²).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub enum FaceterWeight {
-    /// 1.
-    Iso = 0,
-    /// h.
-    Cos = 1,
-    /// 2h√(1 − h²).
-    Sc2 = 2,
-}
-
-/// Sums of a batch.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct FaceterTally {
+// Sums of a batch. Light from height h (sine of its elevation) has three weights: 1 (ISO), h (COS) and
+// 2h√(1 − h²) (SC2).
+crate::columns! {
     /// Rays.
-    pub rays: f64,
-    /// Σ power by [`FaceterWeight`].
-    pub all: [f64; 3],
+    RAYS,
+    /// Power.
+    ISO,
+    /// Power × h.
+    COS,
+    /// Power × 2h√(1 − h²).
+    SC2,
     /// Rays that meet the table.
-    pub table_rays: f64,
-    /// Σ power of these by [`FaceterWeight`].
-    pub table: [f64; 3],
+    TABLE_RAYS,
+    /// Power of these.
+    TABLE_ISO,
+    /// Their power × h.
+    TABLE_COS,
+    /// Their power × 2h√(1 − h²).
+    TABLE_SC2,
 }
 
-impl FaceterTally {
-    /// Percent of the light over the whole outline.
-    pub fn percent(&self, weight: FaceterWeight) -> f64 {
-        100.0 * self.all[weight as usize] / self.rays
-    }
+/// The columns of power over the whole outline, in the order of [`weights`].
+pub(super) const ALL: [Column; 3] = [ISO, COS, SC2];
 
-    /// Percent of the light over the table alone.
-    pub fn table_percent(&self, weight: FaceterWeight) -> f64 {
-        100.0 * self.table[weight as usize] / self.table_rays
-    }
-}
-
-impl Accumulate for FaceterTally {
-    fn accumulate(&mut self, other: &FaceterTally) {
-        self.rays += other.rays;
-        self.all.accumulate(&other.all);
-        self.table_rays += other.table_rays;
-        self.table.accumulate(&other.table);
-    }
-}
+/// The same over the table alone.
+pub(super) const TABLE: [Column; 3] = [TABLE_ISO, TABLE_COS, TABLE_SC2];
 
 /// The weights of light from a height.
 pub(super) fn weights(h: f32) -> [f32; 3] {
@@ -118,7 +105,7 @@ struct FaceterClient<'a> {
     estimator: &'a FaceterView<'a>,
     points: KroneckerPoints<2>,
     hues: KroneckerPoints<1>,
-    tally: &'a mut FaceterTally,
+    tally: &'a mut Tally,
     power: [Lanes; 3],
     table: Lanes,
     bounces: [u32; LANES],
@@ -171,24 +158,22 @@ impl RayClient for FaceterClient<'_> {
 
     fn finish(&mut self, lane: usize) {
         let table = f64::from(self.table[lane]);
-        self.tally.rays += 1.0;
-        self.tally.table_rays += table;
+        self.tally[RAYS] += 1.0;
+        self.tally[TABLE_RAYS] += table;
         for (i, power) in self.power.iter_mut().enumerate() {
             let power = f64::from(std::mem::take(&mut power[lane]));
-            self.tally.all[i] += power;
-            self.tally.table[i] += table * power;
+            self.tally[ALL[i]] += power;
+            self.tally[TABLE[i]] += table * power;
         }
     }
 }
 
 impl Estimator for FaceterView<'_> {
-    type Tally = FaceterTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut FaceterTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let mut client = FaceterClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::Iso, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             power: [[0.0; LANES]; 3],
             table: [0.0; LANES],
@@ -197,3 +182,111 @@ impl Estimator for FaceterView<'_> {
         lane_scheduler::trace_all(self.stone, STOP_POWER, &mut client);
     }
 }
+
+/// The faceters' view as scores have it.
+#[derive(Debug, Clone, Copy)]
+pub struct FaceterViewKind;
+
+impl EstimatorKind for FaceterViewKind {
+    fn name(&self) -> &'static str {
+        "iso"
+    }
+
+    fn metrics(&self) -> &'static [Metric] {
+        &METRICS
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &COLUMNS
+    }
+
+    fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+        let dome = setup.dome(GEMRAY_OBSERVER_DEG);
+        vec![Method::samples("iso", 1, move || {
+            FaceterView::in_frame(stone, &setup.medium, setup.view_frame, dome)
+        })]
+    }
+
+    fn why_unseen(&self, stone: &ConvexStone) -> &'static str {
+        let table = stone.planes.iter().any(|p| Zone::from_normal(p.normal) == Zone::Table);
+        if table { NOTHING_SEEN } else { NO_TABLE }
+    }
+}
+
+/// Why scores of the table are left out.
+const NO_TABLE: &str = "the stone has no table";
+
+const OVER: &str = "Parallel view from the eye over";
+const RULES: &str = "light that is unpolarised at every facet (scalar Fresnel, whatever --polarisation), D line (for a stone \
+    that absorbs, luminance under D65). Rays of at most ten segments, the incoming one and nine inside. \
+    Power from directions whose sine h of elevation lies above 0 and outside the shadow of the viewer's head \
+    (10° half-angle, or --observer; 0 for none), weighted by";
+const MEAN: &str =
+    "exits and reflections at entry count at facets that face the viewer (cosine above 1e-4). Mean over";
+const PERCENT: &str = "in percent. The light stays with the viewer when the stone is tilted.";
+const OUTLINE: &str = "the whole outline;";
+const OF_OUTLINE: &str = "the whole outline,";
+const ONLY_TABLE: &str = "the table alone;";
+const OF_TABLE: &str = "the table alone,";
+
+/// What the rows have in common.
+const ROW: Metric = Metric {
+    by_beams: true,
+    unit: "%",
+    range: (0.0, 100.0),
+    scale: 100.0,
+    better: Better::More,
+    observer: Some(GEMRAY_OBSERVER_DEG),
+    source: "R. W. Strickland's GemRay, as the project's reference figures have it",
+    ..Metric::of(&FaceterViewKind, MetricSource::Sums(Statistic::Mean(ISO, RAYS, 100.0)))
+};
+
+/// The metrics.
+static METRICS: [Metric; 6] = [
+    Metric {
+        name: "iso",
+        about: "percent of bright light that the stone returns face-up, all light alike (GemRay ISO)",
+        definition: &[OVER, OUTLINE, RULES, "1;", MEAN, OF_OUTLINE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(ISO, RAYS, 100.0)),
+        ..ROW
+    },
+    Metric {
+        name: "cos",
+        about: "percent of bright light that the stone returns face-up, most weight for light from above (GemRay \
+            COS)",
+        definition: &[OVER, OUTLINE, RULES, "h;", MEAN, OF_OUTLINE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(COS, RAYS, 100.0)),
+        ..ROW
+    },
+    Metric {
+        name: "sc2",
+        about: "percent of bright light that the stone returns face-up, most weight for light from 45° (GemRay \
+            SC2)",
+        definition: &[OVER, OUTLINE, RULES, "2h√(1 − h²);", MEAN, OF_OUTLINE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(SC2, RAYS, 100.0)),
+        ..ROW
+    },
+    Metric {
+        name: "table_iso",
+        about: "percent of bright light that the table returns face-up, all light alike (GemRay ISO)",
+        definition: &[OVER, ONLY_TABLE, RULES, "1;", MEAN, OF_TABLE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(TABLE_ISO, TABLE_RAYS, 100.0)),
+        ..ROW
+    },
+    Metric {
+        name: "table_cos",
+        about: "percent of bright light that the table returns face-up, most weight for light from above (GemRay \
+            COS)",
+        definition: &[OVER, ONLY_TABLE, RULES, "h;", MEAN, OF_TABLE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(TABLE_COS, TABLE_RAYS, 100.0)),
+        ..ROW
+    },
+    Metric {
+        name: "table_sc2",
+        about: "percent of bright light that the table returns face-up, most weight for light from 45° (GemRay \
+            SC2)",
+        definition: &[OVER, ONLY_TABLE, RULES, "2h√(1 − h²);", MEAN, OF_TABLE, PERCENT],
+        read_from: MetricSource::Sums(Statistic::Mean(TABLE_SC2, TABLE_RAYS, 100.0)),
+        ..ROW
+    },
+];

@@ -2,7 +2,8 @@
 //! to be followed are finished by photons.
 
 use super::horizon::is_up;
-use super::point_light::{self, PointLightNeeds, THRESHOLD, angle_deg};
+use super::kind::{Method, Metric, MetricSource, Setup};
+use super::point_light::{self, LIT, POINTS, PointLight, PointLightNeeds, STREAK_DEG, THRESHOLD, angle_deg};
 use super::same_path::SamePath;
 use super::weighted_exits::{BeamEffort, MAX_BEAMS};
 use super::{BATCHES, EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling};
@@ -10,12 +11,13 @@ use crate::geometry::Plane;
 use crate::optics::dispersion::lines;
 use crate::optics::stokes::Stokes;
 use crate::parallel;
+use crate::sampling::tally::Tally;
 use crate::trace::beams::residual::{ResidualClient, ResidualPhotons};
 use crate::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, IncidentBeam, Interface, ResidualBeam, StopCriteria,
     UnpolarisedLight,
 };
-use crate::trace::{Interaction, LANES};
+use crate::trace::{ConvexStone, Interaction, LANES};
 use glam::DVec3;
 
 /// A beam that covers less than this share of the outline is left to photons: of a brilliant some
@@ -28,6 +30,34 @@ const FEWEST_OF_A_BATCH: usize = 64;
 
 /// Lines that are compared, D first.
 const LINES: [f64; 3] = [lines::D, lines::B, lines::G];
+
+/// The methods of the point light's metrics in a clear stone: beams are nearly exact for one direction, and ten
+/// times as cheap as photons; what is too faint to be seen takes photons.
+pub(super) fn methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, asked: &[&Metric]) -> Vec<Method<'a>> {
+    let Setup { medium, view_frame, .. } = setup;
+    let lit = asked.iter().filter_map(|m| needs(m)).any(|needs| needs.lit && !needs.faint);
+    let seen = Method::beams("fire", move |effort| {
+        fire(&Beams::new(stone), &medium, view_frame, PointLightNeeds { lit, faint: false }, effort)
+    });
+    let faint = Method::samples("beam", point_light::COST, move || {
+        let needs = PointLightNeeds { lit: false, faint: true };
+        Ok(PointLight::in_frame(stone, &medium, view_frame)?.for_needs(needs))
+    });
+    vec![seen.giving(|m| !is_faint(m)), faint.giving(is_faint)]
+}
+
+/// The parts of the tally that a metric reads.
+fn needs(metric: &Metric) -> Option<PointLightNeeds> {
+    match metric.read_from {
+        MetricSource::Sums(of) => Some(PointLightNeeds::from_statistic(&of)),
+        MetricSource::Solid(_) => None,
+    }
+}
+
+/// Whether a metric counts exits too faint to be seen.
+fn is_faint(metric: &Metric) -> bool {
+    needs(metric).is_some_and(|needs| needs.faint)
+}
 
 /// Light that is followed by the area it covers, while it is visible.
 #[derive(Debug, Clone, Copy)]
@@ -70,25 +100,21 @@ pub fn fire(
     view_frame: ViewFrame,
     needs: PointLightNeeds,
     effort: &BeamEffort,
-) -> Result<Vec<point_light::PointLightTally>, EstimatorError> {
+) -> Result<Vec<Tally>, EstimatorError> {
     let indices = LINES.map(|nm| medium.material.index(nm));
     let compared = sums(beams, medium, view_frame, indices, effort, |directions, weight| {
         weight * angle_deg(directions[1], directions[2])
     })?;
-    let mut tallies: Vec<_> = compared
+    let mut tallies: Vec<Tally> = compared
         .into_iter()
-        .map(|streak_deg| point_light::PointLightTally {
-            points: 1.0,
-            streak_deg,
-            ..point_light::PointLightTally::default()
-        })
+        .map(|streak_deg| Tally::of(&[(POINTS, 1.0), (STREAK_DEG, streak_deg)]))
         .collect();
     if needs.lit {
         for nm in lines::SIX {
             let index = [medium.material.index(nm)];
             let lit = sums(beams, medium, view_frame, index, effort, |_, weight| weight)?;
             let six = lines::SIX.len() as f64;
-            tallies.iter_mut().zip(lit).for_each(|(tally, lit)| tally.lit += lit / six);
+            tallies.iter_mut().zip(lit).for_each(|(tally, lit)| tally[LIT] += lit / six);
         }
     }
     Ok(tallies)

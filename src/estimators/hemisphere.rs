@@ -3,13 +3,20 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Crown, Silhouette};
 use super::horizon::is_up;
-use super::wavelengths::Wavelengths;
+use super::kind::{Better, EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
+use super::wavelengths::{HUE_STREAM, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
-use crate::sampling::{random::Purpose, stats::Accumulate, warps};
+use crate::sampling::random::Purpose;
+use crate::sampling::statistic::Statistic;
+use crate::sampling::tally::{Column, Tally};
+use crate::sampling::warps;
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
+
+/// Points of the dome, one stream a batch.
+pub(super) const STREAM: Purpose = Purpose::named("hemisphere");
 
 /// The dome over one stone.
 ///
@@ -31,54 +38,32 @@ pub struct Hemisphere<'a> {
     pub outline_area: f64,
 }
 
-/// Sums of a batch; every accepted direction arrives with power 1.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct HemisphereTally {
+// Sums of a batch; every accepted direction arrives with power 1.
+crate::columns! {
     /// Directions drawn, those from below the horizon included.
-    pub drawn: f64,
+    DRAWN,
     /// Power that arrived: directions from above the horizon.
-    pub arrived: f64,
+    ARRIVED,
     /// Reflected at entry.
-    pub glare: f64,
+    GLARE,
     /// Left through the crown, upward.
-    pub returned: f64,
+    RETURNED,
     /// The same, weighted by cos² from zenith.
-    pub returned_cos2: f64,
+    RETURNED_COS2,
     /// Left otherwise.
-    pub leaked: f64,
+    LEAKED,
     /// Taken by the stone.
-    pub absorbed: f64,
+    ABSORBED,
     /// Given up inside.
-    pub lost: f64,
+    LOST,
 }
 
-impl Accumulate for HemisphereTally {
-    fn accumulate(&mut self, other: &HemisphereTally) {
-        self.drawn += other.drawn;
-        self.arrived += other.arrived;
-        self.glare += other.glare;
-        self.returned += other.returned;
-        self.returned_cos2 += other.returned_cos2;
-        self.leaked += other.leaked;
-        self.absorbed += other.absorbed;
-        self.lost += other.lost;
-    }
-
-    /// All returned, leaked or absorbed.
-    fn bounds_of_untraced(&self) -> Vec<HemisphereTally> {
-        let with = |change: fn(&mut HemisphereTally, f64)| {
-            let mut tally = self.clone();
-            change(&mut tally, self.lost);
-            tally
-        };
-        let returned = |t: &mut HemisphereTally, lost| {
-            t.returned += lost;
-            t.returned_cos2 += lost;
-        };
-        // a clear stone takes none of it
-        let absorbed = (self.absorbed > 0.0).then(|| with(|t, lost| t.absorbed += lost));
-        [with(returned), with(|t, lost| t.leaked += lost)].into_iter().chain(absorbed).collect()
-    }
+/// All that was given up returned, leaked or absorbed.
+pub(super) fn bounds_of_untraced(sums: &Tally) -> Vec<Tally> {
+    let all = |columns: &[Column]| sums.with(columns, sums[LOST]);
+    // a clear stone takes none of it
+    let absorbed = (sums[ABSORBED] > 0.0).then(|| all(&[ABSORBED]));
+    [all(&[RETURNED, RETURNED_COS2]), all(&[LEAKED])].into_iter().chain(absorbed).collect()
 }
 
 impl<'a> Hemisphere<'a> {
@@ -118,7 +103,7 @@ struct HemisphereClient<'a> {
     estimator: &'a Hemisphere<'a>,
     points: KroneckerPoints<4>,
     hues: KroneckerPoints<1>,
-    tally: &'a mut HemisphereTally,
+    tally: &'a mut Tally,
     returned: Lanes,
     returned_cos2: Lanes,
     leaked: Lanes,
@@ -143,13 +128,13 @@ impl RayClient for HemisphereClient<'_> {
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Hemisphere { stone, view_frame, light, entrance, .. } = self.estimator;
         for ([a, b, c, d], [hue]) in self.points.by_ref().zip(&mut self.hues) {
-            self.tally.drawn += 1.0;
+            self.tally[DRAWN] += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = warps::to_world(stone.normals[facet], warps::cosine_hemisphere([c as f32, d as f32]));
             if is_up(view_frame.sin_elevation(sky)) {
                 let entry = light.line(hue).enter(packet, lane, stone, facet, point.as_vec3(), -sky);
-                self.tally.arrived += 1.0;
-                self.tally.glare += f64::from(entry.reflectance);
+                self.tally[ARRIVED] += 1.0;
+                self.tally[GLARE] += f64::from(entry.reflectance);
                 return true;
             }
         }
@@ -171,22 +156,20 @@ impl RayClient for HemisphereClient<'_> {
 
     fn finish(&mut self, lane: usize) {
         let take = |sum: &mut Lanes| f64::from(std::mem::take(&mut sum[lane]));
-        self.tally.returned += take(&mut self.returned);
-        self.tally.returned_cos2 += take(&mut self.returned_cos2);
-        self.tally.leaked += take(&mut self.leaked);
-        self.tally.absorbed += take(&mut self.absorbed);
+        self.tally[RETURNED] += take(&mut self.returned);
+        self.tally[RETURNED_COS2] += take(&mut self.returned_cos2);
+        self.tally[LEAKED] += take(&mut self.leaked);
+        self.tally[ABSORBED] += take(&mut self.absorbed);
     }
 }
 
 impl Estimator for Hemisphere<'_> {
-    type Tally = HemisphereTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut HemisphereTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let zero = [0.0; LANES];
         let mut dome = HemisphereClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::Hemisphere, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             returned: zero,
             returned_cos2: zero,
@@ -194,6 +177,130 @@ impl Estimator for Hemisphere<'_> {
             absorbed: zero,
         };
         let lost = lane_scheduler::trace_all(self.stone, self.stop_power, &mut dome);
-        tally.lost += lost;
+        tally[LOST] += lost;
+    }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        bounds_of_untraced(sums)
     }
 }
+
+/// The dome as scores have it.
+#[derive(Debug, Clone, Copy)]
+pub struct HemisphereKind;
+
+impl EstimatorKind for HemisphereKind {
+    fn name(&self) -> &'static str {
+        "hemisphere"
+    }
+
+    fn metrics(&self) -> &'static [Metric] {
+        &METRICS
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &COLUMNS
+    }
+
+    fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+        let Setup { medium, view_frame, stop_power, .. } = setup;
+        vec![Method::samples("hemisphere", 1, move || {
+            Ok(Hemisphere::in_frame(stone, &medium, view_frame)?.with_stop_power(stop_power))
+        })]
+    }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        bounds_of_untraced(sums)
+    }
+}
+
+const DOME: &str = "Uniform dome of light above the girdle plane, no observer's head;";
+const SAMPLED: &str = "Directions are cosine-distributed about the crown facets' normals, points uniform by crown area; those \
+    from below the horizon are not counted.";
+
+/// What the rows have in common.
+const ROW: Metric = Metric {
+    by_beams: true,
+    nonconvex: true,
+    source: "defined by cutlab; light_return + glare + leakage + absorbed + lost = 1",
+    ..Metric::of(&HemisphereKind, MetricSource::Sums(Statistic::Mean(RETURNED, ARRIVED, 1.0)))
+};
+
+/// The metrics.
+static METRICS: [Metric; 6] = [
+    Metric {
+        name: "wlr",
+        about: "weighted light return: white light from a dome, returned through the crown, most weight face-up",
+        better: Better::More,
+        definition: &[
+            DOME,
+            LIGHT,
+            "Power that leaves upward through the crown, weighted by cos² of its angle from zenith, \
+                surface reflection excluded, per power arriving.",
+            SAMPLED,
+        ],
+        source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
+            which tests/scores.rs holds",
+        read_from: MetricSource::Sums(Statistic::Mean(RETURNED_COS2, ARRIVED, 1.0)),
+        ..ROW
+    },
+    Metric {
+        name: "light_return",
+        about: "share of a dome's light that comes back up through the crown, from inside",
+        better: Better::More,
+        definition: &[
+            DOME,
+            LIGHT,
+            "Power that leaves upward through the crown after entering, per power arriving.",
+            SAMPLED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Mean(RETURNED, ARRIVED, 1.0)),
+        ..ROW
+    },
+    Metric {
+        name: "leakage",
+        about: "share that leaves otherwise: through the pavilion, or downward through the crown",
+        better: Better::Less,
+        definition: &[
+            DOME,
+            LIGHT,
+            "Power that leaves otherwise than upward through the crown, per power arriving.",
+            SAMPLED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Mean(LEAKED, ARRIVED, 1.0)),
+        ..ROW
+    },
+    Metric {
+        name: "glare",
+        about: "share mirrored by the crown's surface without entering",
+        definition: &[DOME, LIGHT, "Power reflected at entry per power arriving.", SAMPLED],
+        read_from: MetricSource::Sums(Statistic::Smooth(|t| t[GLARE] / t[ARRIVED])),
+        ..ROW
+    },
+    Metric {
+        name: "absorbed",
+        about: "share that the stone's colour takes: 0 in a clear stone, more in a larger one",
+        definition: &[
+            DOME,
+            LIGHT,
+            "Power absorbed inside by Beer–Lambert over the path in millimetres, per power arriving.",
+            SAMPLED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Smooth(|t| t[ABSORBED] / t[ARRIVED])),
+        ..ROW
+    },
+    Metric {
+        name: "lost",
+        about: "share no longer followed: the error of the figures above",
+        definition: &[
+            DOME,
+            LIGHT,
+            "Power that the tracer stopped following (a ray with less than 1e-4 of its light or half the \
+                error asked for; in a stone that absorbs the share is of what has come out), per power \
+                arriving. The errors of the other four hold it.",
+            SAMPLED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Smooth(|t| t[LOST] / t[ARRIVED])),
+        ..ROW
+    },
+];

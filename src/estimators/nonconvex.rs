@@ -11,17 +11,22 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Crown};
 use super::horizon::is_up;
-use super::view::{ViewerLighting, band};
-use super::wavelengths::Wavelengths;
-use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame, hemisphere, view};
+use super::kind::{Method, Setup};
+use super::viewer_lighting::{ObserverDome, ViewerLighting, band};
+use super::wavelengths::{HUE_STREAM, Wavelengths};
+use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame, hemisphere, view, view_metrics};
 use crate::optics::stokes::Stokes;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
+use crate::sampling::tally::Tally;
 use crate::sampling::warps;
 use crate::trace::nonconvex::{MeshStone, Side};
 use crate::trace::reference::{ScalarInteraction, ScalarRay};
 use glam::DVec3;
 use std::ops::Range;
+
+/// Which way light goes on in a concavity, one stream a ray.
+const STREAM: Purpose = Purpose::named("nonconvex");
 
 /// A ray of a stone that absorbs is given up below this share of its light: of a dark stone little
 /// comes out. It is soon reached there.
@@ -29,6 +34,26 @@ const MIN_POWER: f64 = 1e-9;
 
 /// Rays start so far from the stone's middle, or from where they meet it: outside its sphere.
 const FAR_AWAY: f64 = 2.5;
+
+/// So many points of the hemisphere are as dear as a ray of a stone that is not convex.
+const COST: u64 = 16;
+
+/// The method by which the hemisphere's metrics are found of a stone that is not convex.
+pub(super) fn hemisphere_methods<'a>(stone: &'a MeshStone, setup: Setup<'a>) -> Vec<Method<'a>> {
+    let Setup { medium, view_frame, stop_power, .. } = setup;
+    vec![Method::samples("hemisphere", COST, move || {
+        Ok(NonconvexHemisphere::new(stone, &medium, view_frame)?.with_stop_power(stop_power))
+    })]
+}
+
+/// The same of the view's metrics.
+pub(super) fn view_methods<'a>(stone: &'a MeshStone, setup: Setup<'a>) -> Vec<Method<'a>> {
+    let Setup { medium, view_frame, stop_power, .. } = setup;
+    let lighting = view_metrics::lighting(&setup);
+    vec![Method::samples("view", COST, move || {
+        Ok(NonconvexView::new(stone, &medium, view_frame, lighting)?.with_stop_power(stop_power))
+    })]
+}
 
 /// A stone that is not convex, and how it is lit.
 #[derive(Clone)]
@@ -87,7 +112,7 @@ impl<'a> NonconvexTracer<'a> {
 
 /// Random numbers for a point of a batch.
 fn chance(seed: u64, batch: u64, point: u64) -> Stream {
-    Stream::new(seed, Purpose::Nonconvex, (batch << 48) | point)
+    Stream::new(seed, STREAM, (batch << 48) | point)
 }
 
 /// The dome over a stone that is not convex: [`hemisphere::Hemisphere`].
@@ -121,15 +146,13 @@ impl<'a> NonconvexHemisphere<'a> {
 }
 
 impl Estimator for NonconvexHemisphere<'_> {
-    type Tally = hemisphere::HemisphereTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let NonconvexTracer { stone, view_frame, .. } = &self.lit;
-        let hues = KroneckerPoints::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, batch, points.clone());
         let numbers = points.clone().zip(hues);
-        let places = KroneckerPoints::new(seed, Purpose::Hemisphere, batch, points);
+        let places = KroneckerPoints::new(seed, hemisphere::STREAM, batch, points);
         for ((number, [hue]), [a, b, c, d]) in numbers.zip(places) {
-            tally.drawn += 1.0;
+            tally[hemisphere::DRAWN] += 1.0;
             let (facet, point) = self.entrance.sample([a, b]);
             let normal = stone.planes[facet].normal.as_vec3();
             let sky = warps::to_world(normal, warps::cosine_hemisphere([c as f32, d as f32]));
@@ -139,20 +162,25 @@ impl Estimator for NonconvexHemisphere<'_> {
             if !is_up(sky.dot(view_frame.axis) as f32) || !in_sight() {
                 continue;
             }
-            tally.arrived += 1.0;
-            tally.lost += self.lit.trace(from, -sky, hue, chance(seed, batch, number), |m, entered| {
-                let up = m.direction.dot(view_frame.axis);
-                tally.absorbed += m.absorbed;
-                if !entered {
-                    tally.glare += m.power;
-                } else if is_up(up as f32) && self.crown[m.facet] {
-                    tally.returned += m.power;
-                    tally.returned_cos2 += m.power * up * up;
-                } else {
-                    tally.leaked += m.power;
-                }
-            });
+            tally[hemisphere::ARRIVED] += 1.0;
+            tally[hemisphere::LOST] +=
+                self.lit.trace(from, -sky, hue, chance(seed, batch, number), |m, entered| {
+                    let up = m.direction.dot(view_frame.axis);
+                    tally[hemisphere::ABSORBED] += m.absorbed;
+                    if !entered {
+                        tally[hemisphere::GLARE] += m.power;
+                    } else if is_up(up as f32) && self.crown[m.facet] {
+                        tally[hemisphere::RETURNED] += m.power;
+                        tally[hemisphere::RETURNED_COS2] += m.power * up * up;
+                    } else {
+                        tally[hemisphere::LEAKED] += m.power;
+                    }
+                });
         }
+    }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        hemisphere::bounds_of_untraced(sums)
     }
 }
 
@@ -182,35 +210,38 @@ impl<'a> NonconvexView<'a> {
 }
 
 impl Estimator for NonconvexView<'_> {
-    type Tally = view::ViewTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let ViewFrame { axis, right, top } = self.lit.view_frame;
         let ViewerLighting { scope, dome } = self.surroundings;
-        let hues = KroneckerPoints::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
+        let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, batch, points.clone());
         let numbers = points.clone().zip(hues);
-        for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, Purpose::View, batch, points))
+        for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, view::STREAM, batch, points))
         {
             // the stone lies within the unit sphere
             let from = axis * FAR_AWAY + right * (2.0 * a - 1.0) + top * (2.0 * b - 1.0);
             if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
                 continue;
             }
-            tally.rays += 1.0;
-            tally.lost += self.lit.trace(from, -axis, hue, chance(seed, batch, number), |m, entered| {
-                let z = m.direction.dot(axis);
-                let bright = |sky: view::ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
-                tally.absorbed += m.absorbed;
-                tally.luminance += bright(dome);
-                if entered {
-                    tally.bands[band(z as f32) as usize] += m.power;
-                    tally.up_cos2 += m.power * z.max(0.0).powi(2);
-                    tally.scope_bright += bright(scope);
-                    tally.scope_dark += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
-                } else {
-                    tally.reflected += m.power;
-                }
-            });
+            tally[view::RAYS] += 1.0;
+            tally[view::LOST] +=
+                self.lit.trace(from, -axis, hue, chance(seed, batch, number), |m, entered| {
+                    let z = m.direction.dot(axis);
+                    let bright = |sky: ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
+                    tally[view::ABSORBED] += m.absorbed;
+                    tally[view::LUMINANCE] += bright(dome);
+                    if entered {
+                        tally[view::BANDS[band(z as f32) as usize]] += m.power;
+                        tally[view::UP_COS2] += m.power * z.max(0.0).powi(2);
+                        tally[view::SCOPE_BRIGHT] += bright(scope);
+                        tally[view::SCOPE_DARK] += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
+                    } else {
+                        tally[view::REFLECTED] += m.power;
+                    }
+                });
         }
+    }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        view::bounds_of_untraced(sums)
     }
 }

@@ -5,8 +5,8 @@
 //! points of one cell in ways whose expectation is free of it.
 
 use super::entry_sampling::Silhouette;
-use super::view::ObserverDome;
-use super::wavelengths::{LINES_PER_RAY, Wavelengths};
+use super::viewer_lighting::ObserverDome;
+use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::random::{Purpose, Stream};
 use crate::trace::lane_scheduler::{self, RayClient};
@@ -127,7 +127,7 @@ impl<'a> CellTracer<'a> {
     /// - `seed`, `batch`, `start` (the run's first point): what the wavelengths of a stone that absorbs are
     ///   drawn by
     pub(super) fn trace(&self, groups: &mut impl SampleGroups, seed: u64, batch: u64, start: u64) {
-        let hues = stream(seed, Purpose::ScoreHue, batch, start);
+        let hues = stream(seed, HUE_STREAM, batch, start);
         if self.light.absorb() {
             CellClient::<_, LINES_PER_RAY>::new(self, groups, hues).trace();
         } else {

@@ -3,18 +3,21 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
 use super::horizon::is_up;
+use super::kind::{Better, EstimatorKind, Method, Metric, MetricSource, Setup};
 use super::same_path::SamePath;
 use super::{EstimatorError, LineOptics, TraceOptics, ViewFrame};
 use crate::optics::dispersion::lines;
-use crate::sampling::histogram::Histogram;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use crate::sampling::statistic::Statistic;
-use crate::sampling::stats::Accumulate;
+use crate::sampling::tally::{Column, Tally};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use glam::DVec3;
 use std::ops::Range;
+
+/// Points of the outline, one stream a batch.
+const STREAM: Purpose = Purpose::named("point light");
 
 /// A path is followed while it holds this share of the light that fell on its point.
 const STOP_POWER: f32 = 1e-6;
@@ -49,7 +52,7 @@ pub struct PointLight<'a> {
     needs: PointLightNeeds,
 }
 
-/// The parts of a [`PointLightTally`] that are needed; the others may be wrong.
+/// The parts of a point light's tally that are needed; the others may be wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointLightNeeds {
     /// Exits of all six lines, rather than of those that are compared.
@@ -63,13 +66,12 @@ impl PointLightNeeds {
     pub const ALL: PointLightNeeds = PointLightNeeds { lit: true, faint: true };
 
     /// The parts that a score reads.
-    pub fn from_statistic(reading: &Statistic<PointLightTally>) -> PointLightNeeds {
-        let seen = PointLightTally { points: 1.0, lit: 1.0, streak_deg: 1.0, ..PointLightTally::default() };
-        let unlit = PointLightTally { lit: 2.0, ..seen.clone() };
-        let mut faint = PointLightTally { power_angle_deg: 1.0, paired_power: 1.0, ..seen.clone() };
-        faint.power_by_angle.insert(1.0, 1.0);
-        let differs =
-            |other: &PointLightTally| reading.value(other).to_bits() != reading.value(&seen).to_bits();
+    pub fn from_statistic(reading: &Statistic) -> PointLightNeeds {
+        let seen = Tally::of(&[(POINTS, 1.0), (LIT, 1.0), (STREAK_DEG, 1.0)]);
+        let unlit = seen.with(&[LIT], 1.0);
+        let mut faint = seen.with(&[POWER_ANGLE_DEG, PAIRED_POWER], 1.0);
+        faint.histogram.insert(1.0, 1.0);
+        let differs = |other: &Tally| reading.value(other).to_bits() != reading.value(&seen).to_bits();
         PointLightNeeds { lit: differs(&unlit), faint: differs(&faint) }
     }
 
@@ -79,34 +81,21 @@ impl PointLightNeeds {
     }
 }
 
-/// Sums of a batch; every ray has power 1 in every line.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct PointLightTally {
+// Sums of a batch; every ray has power 1 in every line. The histogram has the power of [`PAIRED_POWER`] by
+// angle, in classes of [`CLASS_DEG`].
+crate::columns! {
     /// Points of the outline.
-    pub points: f64,
+    POINTS,
     /// Σ m cos² over visible exits, mean over the six lines.
-    pub lit: f64,
+    LIT,
     /// Σ m cos² × angle between B and G in degrees, over visible exits at D whose B and G have met the same
     /// facets and leave too.
-    pub streak_deg: f64,
+    STREAK_DEG,
     /// Σ power × angle between B and G in degrees, over crown exits at D whose B and G have met the same
     /// facets and leave too.
-    pub power_angle_deg: f64,
+    POWER_ANGLE_DEG,
     /// Σ power over the same exits.
-    pub paired_power: f64,
-    /// The same power by angle, in classes of [`CLASS_DEG`].
-    pub power_by_angle: Histogram,
-}
-
-impl Accumulate for PointLightTally {
-    fn accumulate(&mut self, other: &PointLightTally) {
-        self.points += other.points;
-        self.lit += other.lit;
-        self.streak_deg += other.streak_deg;
-        self.power_angle_deg += other.power_angle_deg;
-        self.paired_power += other.paired_power;
-        Accumulate::accumulate(&mut self.power_by_angle, &other.power_by_angle);
-    }
+    PAIRED_POWER,
 }
 
 impl<'a> PointLight<'a> {
@@ -162,7 +151,7 @@ pub(super) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
 struct PointLightClient<'a> {
     estimator: &'a PointLight<'a>,
     points: KroneckerPoints<2>,
-    tally: &'a mut PointLightTally,
+    tally: &'a mut Tally,
     optics: [LineOptics; LINES],
     /// Whether the lines are those that are compared.
     paired: bool,
@@ -197,7 +186,7 @@ impl RayClient for PointLightClient<'_> {
         }
         if self.paired {
             self.together.begin(lane);
-            self.tally.points += 1.0;
+            self.tally[POINTS] += 1.0;
         }
         true
     }
@@ -219,30 +208,28 @@ impl RayClient for PointLightClient<'_> {
             *seen = if visible { weight } else { 0.0 };
         }
         let six = lines::SIX.len() as f64;
-        self.tally.lit += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
+        self.tally[LIT] += seen.iter().map(|s| f64::from(*s)).sum::<f64>() / six;
         for d in SamePath::<LINES>::lanes() {
             let up = is_up(height[d]) && self.estimator.crown[m.facet[d] as usize] > 0.0;
             if self.together.leave(m, d) && up {
                 let angle = angle_deg(m.direction(d + 1).as_dvec3(), m.direction(d + 2).as_dvec3());
                 let power = f64::from(m.power[d]);
-                self.tally.streak_deg += f64::from(seen[d]) * angle;
-                self.tally.power_angle_deg += power * angle;
-                self.tally.paired_power += power;
-                self.tally.power_by_angle.insert(angle / CLASS_DEG, power);
+                self.tally[STREAK_DEG] += f64::from(seen[d]) * angle;
+                self.tally[POWER_ANGLE_DEG] += power * angle;
+                self.tally[PAIRED_POWER] += power;
+                self.tally.histogram.insert(angle / CLASS_DEG, power);
             }
         }
     }
 }
 
 impl Estimator for PointLight<'_> {
-    type Tally = PointLightTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut PointLightTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let passes = [(self.optics[0], true), (self.optics[1], false)];
         for (optics, paired) in passes.into_iter().filter(|(_, paired)| *paired || self.needs.lit) {
             let mut shine = PointLightClient {
                 estimator: self,
-                points: KroneckerPoints::new(seed, Purpose::Beam, batch, points.clone()),
+                points: KroneckerPoints::new(seed, STREAM, batch, points.clone()),
                 tally: &mut *tally,
                 optics,
                 paired,
@@ -253,3 +240,116 @@ impl Estimator for PointLight<'_> {
         }
     }
 }
+
+/// So many points of the hemisphere are as dear as one of the point light, which has six lines and follows paths
+/// to a hundredth of the power.
+pub(super) const COST: u64 = 4;
+
+/// The point light as scores have it.
+#[derive(Debug, Clone, Copy)]
+pub struct PointLightKind;
+
+impl EstimatorKind for PointLightKind {
+    fn name(&self) -> &'static str {
+        "beam"
+    }
+
+    fn metrics(&self) -> &'static [Metric] {
+        &METRICS
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &COLUMNS
+    }
+
+    fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+        let Setup { medium, view_frame, .. } = setup;
+        vec![Method::samples("beam", COST, move || PointLight::in_frame(stone, &medium, view_frame))]
+    }
+
+    fn needs_dispersion(&self) -> bool {
+        true
+    }
+}
+
+const POINT_LIGHT: &str = "Vertical collimated beam on the whole outline, unpolarised, Fresnel with its polarisation followed \
+    inside (scalar with --polarisation off); exits upward through the crown.";
+const ABSORBED: &str = "What a stone absorbs counts at each line.";
+const EXACT_AREAS: &str = "Of clear stones by exact beams, those too small to be followed by photons.";
+
+/// What the rows have in common.
+const ROW: Metric = Metric {
+    unit: "°",
+    source: "after the DCLR of I. M. Reinitz et al., Gems & Gemology 37 (2001) 174, whose formula is not public",
+    ..Metric::of(&PointLightKind, MetricSource::Sums(Statistic::Mean(LIT, POINTS, 1.0)))
+};
+
+/// The metrics.
+static METRICS: [Metric; 4] = [
+    Metric {
+        name: "fire_lit",
+        about: "area of the beams that a point light sends out of the crown, per area of the stone (surrogate of \
+            GIA's DCLR)",
+        unit: "",
+        range: (0.0, 1e3),
+        better: Better::More,
+        definition: &[
+            POINT_LIGHT,
+            "Area of the exiting beams brighter than 1e-3 of the incident irradiance, weighted by cos² of \
+                the angle from zenith, per outline area; mean of the lines B C D e F G. A surrogate.",
+            EXACT_AREAS,
+            ABSORBED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Mean(LIT, POINTS, 1.0)),
+        ..ROW
+    },
+    Metric {
+        name: "fire_streak",
+        about: "length of the colour streaks, line B to G, summed over the beams that a point light sends out of \
+            the crown (surrogate of GIA's DCLR)",
+        range: (0.0, 1e3),
+        better: Better::More,
+        definition: &[
+            POINT_LIGHT,
+            "Area of the exiting beams brighter than 1e-3 of the incident irradiance at D, weighted by \
+                cos² of the angle from zenith and by the angle between lines B and G where both leave by the \
+                same facets, per outline area. A surrogate.",
+            EXACT_AREAS,
+            ABSORBED,
+        ],
+        read_from: MetricSource::Sums(Statistic::Mean(STREAK_DEG, POINTS, 1.0)),
+        ..ROW
+    },
+    Metric {
+        name: "dispersion_mean",
+        about: "mean angle between lines B and G of one exit, by power; read it beside light return",
+        range: (0.0, 180.0),
+        by_beams: true,
+        definition: &[
+            POINT_LIGHT,
+            "Angle between lines B and G where both leave by the same facets as D, mean weighted by the \
+                power at D. High for stones that return little: read it beside light return.",
+            ABSORBED,
+        ],
+        source: "defined by cutlab",
+        read_from: MetricSource::Sums(Statistic::Smooth(|t| t[POWER_ANGLE_DEG] / t[PAIRED_POWER])),
+        ..ROW
+    },
+    Metric {
+        name: "dispersion_median",
+        about: "median angle between lines B and G of one exit, by power; read it beside light return",
+        range: (0.0, 180.0),
+        definition: &[
+            POINT_LIGHT,
+            "Angle between lines B and G where both leave by the same facets as D: half the power at D \
+                leaves with less. Median of grouped data: the power of each class of 0.05° counts as spread \
+                evenly over it, because facets give a few sharp angles; angles under 0.001° count as 0.",
+            ABSORBED,
+            "The error is the longer side of a 95 % confidence interval over 1.96: between two peaks it \
+                reaches from one to the other until the rays can tell on which the half falls.",
+        ],
+        source: "defined by cutlab",
+        read_from: MetricSource::Sums(Statistic::Median(CLASS_DEG)),
+        ..ROW
+    },
+];

@@ -1,11 +1,14 @@
 //! Quadrature: the dome of the hemisphere, direction by direction, each by beams.
 
 use super::batches::Estimator;
+use super::hemisphere::{self, ARRIVED, DRAWN, GLARE, LEAKED, LOST, RETURNED, RETURNED_COS2};
 use super::horizon::is_up;
-use super::{EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling, hemisphere};
+use super::kind::{Method, Metric, Setup};
+use super::{EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling};
 use crate::optics::stokes::Stokes;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
+use crate::sampling::tally::Tally;
 use crate::trace::beams::residual::{ResidualClient, ResidualPhotons};
 use crate::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, EntryFacet, IncidentBeam, Interface, ResidualBeam, StopCriteria,
@@ -16,13 +19,16 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+/// Directions of the dome, one stream a batch.
+const STREAM: Purpose = Purpose::named("quadrature");
+
 /// Beams weaker than this share of the light on the outline are left to photons.
 const STOP_POWER: f64 = 3e-4;
 
 /// Photons that finish the beams of one direction (half to all of them are drawn).
 const PHOTONS: usize = 64;
 
-/// The sums of [`hemisphere::HemisphereTally`] over evenly spread directions of the dome, uniform by solid
+/// The sums of [`super::Hemisphere`] over evenly spread directions of the dome, uniform by solid
 /// angle, each followed over the whole crown at once by beams and finished by a few photons.
 ///
 /// Batches shift their directions at random, so their spread is the error of the quadrature, photons
@@ -55,7 +61,7 @@ impl<'a> Quadrature<'a> {
     }
 
     /// Adds what one direction of the sky brings.
-    fn add(&self, sky: DVec3, seed: u64, tally: &mut hemisphere::HemisphereTally) {
+    fn add(&self, sky: DVec3, seed: u64, tally: &mut Tally) {
         let lit = IncidentBeam { direction: -sky, indices: [self.index] };
         let mut one = DirectionVisitor {
             crown: &self.crown,
@@ -82,23 +88,20 @@ impl<'a> Quadrature<'a> {
         let facets = self.beams.facets();
         let lit_area =
             |f: usize| facets.area(f) * facets.planes[f].normal.dot(sky).max(0.0) * f64::from(self.crown[f]);
-        tally.drawn += 1.0;
-        tally.arrived += (0..facets.count()).map(lit_area).sum::<f64>();
-        tally.glare += outline * glare;
-        tally.returned += outline * sums.returned;
-        tally.returned_cos2 += outline * sums.returned_cos2;
-        tally.leaked += outline * sums.leaked;
-        tally.lost += outline * photon * lost;
+        tally[DRAWN] += 1.0;
+        tally[ARRIVED] += (0..facets.count()).map(lit_area).sum::<f64>();
+        tally[GLARE] += outline * glare;
+        tally[RETURNED] += outline * sums.returned;
+        tally[RETURNED_COS2] += outline * sums.returned_cos2;
+        tally[LEAKED] += outline * sums.leaked;
+        tally[LOST] += outline * photon * lost;
     }
 }
 
 impl Estimator for Quadrature<'_> {
-    type Tally = hemisphere::HemisphereTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut hemisphere::HemisphereTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let first = points.start;
-        for (i, [u, v]) in (first..).zip(KroneckerPoints::<2>::new(seed, Purpose::Quadrature, batch, points))
-        {
+        for (i, [u, v]) in (first..).zip(KroneckerPoints::<2>::new(seed, STREAM, batch, points)) {
             let (sin, cos) = (TAU * v).sin_cos();
             let across = (1.0 - u * u).sqrt();
             let ViewFrame { axis, right, top } = self.view_frame;
@@ -107,6 +110,19 @@ impl Estimator for Quadrature<'_> {
             self.add(axis * u + (right * cos + top * sin) * across, photons, tally);
         }
     }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        hemisphere::bounds_of_untraced(sums)
+    }
+}
+
+/// So many points of the hemisphere are as dear as a direction of the dome that is followed by beams.
+const COST: u64 = 256;
+
+/// The method by beams of the hemisphere's metrics.
+pub(super) fn methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+    let Setup { medium, view_frame, .. } = setup;
+    vec![Method::samples("quadrature", COST, move || Quadrature::in_frame(stone, &medium, view_frame))]
 }
 
 /// Light that goes on only if it entered through the crown.

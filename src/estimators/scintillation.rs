@@ -2,18 +2,23 @@
 
 use super::batches::Estimator;
 use super::entry_sampling::Silhouette;
-use super::pixel_cells::{self, CellTracer, PixelCell, SampleGroups, SightLine};
-use super::view::ObserverDome;
+use super::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
+use super::pixel_cells::{self, AGS_OBSERVER_DEG, CellTracer, PixelCell, SampleGroups, SightLine};
+use super::viewer_lighting::ObserverDome;
 use super::{EstimatorError, TraceOptics, ViewFrame};
 use crate::design::Zone;
 use crate::geometry::Polyhedron;
 use crate::geometry::measure::centroid;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
-use crate::sampling::stats::Accumulate;
+use crate::sampling::statistic::Statistic;
+use crate::sampling::tally::{Column, Tally};
 use crate::trace::ConvexStone;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
+
+/// Cells of the rocked picture, one stream a batch and one a run of it.
+const STREAM: Purpose = Purpose::named("scintillation");
 
 /// Tilts to each side, in steps of a degree, about the picture's right and top.
 const REACH: i32 = 15;
@@ -22,7 +27,7 @@ const REACH: i32 = 15;
 const STEPS: usize = 4 * REACH as usize;
 
 /// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
-/// [`ScintillationTally::last`], and is about what is left to take off: checked in `tests/faceter_view.rs`.
+/// [`LAST`], and is about what is left to take off: checked in `tests/faceter_view.rs`.
 const FINEST: u32 = 10;
 
 /// A cell has 2^k points or more with probability 2^(−k · this).
@@ -75,26 +80,16 @@ pub fn pivot(solid: &Polyhedron) -> DVec3 {
     centroid(&outline).extend(0.5 * (least + most))
 }
 
-/// Sums of a batch.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ScintillationTally {
+// Sums of a batch.
+crate::columns! {
     /// Cells, drawn in proportion to their share of the outline.
-    pub cells: f64,
+    CELLS,
     /// Σ luminance, dome = 1.
-    pub luminance: f64,
+    LUMINANCE,
     /// Σ |change of a cell's luminance| in one step.
-    pub change: f64,
+    CHANGE,
     /// The part of it that the doubling to the most points has added (negative).
-    pub last: f64,
-}
-
-impl Accumulate for ScintillationTally {
-    fn accumulate(&mut self, other: &ScintillationTally) {
-        self.cells += other.cells;
-        self.luminance += other.luminance;
-        self.change += other.change;
-        self.last += other.last;
-    }
+    LAST,
 }
 
 impl<'a> Scintillation<'a> {
@@ -148,7 +143,7 @@ struct Changes<'a> {
     estimator: &'a Scintillation<'a>,
     points: KroneckerPoints<3>,
     stream: Stream,
-    tally: &'a mut ScintillationTally,
+    tally: &'a mut Tally,
     /// Changes of points, then of ever larger parts of a cell.
     changes: Vec<f64>,
 }
@@ -181,11 +176,11 @@ impl SampleGroups for Changes<'_> {
         self.changes.clear();
         self.changes.extend(luminances.chunks_exact(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])));
         let sum: f64 = luminances.iter().map(|l| f64::from(*l)).sum();
-        self.tally.cells += 1.0;
-        self.tally.luminance += sum / luminances.len() as f64;
+        self.tally[CELLS] += 1.0;
+        self.tally[LUMINANCE] += sum / luminances.len() as f64;
         let (change, last) = unbiased(&mut self.changes);
-        self.tally.change += change;
-        self.tally.last += if luminances.len() == 2 << FINEST { last } else { 0.0 };
+        self.tally[CHANGE] += change;
+        self.tally[LAST] += if luminances.len() == 2 << FINEST { last } else { 0.0 };
     }
 }
 
@@ -216,20 +211,73 @@ fn unbiased(changes: &mut Vec<f64>) -> (f64, f64) {
 }
 
 impl Estimator for Scintillation<'_> {
-    type Tally = ScintillationTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ScintillationTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let start = points.start;
         let mut changes = Changes {
             estimator: self,
-            stream: pixel_cells::stream(seed, Purpose::Scintillation, batch, start),
-            points: KroneckerPoints::new(seed, Purpose::Scintillation, batch, points),
+            stream: pixel_cells::stream(seed, STREAM, batch, start),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             changes: Vec::new(),
         };
         self.seen.trace(&mut changes, seed, batch, start);
     }
 }
+
+/// So many points of the hemisphere are as dear as a cell of one to a thousand points, three on average, seen
+/// twice.
+const COST: u64 = 6;
+
+/// Scintillation as scores have it.
+#[derive(Debug, Clone, Copy)]
+pub struct ScintillationKind;
+
+impl EstimatorKind for ScintillationKind {
+    fn name(&self) -> &'static str {
+        "scintillation"
+    }
+
+    fn metrics(&self) -> &'static [Metric] {
+        &METRICS
+    }
+
+    fn columns(&self) -> &'static [Column] {
+        &COLUMNS
+    }
+
+    fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
+        let cost = COST * setup.medium.wavelengths_per_point();
+        let dome = setup.dome(AGS_OBSERVER_DEG);
+        vec![Method::samples("scintillation", cost, move || {
+            let estimator = Scintillation::in_frame(stone, &setup.medium, setup.view_frame, dome)?;
+            Ok(estimator.with_stop_power(setup.stop_power))
+        })]
+    }
+}
+
+/// The metrics.
+static METRICS: [Metric; 1] = [Metric {
+    name: "scintillation",
+    about: "how much the picture changes for each degree that the stone is rocked",
+    unit: "1/°",
+    range: (0.0, 2.0),
+    observer: Some(AGS_OBSERVER_DEG),
+    definition: &[
+        "Parallel view traced backward over the whole outline;",
+        LIGHT,
+        "White dome above the horizon with a dark observer cone of 15° half-angle, or --observer; \
+                reflection at entry included. The luminance is the mean over square cells of 1/100 of the \
+                girdle's width (what of them lies in the outline; mean over all ways to lay the grid). The \
+                stone is rocked over ±15° in steps of 1° about the picture's right and about its top \
+                (azimuths 0 and 90°); the pivot is the middle of the table, which stays in its place in the \
+                picture, or without a table the middle of the outline at half the girdle's height. The dome \
+                stays with the viewer. Mean |change of a cell's luminance| in a step, per mean luminance, by \
+                the cells' area in the outline.",
+    ],
+    source: "resolution: J. Sasián et al., Optical Engineering 46 (2007) 093604; observer: American Gem \
+            Society; the figure is cutlab's",
+    ..Metric::of(&ScintillationKind, MetricSource::Sums(Statistic::Smooth(|t| t[CHANGE] / t[LUMINANCE])))
+}];
 
 #[cfg(test)]
 mod tests {
@@ -251,7 +299,7 @@ mod tests {
         }
         let of = |(i, p): (usize, &f64)| p * (2.0 * i as f64 / f64::from(n) - 1.0).abs();
         let expected: f64 = law.iter().enumerate().map(of).sum();
-        let mut stream = Stream::new(1, Purpose::Test, 3);
+        let mut stream = Stream::new(1, Purpose::TEST, 3);
         let (runs, mut sum, mut squares) = (400_000, 0.0, 0.0);
         for _ in 0..runs {
             let level = level(&mut stream);

@@ -2,93 +2,20 @@
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
-use super::horizon::{self, MAX_LEVEL_SINE, is_above, is_up};
-use super::wavelengths::{LINES_PER_RAY, Wavelengths};
+use super::horizon::{is_above, is_up};
+use super::viewer_lighting::BAND_LIMITS;
+pub use super::viewer_lighting::{AsetBand, GIA_OBSERVER_DEG, ObserverDome, SCOPE_DEG, ViewerLighting, band};
+use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
-pub use crate::color::viewers::{GIA_OBSERVER_DEG, SCOPE_DEG};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
-use crate::sampling::stats::Accumulate;
+use crate::sampling::tally::{Column, Tally};
 use crate::trace::lane_scheduler::{self, RayClient};
-use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet, Refraction};
+use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
 
-/// sin 45° and sin 75°: where the bands of the ASET end.
-const BAND_LIMITS: [f32; 2] = [std::f32::consts::FRAC_1_SQRT_2, 0.965_925_8];
-
-/// Where light comes from, by elevation above the girdle plane. Numbers index the arrays of
-/// [`ViewTally`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub enum AsetBand {
-    /// 0–45°.
-    Green = 0,
-    /// 45–75°.
-    Red = 1,
-    /// 75–90°.
-    Blue = 2,
-    /// Below the horizon.
-    Below = 3,
-}
-
-/// A white dome above the viewer's horizon, dark where his head is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObserverDome {
-    /// Cosine of the dark cone's half-angle.
-    dark_from: f32,
-}
-
-impl ObserverDome {
-    /// A dome with a dark cone about the viewer.
-    ///
-    /// - `half_angle`: of the cone, degrees; 0 for no cone at all
-    pub fn with_observer(half_angle: f64) -> ObserverDome {
-        let cos = half_angle.to_radians().cos() as f32;
-        // light along the edge of the cone is bright; but no cone is too small to hold the zenith
-        let edge = cos + MAX_LEVEL_SINE.min(0.5 * (1.0 - cos));
-        ObserverDome { dark_from: if half_angle > 0.0 { edge } else { f32::INFINITY } }
-    }
-
-    /// Whether light comes from the height (sine of the elevation).
-    #[inline(always)]
-    pub fn is_bright(&self, height: f32) -> bool {
-        horizon::is_up(height) && height < self.dark_from
-    }
-
-    /// Whether light comes from the dark cone about the viewer.
-    #[inline(always)]
-    pub fn is_hidden(&self, height: f32) -> bool {
-        height >= self.dark_from.max(f32::MIN_POSITIVE)
-    }
-
-    /// The height at which the outer side of a facet mirrors the viewer's line of sight.
-    pub fn mirror_height(entry: &Refraction) -> f32 {
-        2.0 * entry.cos_outside * entry.cos_outside - 1.0
-    }
-
-    /// What the outer side of a facet mirrors of the dome towards the viewer.
-    pub fn mirrored(&self, entry: &Refraction) -> f32 {
-        if self.is_bright(ObserverDome::mirror_height(entry)) { entry.reflectance } else { 0.0 }
-    }
-}
-
-/// Lighting of a view.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ViewerLighting {
-    /// The dome whose dark cone is the black of the Ideal-Scope.
-    pub scope: ObserverDome,
-    /// The dome that luminance is seen under.
-    pub dome: ObserverDome,
-}
-
-impl Default for ViewerLighting {
-    fn default() -> Self {
-        ViewerLighting {
-            scope: ObserverDome::with_observer(SCOPE_DEG),
-            dome: ObserverDome::with_observer(GIA_OBSERVER_DEG),
-        }
-    }
-}
+/// Points of the outline, one stream a batch.
+pub(super) const STREAM: Purpose = Purpose::named("view");
 
 /// Share of the dome's luminance below which a point counts as dark.
 pub const DARK: f32 = 0.1;
@@ -107,76 +34,64 @@ pub struct View<'a> {
     pavilion: Vec<f32>,
 }
 
-/// Sums of a batch; every ray has power 1.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct ViewTally {
+// Sums of a batch; every ray has power 1.
+crate::columns! {
     /// Rays.
-    pub rays: f64,
+    RAYS,
     /// Reflected at entry.
-    pub reflected: f64,
-    /// Power by [`AsetBand`], whatever facet it leaves through.
-    pub bands: [f64; 4],
+    REFLECTED,
+    /// Power from 0 to 45° above the girdle plane, whatever facet it leaves through.
+    GREEN,
+    /// Power from 45 to 75°.
+    RED,
+    /// Power from 75 to 90°.
+    BLUE,
+    /// Power from below the horizon.
+    BELOW,
     /// Power that leaves upward, weighted by cos² from zenith.
-    pub up_cos2: f64,
+    UP_COS2,
     /// Taken by the stone.
-    pub absorbed: f64,
+    ABSORBED,
     /// Given up inside.
-    pub lost: f64,
-    /// Rays by the [`AsetBand`] of their strongest path (reflection at entry aside).
-    pub strongest: [f64; 4],
+    LOST,
+    /// Rays whose strongest path (reflection at entry aside) comes from 0 to 45° above the girdle plane.
+    STRONGEST_GREEN,
+    /// The same from 45 to 75°.
+    STRONGEST_RED,
+    /// The same from 75 to 90°.
+    STRONGEST_BLUE,
+    /// The same from below the horizon.
+    STRONGEST_BELOW,
     /// Power from above the horizon outside the cone of the Ideal-Scope.
-    pub scope_bright: f64,
+    SCOPE_BRIGHT,
     /// Power from above the horizon inside that cone.
-    pub scope_dark: f64,
+    SCOPE_DARK,
     /// Luminance under the dome, reflection at entry included.
-    pub luminance: f64,
+    LUMINANCE,
     /// Rays whose strongest path leaves through the first pavilion facet that it meets.
-    pub windowed: f64,
+    WINDOWED,
     /// Other rays with a luminance below [`DARK`].
-    pub dark: f64,
+    DARK_RAYS,
 }
 
-impl Accumulate for ViewTally {
-    fn accumulate(&mut self, other: &ViewTally) {
-        self.rays += other.rays;
-        self.reflected += other.reflected;
-        self.bands.accumulate(&other.bands);
-        self.up_cos2 += other.up_cos2;
-        self.absorbed += other.absorbed;
-        self.lost += other.lost;
-        self.strongest.accumulate(&other.strongest);
-        self.scope_bright += other.scope_bright;
-        self.scope_dark += other.scope_dark;
-        self.luminance += other.luminance;
-        self.windowed += other.windowed;
-        self.dark += other.dark;
-    }
+/// Power by [`AsetBand`].
+pub const BANDS: [Column; 4] = [GREEN, RED, BLUE, BELOW];
 
-    /// All from one band, or from within the observer's cone.
-    fn bounds_of_untraced(&self) -> Vec<ViewTally> {
-        let from = |band: usize, bright: f64| {
-            let mut tally = self.clone();
-            tally.bands[band] += self.lost;
-            tally.up_cos2 += if band < AsetBand::Below as usize { self.lost } else { 0.0 };
-            tally.scope_bright += bright * self.lost;
-            tally.luminance += bright * self.lost;
-            tally
-        };
-        // a clear stone takes none of it
-        let absorbs = self.absorbed > 0.0;
-        let absorbed = absorbs.then(|| ViewTally { absorbed: self.absorbed + self.lost, ..self.clone() });
-        let zenith = AsetBand::Blue as usize;
-        let sky = (0..=zenith).map(|band| from(band, 1.0));
-        let viewer = ViewTally { scope_dark: self.scope_dark + self.lost, ..from(zenith, 0.0) };
-        sky.chain([viewer, from(AsetBand::Below as usize, 0.0)]).chain(absorbed).collect()
-    }
+/// Rays by the [`AsetBand`] of their strongest path.
+pub const STRONGEST: [Column; 4] = [STRONGEST_GREEN, STRONGEST_RED, STRONGEST_BLUE, STRONGEST_BELOW];
+
+/// All that was given up from one band, or from within the observer's cone.
+pub(super) fn bounds_of_untraced(sums: &Tally) -> Vec<Tally> {
+    let all = |columns: &[Column]| sums.with(columns, sums[LOST]);
+    let sky = [GREEN, RED, BLUE].map(|band| all(&[band, UP_COS2, SCOPE_BRIGHT, LUMINANCE]));
+    // a clear stone takes none of it
+    let absorbed = (sums[ABSORBED] > 0.0).then(|| all(&[ABSORBED]));
+    sky.into_iter().chain([all(&[BLUE, UP_COS2, SCOPE_DARK]), all(&[BELOW])]).chain(absorbed).collect()
 }
 
-impl ViewTally {
-    /// Power that leaves upward.
-    pub fn up(&self) -> f64 {
-        self.bands[..3].iter().sum()
-    }
+/// Power that leaves upward.
+pub fn up(sums: &Tally) -> f64 {
+    [GREEN, RED, BLUE].iter().map(|band| sums[*band]).sum()
 }
 
 impl<'a> View<'a> {
@@ -210,25 +125,12 @@ impl<'a> View<'a> {
     }
 }
 
-/// The band of a direction whose z is `z`.
-pub fn band(z: f32) -> AsetBand {
-    if is_above(z, BAND_LIMITS[1]) {
-        AsetBand::Blue
-    } else if is_above(z, BAND_LIMITS[0]) {
-        AsetBand::Red
-    } else if is_up(z) {
-        AsetBand::Green
-    } else {
-        AsetBand::Below
-    }
-}
-
 /// The rays of a run of points, `K` wavelengths each; sums of a ray are kept in its first lane.
 struct ViewClient<'a, const K: usize> {
     estimator: &'a View<'a>,
     points: KroneckerPoints<2>,
     hues: KroneckerPoints<1>,
-    tally: &'a mut ViewTally,
+    tally: &'a mut Tally,
     bands: [Lanes; 4],
     up_cos2: Lanes,
     absorbed: Lanes,
@@ -262,12 +164,12 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
         let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
         let View { stone, light, view_frame, outline, lighting: surroundings, .. } = self.estimator;
         let ((facet, point), toward) = (outline.sample(u), -view_frame.axis.as_vec3());
-        self.tally.rays += 1.0;
+        self.tally[RAYS] += 1.0;
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
             let entry = optics.enter(packet, lane, stone, facet, point, toward);
             self.luminance[lane] = surroundings.dome.mirrored(&entry);
             self.been_below[lane] = 0.0;
-            self.tally.reflected += f64::from(entry.reflectance) / K as f64;
+            self.tally[REFLECTED] += f64::from(entry.reflectance) / K as f64;
         }
         true
     }
@@ -316,31 +218,31 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
             let all = sums[lane..lane + K].iter_mut().map(|sum| f64::from(std::mem::take(sum)));
             all.sum::<f64>() / K as f64
         };
-        for (sum, lanes) in self.tally.bands.iter_mut().zip(&mut self.bands) {
-            *sum += take(lanes);
+        for (band, lanes) in BANDS.into_iter().zip(&mut self.bands) {
+            self.tally[band] += take(lanes);
         }
-        self.tally.up_cos2 += take(&mut self.up_cos2);
-        self.tally.absorbed += take(&mut self.absorbed);
-        self.tally.scope_bright += take(&mut self.scope_bright);
-        self.tally.scope_dark += take(&mut self.scope_dark);
+        self.tally[UP_COS2] += take(&mut self.up_cos2);
+        self.tally[ABSORBED] += take(&mut self.absorbed);
+        self.tally[SCOPE_BRIGHT] += take(&mut self.scope_bright);
+        self.tally[SCOPE_DARK] += take(&mut self.scope_dark);
         let (luminance, windowed) = (take(&mut self.luminance), of_ray(&mut self.windowed));
-        self.tally.luminance += luminance;
-        self.tally.windowed += windowed;
-        self.tally.dark += if luminance < f64::from(DARK) { 1.0 - windowed } else { 0.0 };
+        self.tally[LUMINANCE] += luminance;
+        self.tally[WINDOWED] += windowed;
+        self.tally[DARK_RAYS] += if luminance < f64::from(DARK) { 1.0 - windowed } else { 0.0 };
         if of_ray(&mut self.strongest) > 0.0 {
-            self.tally.strongest[band(self.strongest_z[lane]) as usize] += 1.0;
+            self.tally[STRONGEST[band(self.strongest_z[lane]) as usize]] += 1.0;
         }
     }
 }
 
 impl View<'_> {
     /// Traces points in `K` wavelengths each.
-    fn trace_in<const K: usize>(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ViewTally) {
+    fn trace_in<const K: usize>(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let zero = [0.0; LANES];
         let mut client = ViewClient::<K> {
             estimator: self,
-            hues: KroneckerPoints::new(seed, Purpose::ScoreHue, batch, points.clone()),
-            points: KroneckerPoints::new(seed, Purpose::View, batch, points),
+            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             bands: [zero; 4],
             up_cos2: zero,
@@ -354,31 +256,20 @@ impl View<'_> {
             windowed: zero,
         };
         let lost = lane_scheduler::trace_all(self.stone, self.stop_power, &mut client);
-        tally.lost += lost / K as f64;
+        tally[LOST] += lost / K as f64;
     }
 }
 
 impl Estimator for View<'_> {
-    type Tally = ViewTally;
-
-    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut ViewTally) {
+    fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         if self.light.absorb() {
             self.trace_in::<LINES_PER_RAY>(seed, batch, points, tally);
         } else {
             self.trace_in::<1>(seed, batch, points, tally);
         }
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::color::viewers::ASET_DEG;
-
-    #[test]
-    fn the_bands_are_those_of_the_viewer() {
-        for (end, deg) in BAND_LIMITS.iter().zip(&ASET_DEG[1..]) {
-            assert!((end - deg.to_radians().sin()).abs() < 1e-6);
-        }
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        bounds_of_untraced(sums)
     }
 }

@@ -4,6 +4,10 @@ pub(super) use super::trace_optics::LINES_PER_RAY;
 use super::{EstimatorError, LineOptics, TraceOptics};
 use crate::color::luminance;
 use crate::optics::dispersion::lines;
+use crate::sampling::random::Purpose;
+
+/// Wavelengths of the scores of stones that absorb, one stream a batch.
+pub(super) const HUE_STREAM: Purpose = Purpose::named("score hue");
 
 /// Classes of wavelengths, alike in luminance: a tenth of a nanometre wide in the green.
 const CLASSES: usize = 2048;

@@ -137,7 +137,7 @@ mod tests {
             planes.push(Plane::new(DVec3::new(s, c, 1.1), 0.6));
         }
         let exact = Polyhedron::from_planes(&planes).expect("closed").volume();
-        let mut stream = Stream::new(1708, Purpose::Pixel, 0);
+        let mut stream = Stream::new(1708, Purpose::named("pixel"), 0);
         for noise in [1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7] {
             for _ in 0..50 {
                 let mut draw = || (2.0 * stream.unit64() - 1.0) * noise;

@@ -26,6 +26,17 @@ const SHADOW_RAYS_EACH: u32 = 9;
 /// lie closer together share one.
 const HOLDS: f32 = 0.1;
 
+/// Places of camera rays, one stream a pixel.
+const CAMERA_STREAM: Purpose = Purpose::named("camera ray");
+/// Wavelengths of camera rays, one stream a pixel.
+const HUE_STREAM: Purpose = Purpose::named("hue");
+/// Places where camera rays cross the lens, one stream a pixel.
+const LENS_STREAM: Purpose = Purpose::named("lens");
+/// Places of lights that shadow rays look at, one stream a pixel and light.
+const SHADOW_STREAM: Purpose = Purpose::named("shadow ray");
+/// Other choices of camera rays, one stream a pixel.
+const PIXEL_STREAM: Purpose = Purpose::named("pixel");
+
 /// Renders a picture.
 ///
 /// - `row_done`: called after each row, from any thread
@@ -104,15 +115,10 @@ impl CameraIntegrator<'_> {
         };
         let lights = self.scene.lights.len() as u64;
         let shadow = |light| {
-            KroneckerPoints::new(
-                seed,
-                Purpose::ShadowRay,
-                number * lights + light,
-                numbers(self.shadow_rays()),
-            )
+            KroneckerPoints::new(seed, SHADOW_STREAM, number * lights + light, numbers(self.shadow_rays()))
         };
         let mut shared = Shared {
-            stream: Stream::new(seed, Purpose::Pixel, number | u64::from(round) << 32),
+            stream: Stream::new(seed, PIXEL_STREAM, number | u64::from(round) << 32),
             shadows: (0..lights).map(shadow).collect(),
             seen: None,
             entering: Vec::new(),
@@ -150,9 +156,9 @@ impl CameraIntegrator<'_> {
     /// the plane, which is where edges of facets are, than one for all is.
     fn places(&self, pixel: u64, rays: Range<u64>) -> impl Iterator<Item = [f64; 5]> {
         let seed = self.settings.seed;
-        let places = KroneckerPoints::<2>::new(seed, Purpose::CameraRay, pixel, rays.clone());
-        let hues = KroneckerPoints::<1>::new(seed, Purpose::Hue, pixel, rays.clone());
-        let lens = KroneckerPoints::<2>::new(seed, Purpose::Lens, pixel, rays);
+        let places = KroneckerPoints::<2>::new(seed, CAMERA_STREAM, pixel, rays.clone());
+        let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, pixel, rays.clone());
+        let lens = KroneckerPoints::<2>::new(seed, LENS_STREAM, pixel, rays);
         places.zip(hues).zip(lens).map(|(([across, down], [hue]), [u, v])| [across, down, hue, u, v])
     }
 

@@ -31,6 +31,9 @@ const RANGE_UM: (f32, f32) = (0.43, 0.66);
 /// Points of place and wavelength that a pixel's share is the mean of.
 const POINTS: u64 = 128;
 
+/// Points by which glare is averaged, one stream a pixel of its spread.
+const STREAM: Purpose = Purpose::named("glare");
+
 /// Where the light of one pixel goes: shares of red, green and blue, which add up to 1.
 struct PointSpread {
     reach: i32,
@@ -67,7 +70,7 @@ impl PointSpread {
 /// Share of the light that lands in a pixel at a distance from its own.
 fn share(pixel: Vec2, f_number: f32, pixel_um: f32, number: u64) -> Vec3 {
     let (mut sum, mut white) = (Vec3::ZERO, Vec3::ZERO);
-    for point in KroneckerPoints::<3>::new(0, Purpose::Glare, number, 0..POINTS) {
+    for point in KroneckerPoints::<3>::new(0, STREAM, number, 0..POINTS) {
         let [x, y, hue] = point.map(|p| p as f32);
         let um = RANGE_UM.0 + (RANGE_UM.1 - RANGE_UM.0) * hue;
         let k_per_um = TAU / (um * f_number);

@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn roulette_and_choice_are_right_on_average() {
         let red = Reflectance::Edge { low: 0.1, high: 0.8, edge_nm: 600.0 };
-        let mut stream = Stream::new(1, Purpose::Test, 0);
+        let mut stream = Stream::new(1, Purpose::TEST, 0);
         let (n, mut mean, mut expected) = (200_000, [0f64; BANDS], [0f64; BANDS]);
         for _ in 0..n {
             let mut light = PhotonLight::new(|_| 1.0, stream.unit());

@@ -9,7 +9,7 @@ use crate::materials::Material;
 use crate::metrics::Metric;
 
 /// A sweep of the reference brilliant in diamond; `reports/sweeps/README.md` has its command.
-const TABLE: &str = include_str!("../../reports/sweeps/crown-pavilion-wlr.csv");
+const TABLE: &str = include_str!("data/crown-pavilion-wlr.csv");
 
 const KEYS: [&str; 2] = ["crown-angle", "pavilion-angle"];
 

@@ -10,9 +10,8 @@ use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreRequest, Target, s
 use crate::stone::Stone;
 use std::collections::BTreeMap;
 
-/// Made with `cutlab score STONES -o reports/references.csv`, STONES as [`STONES`] names them, in
-/// diamond, seed 1.
-const TABLE: &str = include_str!("../../reports/references.csv");
+/// Made with `cutlab score STONES -o references.csv`, STONES as [`STONES`] names them, in diamond, seed 1.
+const TABLE: &str = include_str!("data/references.csv");
 
 /// Name on the page, proportions in words, and the stone for the command line, in the order of the
 /// table's rows. Source: the project's five stones for cross-checks.
@@ -95,7 +94,7 @@ mod tests {
         assert_eq!(names.len(), STONES.len());
         assert!(names.iter().zip(STONES).all(|(line, (.., stone))| line.starts_with(stone)), "{names:?}");
         let references = References::read().expect("can be read");
-        for metric in METRICS {
+        for metric in METRICS.iter() {
             assert!(
                 references.scores(metric).iter().all(Option::is_some),
                 "{}: score them afresh",

@@ -21,7 +21,7 @@ const HEADS: [Head; 6] = [
         name: "Brilliance",
         about: "How much light comes back to someone who looks at the crown. D line.",
         large: &["wlr", "leakage"],
-        takes: |m| matches!(m.read_from, MetricSource::Hemisphere(_)) || m.name == "brightness",
+        takes: |m| m.estimator.name() == "hemisphere" || m.name == "brightness",
     },
     Head {
         name: "Dispersion",
@@ -34,7 +34,7 @@ const HEADS: [Head; 6] = [
         about: "How much the face-up picture varies, and how much it changes when the stone is rocked.",
         large: &[],
         takes: |m| {
-            matches!(m.read_from, MetricSource::Contrast(_) | MetricSource::Scintillation(_))
+            ["contrast", "scintillation"].contains(&m.estimator.name())
                 || ["extinction", "windowing"].contains(&m.name)
         },
     },
@@ -42,7 +42,7 @@ const HEADS: [Head; 6] = [
         name: "Faceters’ scores",
         about: "Light return by the rules of faceters, of the whole stone and of the table alone, in percent.",
         large: &[],
-        takes: |m| matches!(m.read_from, MetricSource::FaceterView(_)),
+        takes: |m| m.estimator.name() == "iso",
     },
     Head {
         name: "Weight and spread",
@@ -109,9 +109,9 @@ mod tests {
             tilt: None,
         };
         let row = score(&nothing, &ScoreRequest::default());
-        let sections = sections(METRICS, &row, &References::read().expect("can be read"));
+        let sections = sections(&METRICS, &row, &References::read().expect("can be read"));
         let names: Vec<&str> = sections.iter().flat_map(|s| &s.scores).map(|s| s.name.as_str()).collect();
-        for metric in METRICS {
+        for metric in METRICS.iter() {
             assert_eq!(names.iter().filter(|n| **n == metric.name).count(), 1, "{}", metric.name);
         }
         assert!(sections.iter().all(|s| s.large <= s.scores.len()));

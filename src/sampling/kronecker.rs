@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn a_point_does_not_depend_on_where_its_run_starts() {
-        let all: Vec<_> = KroneckerPoints::<4>::new(3, Purpose::Test, 7, 0..100).collect();
-        let tail: Vec<_> = KroneckerPoints::<4>::new(3, Purpose::Test, 7, 60..100).collect();
+        let all: Vec<_> = KroneckerPoints::<4>::new(3, Purpose::TEST, 7, 0..100).collect();
+        let tail: Vec<_> = KroneckerPoints::<4>::new(3, Purpose::TEST, 7, 60..100).collect();
         assert_eq!(all[60..], tail);
         assert!(all.iter().flatten().all(|x| *x > 0.0 && *x < 1.0));
     }
@@ -74,7 +74,7 @@ mod tests {
         // share of a quarter disc: independent points would be off by √(π/4(1−π/4)/n) = .0064
         let n = 4096;
         for batch in 0..8 {
-            let inside = KroneckerPoints::<2>::new(3, Purpose::Test, batch, 0..n)
+            let inside = KroneckerPoints::<2>::new(3, Purpose::TEST, batch, 0..n)
                 .filter(|p| p[0] * p[0] + p[1] * p[1] < 1.0)
                 .count();
             let off = inside as f64 / n as f64 - std::f64::consts::FRAC_PI_4;

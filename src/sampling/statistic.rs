@@ -1,42 +1,26 @@
 //! Statistics of independent batches: what a score is of their sums, and with it how its error is
 //! found.
 
-use super::histogram::{CumulativeHistogram, Histogram};
-use super::stats::{self, Accumulate, Estimate, NORMAL_95};
+use super::histogram::CumulativeHistogram;
+use super::stats::{self, Estimate, NORMAL_95};
+use super::tally::{Column, Tally};
 
 /// A score as a function of the sums of batches. Its kind decides how the error is found.
-pub enum Statistic<T> {
+#[derive(Debug, Clone, Copy)]
+pub enum Statistic {
     /// A smooth function of the sums, by the jackknife ([`stats::jackknife`]). Batches that agree to
     /// the last bit give it exactly.
-    Smooth(fn(&T) -> f64),
-    /// A mean over samples, in units of `most`, the greatest that one sample can add: sum, and number
-    /// of samples. By the jackknife; but where nothing was seen, that is not certain ([`nothing_seen`]).
-    Mean(fn(&T) -> [f64; 2], f64),
-    /// The share of samples that are of a kind: their number, and that of all. By Wilson's interval
-    /// (`share` in this file).
-    Share(fn(&T) -> [f64; 2]),
-    /// The median of a quantity with a histogram of weights, whose classes are so wide: by a
+    Smooth(fn(&Tally) -> f64),
+    /// A mean over samples, in units of the number, the greatest that one sample can add: the columns of
+    /// the sum and of the number of samples. By the jackknife; but where nothing was seen, that is not
+    /// certain ([`nothing_seen`]).
+    Mean(Column, Column, f64),
+    /// The share of samples that are of a kind: the columns of their number, and that of all. By Wilson's
+    /// interval (`share` in this file).
+    Share(Column, Column),
+    /// The median of the quantity that the tally's histogram has, whose classes are so wide: by a
     /// confidence interval (`error_of_median` in this file).
-    Median(fn(&T) -> &Histogram, f64),
-}
-
-impl<T> Clone for Statistic<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Statistic<T> {}
-
-impl<T> std::fmt::Debug for Statistic<T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str(match self {
-            Statistic::Smooth(_) => "Smooth",
-            Statistic::Mean(..) => "Mean",
-            Statistic::Share(_) => "Share",
-            Statistic::Median(..) => "Median",
-        })
-    }
+    Median(f64),
 }
 
 /// Not a number as 0: a batch that has seen nothing.
@@ -44,59 +28,55 @@ fn number(x: f64) -> f64 {
     if x.is_finite() { x } else { 0.0 }
 }
 
-impl<T: Accumulate> Statistic<T> {
+impl Statistic {
     /// The score of sums; not finite if nothing was seen that it could be a score of.
-    pub fn value(&self, sums: &T) -> f64 {
-        match self {
+    pub fn value(&self, sums: &Tally) -> f64 {
+        match *self {
             Statistic::Smooth(of) => of(sums),
-            Statistic::Mean(of, most) => {
-                let [sum, n] = of(sums);
-                most * sum / n
-            }
-            Statistic::Share(of) => {
-                let [seen, n] = of(sums);
-                seen / n
-            }
-            Statistic::Median(of, width) => of(sums).cumulative().median().map_or(f64::NAN, |m| m * width),
+            Statistic::Mean(sum, n, most) => most * sums[sum] / sums[n],
+            Statistic::Share(seen, n) => sums[seen] / sums[n],
+            Statistic::Median(width) => sums.histogram.cumulative().median().map_or(f64::NAN, |m| m * width),
         }
     }
 
     /// The score with its error, of batches of random samples; none if nothing was seen that it could
     /// be a score of. The error holds what was given up ([`stats::with_given_up`]).
-    pub fn sampled(&self, batches: &[T]) -> Option<Estimate> {
+    ///
+    /// - `bounds`: what sums would be had all the light that was given up gone one way, for each way
+    pub fn sampled(&self, batches: &[Tally], bounds: impl Fn(&Tally) -> Vec<Tally>) -> Option<Estimate> {
         let all = stats::all(batches);
         let value = Some(self.value(&all)).filter(|v| v.is_finite())?;
-        let found = match self {
+        let found = match *self {
             Statistic::Smooth(_) => self.jackknifed(batches),
-            Statistic::Mean(of, most) => match of(&all) {
-                [0.0, n] => Estimate { value, error: most * nothing_seen(n) },
-                _ => self.jackknifed(batches),
-            },
-            Statistic::Share(of) => share(self.jackknifed(batches), of(&all)[1]),
-            Statistic::Median(of, width) => {
+            Statistic::Mean(sum, n, most) if all[sum] == 0.0 => {
+                Estimate { value, error: most * nothing_seen(all[n]) }
+            }
+            Statistic::Mean(..) => self.jackknifed(batches),
+            Statistic::Share(_, n) => share(self.jackknifed(batches), all[n]),
+            Statistic::Median(width) => {
                 let cumulated: Vec<CumulativeHistogram> =
-                    batches.iter().map(|b| of(b).cumulative()).collect();
-                let error = error_of_median(value / width, &cumulated, of(&all).cumulative().classes());
-                Estimate { value, error: error * width }
+                    batches.iter().map(|b| b.histogram.cumulative()).collect();
+                let classes = all.histogram.cumulative().classes();
+                Estimate { value, error: error_of_median(value / width, &cumulated, classes) * width }
             }
         };
-        Some(stats::with_given_up(found, &all, |sums| self.value(sums)))
+        Some(stats::with_given_up(found, &all, &bounds(&all), |sums| self.value(sums)))
     }
 
     /// The same of batches that share what is known without samples (areas of beams) and differ in the
     /// rest alone: what all agree on is exact. Nothing but a median is known by samples alone.
-    pub fn computed(&self, batches: &[T]) -> Option<Estimate> {
+    pub fn computed(&self, batches: &[Tally], bounds: impl Fn(&Tally) -> Vec<Tally>) -> Option<Estimate> {
         let all = stats::all(batches);
         let value = Some(self.value(&all)).filter(|v| v.is_finite())?;
         let found = match (self, batches) {
-            (Statistic::Median(..), _) => return self.sampled(batches),
+            (Statistic::Median(_), _) => return self.sampled(batches, bounds),
             (_, [_]) => Estimate::exact(value),
             _ => self.jackknifed(batches),
         };
-        Some(stats::with_given_up(found, &all, |sums| self.value(sums)))
+        Some(stats::with_given_up(found, &all, &bounds(&all), |sums| self.value(sums)))
     }
 
-    fn jackknifed(&self, batches: &[T]) -> Estimate {
+    fn jackknifed(&self, batches: &[Tally]) -> Estimate {
         stats::jackknife(batches, |sums| number(self.value(sums)))
     }
 }
@@ -176,13 +156,30 @@ mod tests {
     use super::*;
     use crate::sampling::random::{Purpose, Stream};
 
+    crate::columns! {
+        /// Samples of a kind.
+        SEEN,
+        /// All samples.
+        SAMPLES,
+    }
+
+    const SHARE: Statistic = Statistic::Share(SEEN, SAMPLES);
+
+    fn no_bounds(_: &Tally) -> Vec<Tally> {
+        Vec::new()
+    }
+
+    fn seen([seen, samples]: [f64; 2]) -> Tally {
+        Tally::of(&[(SEEN, seen), (SAMPLES, samples)])
+    }
+
     /// Batches of 64 independent values each.
-    fn batches(run: u64, value: impl Fn(f64) -> f64) -> Vec<Histogram> {
+    fn batches(run: u64, value: impl Fn(f64) -> f64) -> Vec<Tally> {
         let batch = |b: u64| {
-            let mut stream = Stream::new(11, Purpose::Test, run * 32 + b);
-            let mut histogram = Histogram::default();
-            (0..64).for_each(|_| histogram.insert(value(stream.unit64()), 1.0));
-            histogram
+            let mut stream = Stream::new(11, Purpose::TEST, run * 32 + b);
+            let mut tally = Tally::default();
+            (0..64).for_each(|_| tally.histogram.insert(value(stream.unit64()), 1.0));
+            tally
         };
         (0..32).map(batch).collect()
     }
@@ -191,7 +188,7 @@ mod tests {
     /// values; one broad hill; all at one place.
     #[test]
     fn a_median_lies_within_two_errors_whatever_the_histogram() {
-        let median: Statistic<Histogram> = Statistic::Median(|h| h, 0.5);
+        let median = Statistic::Median(0.5);
         let peaks = |share: f64| move |u: f64| if u < share { 10.0 + u } else { 60.0 + u };
         type Case = (Box<dyn Fn(f64) -> f64>, std::ops::RangeInclusive<f64>);
         let cases: [Case; 5] = [
@@ -204,7 +201,8 @@ mod tests {
         for (case, (value, truth)) in cases.iter().enumerate() {
             let runs = 400;
             let held = (0..runs).filter(|run| {
-                let e = median.sampled(&batches(1000 * case as u64 + run, value)).expect("has weight");
+                let e =
+                    median.sampled(&batches(1000 * case as u64 + run, value), no_bounds).expect("has weight");
                 let off = (truth.start() - e.value).max(e.value - truth.end());
                 off <= 1.96 * e.error
             });
@@ -216,8 +214,8 @@ mod tests {
 
     #[test]
     fn nothing_seen_is_not_certain_and_few_seen_are_hardly_more() {
-        let share: Statistic<[f64; 2]> = Statistic::Share(|s| *s);
-        let of = |batches: &[[f64; 2]]| share.sampled(batches).expect("has samples");
+        let tallies = |batches: &[[f64; 2]]| batches.iter().copied().map(seen).collect::<Vec<_>>();
+        let of = |batches: &[[f64; 2]]| SHARE.sampled(&tallies(batches), no_bounds).expect("has samples");
         // the rule of three: 0 of 3,200 may be 3 in 3,200
         let none = of(&[[0.0, 100.0]; 32]);
         assert!(
@@ -233,22 +231,21 @@ mod tests {
         assert!((5.0..6.0).contains(&(3200.0 * (one.value + 1.96 * one.error))), "{one:?}");
         // of many, the spread of the batches decides
         let many: Vec<[f64; 2]> = (0..32).map(|i| [4990.0 + f64::from(i % 3) * 10.0, 10_000.0]).collect();
-        let jackknife = share.computed(&many).expect("has samples");
+        let jackknife = SHARE.computed(&tallies(&many), no_bounds).expect("has samples");
         let many = of(&many);
         assert!((many.error / jackknife.error - 1.0).abs() < 1e-3, "{many:?} {jackknife:?}");
-        assert_eq!(share.sampled(&[[0.0; 2]; 32]), None);
+        assert_eq!(SHARE.sampled(&tallies(&[[0.0; 2]; 32]), no_bounds), None);
     }
 
     #[test]
     fn shares_of_every_size_lie_within_two_errors() {
-        let share: Statistic<[f64; 2]> = Statistic::Share(|s| *s);
         for (case, truth) in [0.0003, 0.001, 0.003, 0.02, 0.3, 0.999].into_iter().enumerate() {
             let runs = 2000;
             let held = (0..runs).filter(|run| {
-                let mut stream = Stream::new(12, Purpose::Test, 10_000 * case as u64 + run);
-                let batch = |_| [(0..64).filter(|_| stream.unit64() < truth).count() as f64, 64.0];
-                let batches: Vec<[f64; 2]> = (0..32).map(batch).collect();
-                let e = share.sampled(&batches).expect("has samples");
+                let mut stream = Stream::new(12, Purpose::TEST, 10_000 * case as u64 + run);
+                let batch = |_| seen([(0..64).filter(|_| stream.unit64() < truth).count() as f64, 64.0]);
+                let batches: Vec<Tally> = (0..32).map(batch).collect();
+                let e = SHARE.sampled(&batches, no_bounds).expect("has samples");
                 (e.value - truth).abs() <= 1.96 * e.error
             });
             let held = held.count() as f64 / runs as f64;

@@ -52,12 +52,6 @@ pub fn ratio(batches: impl Iterator<Item = (f64, f64)> + Clone) -> Estimate {
 pub trait Accumulate: Default + Clone {
     /// Adds another batch's.
     fn accumulate(&mut self, other: &Self);
-
-    /// What the sums would be had all the light that was given up gone one way, for each way that it
-    /// may have gone: how far the sums may be off besides their noise. Nothing if they hold no light.
-    fn bounds_of_untraced(&self) -> Vec<Self> {
-        Vec::new()
-    }
 }
 
 impl Accumulate for f64 {
@@ -86,11 +80,12 @@ pub fn all<T: Accumulate>(batches: &[T]) -> T {
 /// An estimate whose error also holds what was given up: the most by which that may change the value
 /// counts as one more standard error, independent of the noise.
 ///
-/// - `sums`: of all batches; `of`: what was estimated of them
-pub fn with_given_up<T: Accumulate>(found: Estimate, sums: &T, of: impl Fn(&T) -> f64) -> Estimate {
+/// - `sums`: of all batches; `bounds`: what they would be had all the light that was given up gone one way,
+///   for each way that it may have gone; `of`: what was estimated of them
+pub fn with_given_up<T>(found: Estimate, sums: &T, bounds: &[T], of: impl Fn(&T) -> f64) -> Estimate {
     let value = of(sums);
     let change = |other: &T| (of(other) - value).abs();
-    let given_up = sums.bounds_of_untraced().iter().map(change).filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let given_up = bounds.iter().map(change).filter(|x| x.is_finite()).fold(0.0, f64::max);
     Estimate { error: found.error.hypot(given_up), ..found }
 }
 
@@ -180,7 +175,7 @@ mod tests {
         for run in 0..runs {
             let batches: Vec<_> = (0..32)
                 .map(|b| {
-                    let mut s = Stream::new(9, Purpose::Test, run * 32 + b);
+                    let mut s = Stream::new(9, Purpose::TEST, run * 32 + b);
                     ((0..64).map(|_| s.unit64()).sum::<f64>(), 64.0)
                 })
                 .collect();

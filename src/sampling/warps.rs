@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn means_match_the_densities() {
-        let mut s = Stream::new(1, Purpose::Test, 0);
+        let mut s = Stream::new(1, Purpose::TEST, 0);
         let n = 100_000;
         let (mut cos, mut cone_z) = (0.0f64, 0.0f64);
         for _ in 0..n {

@@ -128,7 +128,7 @@ mod tests {
         let target = BoundingSphere { centre: Vec3::ZERO, radius: 0.5 };
         let world = BoundingSphere { centre: Vec3::ZERO, radius: 2.0 };
         for (name, light) in every_kind() {
-            let mut stream = Stream::new(3, Purpose::Test, 0);
+            let mut stream = Stream::new(3, Purpose::TEST, 0);
             let n = 100_000;
             // irradiance on the disc z = 0, |xy| < 0.3, facing up, times its area
             let mut seen = 0.0f64;
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn what_a_light_sample_sees_is_there() {
-        let mut stream = Stream::new(4, Purpose::Test, 0);
+        let mut stream = Stream::new(4, Purpose::TEST, 0);
         for (name, light) in every_kind() {
             for _ in 0..1000 {
                 let point = Vec3::new(stream.unit(), stream.unit(), 0.0);

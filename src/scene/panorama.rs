@@ -155,7 +155,7 @@ mod tests {
         let mut pixels = vec![Vec3::splat(0.1); 32 * 16];
         pixels[4 * 32 + 20] = Vec3::new(50.0, 40.0, 30.0);
         let sky = Panorama::new(32, 16, pixels, 0);
-        let mut stream = Stream::new(1, Purpose::Test, 0);
+        let mut stream = Stream::new(1, Purpose::TEST, 0);
         let n = 100_000;
         let mut up = Vec3::ZERO;
         for _ in 0..n {

@@ -143,7 +143,7 @@ mod tests {
         let target = |x: f32| BoundingSphere { centre: Vec3::new(x, 0.0, 3.0), radius: 0.7 };
         let world = BoundingSphere { centre: Vec3::ZERO, radius: 5.0 };
         let aim = PhotonGuide { targets: vec![target(0.0), target(0.9)], share: 0.5, world };
-        let mut stream = Stream::new(1, Purpose::Test, 0);
+        let mut stream = Stream::new(1, Purpose::TEST, 0);
         let n = 200_000;
         let (mut whole, mut half, mut area) = (0.0f64, 0.0f64, 0.0f64);
         for _ in 0..n {

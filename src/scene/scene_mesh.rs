@@ -131,7 +131,7 @@ mod tests {
         let scale = 1.0 / stone.unit;
         let at = -stone.centre * scale;
         let mesh = SceneMesh::new(&triangles, DMat3::IDENTITY, scale, at, Limits::default()).expect("few");
-        let mut stream = Stream::new(5, Purpose::Test, 0);
+        let mut stream = Stream::new(5, Purpose::TEST, 0);
         let mut met = 0;
         for _ in 0..2000 {
             let from =

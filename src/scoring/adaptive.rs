@@ -1,12 +1,13 @@
 //! Adaptive sampling: a row of scores, estimator by estimator, each as far as the settings ask.
 
 use super::score::{ScoreRequest, ScoreRow, Target};
-use crate::estimators::weighted_exits::BeamEffort as Work;
+use crate::estimators::kind::{BeamTallies, EstimatorKind, MakeEstimator, Method, NOTHING_SEEN, Procedure};
+use crate::estimators::weighted_exits::BeamEffort;
 use crate::estimators::{BATCHES, BatchedEstimate, Estimator, EstimatorError};
-use crate::metrics::{Metric, MetricSource};
+use crate::metrics::{Metric, MetricSource, Statistic};
 use crate::parse::format_number;
-use crate::sampling::statistic::Statistic;
-use crate::sampling::stats::{Accumulate, Estimate};
+use crate::sampling::stats::Estimate;
+use crate::trace::ConvexStone;
 
 /// So many points of the hemisphere are as dear as one photon that finishes beams, which then outweigh it.
 const PHOTON_COST: u64 = 16;
@@ -14,12 +15,6 @@ const PHOTON_COST: u64 = 16;
 /// Points of the hemisphere, or as much of other estimators, before its error is looked at: enough for
 /// every batch to have seen something.
 const FIRST_SAMPLES: u64 = 1 << 13;
-
-/// Why scores of the table are left out.
-const NO_TABLE: &str = "the stone has no table";
-
-/// Why a score is left out that nothing was seen for: a share of no light has no value.
-const NOTHING_SEEN: &str = "no light is seen that it could be measured on";
 
 /// By how much samples grow from one look at the error to the next.
 const LEAST_STEP: f64 = 1.1;
@@ -34,87 +29,96 @@ pub(super) struct ScoreAccumulator<'a> {
     pub plan: &'a ScoreRequest,
     /// Whether beams are used.
     pub exact: bool,
-    /// Whether the stone is not convex.
-    pub nonconvex: bool,
-    /// Whether the stone has a table.
-    pub table: bool,
+    /// The stone; none if it is not convex.
+    pub convex: Option<&'a ConvexStone>,
     /// Whether photons fill in what beams were to give and did not.
     pub unfinished: bool,
 }
 
-/// A column: its number, its metric's scale, and what it reads from a tally.
-type Column<T> = (usize, f64, Statistic<T>);
+/// A column of the row: its number, its metric's scale, and what it is of the sums.
+type RowColumn = (usize, f64, Statistic);
 
 impl ScoreAccumulator<'_> {
-    /// The columns that read a tally.
+    /// The columns of the row that a method fills in.
     ///
-    /// - `of`: what a metric reads from it, if it does; `by_beams`: whether beams have filled it in
-    fn columns<T>(
-        &self,
-        of: impl Fn(MetricSource) -> Option<Statistic<T>>,
-        by_beams: bool,
-    ) -> Vec<Column<T>> {
+    /// - `by_beams`: whether it is a method by beams
+    fn columns(&self, kind: &dyn EstimatorKind, method: &Method, by_beams: bool) -> Vec<RowColumn> {
         let exact = |m: &Metric| self.exact && m.by_beams;
         let asked = |i: usize, m: &Metric| match self.unfinished {
             true => exact(m) && self.row.scores[i].is_none(),
-            false => exact(m) == by_beams && (m.nonconvex || !self.nonconvex),
+            false => exact(m) == by_beams && (m.nonconvex || self.convex.is_some()),
         };
-        let metrics = self.plan.metrics.iter().enumerate().filter(|(i, m)| asked(*i, m));
-        metrics.filter_map(|(i, m)| Some((i, m.scale, of(m.read_from)?))).collect()
+        let given = |m: &Metric| m.is_of(kind) && (method.gives)(m);
+        let metrics = self.plan.metrics.iter().enumerate().filter(|(i, m)| given(m) && asked(*i, m));
+        let column = |(i, m): (usize, &&'static Metric)| match m.read_from {
+            MetricSource::Sums(of) => Some((i, m.scale, of)),
+            MetricSource::Solid(_) => None,
+        };
+        metrics.filter_map(column).collect()
     }
 
-    /// Traces an estimator as far as the settings ask and fills in the columns that read it, if there
+    /// Goes through with a method as far as the settings ask and fills in the columns that it gives, if there
     /// are any.
     ///
-    /// - `of`, `by_beams`: as [`ScoreAccumulator::columns`] has them
-    /// - `cost`: so many points of the hemisphere are as dear as one of this estimator
-    pub fn fill<E: Estimator>(
+    /// - `by_beams`: as [`ScoreAccumulator::columns`] has it
+    pub fn fill(
         &mut self,
-        name: &'static str,
-        of: impl Fn(MetricSource) -> Option<Statistic<E::Tally>>,
+        kind: &dyn EstimatorKind,
+        method: Method,
         by_beams: bool,
-        cost: u64,
-        make: impl FnOnce() -> Result<E, EstimatorError>,
     ) -> Result<(), EstimatorError> {
-        let columns = self.columns(of, by_beams);
+        let columns = self.columns(kind, &method, by_beams);
         if columns.is_empty() {
             return Ok(());
         }
+        match method.procedure {
+            Procedure::Samples(cost, make) => self.sample(kind, method.name, &columns, by_beams, cost, make),
+            Procedure::Beams(tallies) => self.follow_beams(kind, method.name, &columns, &tallies),
+        }
+    }
+
+    /// Fills in columns by samples.
+    ///
+    /// - `cost`: so many points of the hemisphere are as dear as one of them
+    fn sample(
+        &mut self,
+        kind: &dyn EstimatorKind,
+        name: &'static str,
+        columns: &[RowColumn],
+        by_beams: bool,
+        cost: u64,
+        make: MakeEstimator,
+    ) -> Result<(), EstimatorError> {
         let mut traced = BatchedEstimate::new(make()?, self.plan.seed);
-        let estimate = |t: &BatchedEstimate<E>, of: &Statistic<E::Tally>| {
+        let estimate = |t: &BatchedEstimate<Box<dyn Estimator + '_>>, of: &Statistic| {
             if by_beams { t.exact(of) } else { t.score(of) }
         };
         match self.plan.target {
             Target::Samples(samples) => traced.extend_to((samples / cost).max(1)),
             Target::Error(target) => {
-                let worst = |t: &BatchedEstimate<E>| worst(&columns, |of| estimate(t, of));
+                let worst =
+                    |t: &BatchedEstimate<Box<dyn Estimator + '_>>| worst(columns, |of| estimate(t, of));
                 let (first, cap) = (FIRST_SAMPLES / cost, self.plan.cap / cost);
-                let median = columns.iter().any(|(.., of)| matches!(of, Statistic::Median(..)));
+                let median = columns.iter().any(|(.., of)| matches!(of, Statistic::Median(_)));
                 let step = if median { LARGEST_STEP_OF_MEDIAN } else { LARGEST_STEP };
                 if let Some(error) = sample_to_target(&mut traced, target, [first.max(1), cap], step, worst) {
                     self.complain(name, target, error, traced.samples());
                 }
             }
         }
-        self.record(name, traced.samples(), &columns, |of| estimate(&traced, of));
+        self.record(kind, name, traced.samples(), columns, |of| estimate(&traced, of));
         Ok(())
     }
 
-    /// Fills in the columns that beams of one direction give, with photons for what is left over as
-    /// far as the settings ask.
-    ///
-    /// - `of`, `by_beams`: as [`ScoreAccumulator::columns`] has them
-    pub fn finish<T: Accumulate>(
+    /// Fills in columns by beams of one direction, with photons for what is left over as far as the settings
+    /// ask.
+    fn follow_beams(
         &mut self,
+        kind: &dyn EstimatorKind,
         name: &'static str,
-        of: impl Fn(MetricSource) -> Option<Statistic<T>>,
-        by_beams: bool,
-        tallies: impl Fn(&Work) -> Result<Vec<T>, EstimatorError>,
+        columns: &[RowColumn],
+        tallies: &BeamTallies,
     ) -> Result<(), EstimatorError> {
-        let columns = self.columns(of, by_beams);
-        if columns.is_empty() {
-            return Ok(());
-        }
         let cap = self.plan.cap / PHOTON_COST;
         let mut photons = match self.plan.target {
             Target::Samples(samples) => samples / PHOTON_COST,
@@ -123,10 +127,11 @@ impl ScoreAccumulator<'_> {
         loop {
             // fewer than two a batch would leave the remainder out
             photons = photons.max(2 * BATCHES as u64);
-            let work = Work { photons: photons as usize, seed: self.plan.seed, ..Work::default() };
-            let found = tallies(&work)?;
-            let estimate = |of: &Statistic<T>| of.computed(&found);
-            let error = worst(&columns, estimate);
+            let effort =
+                BeamEffort { photons: photons as usize, seed: self.plan.seed, ..BeamEffort::default() };
+            let found = tallies(&effort)?;
+            let estimate = |of: &Statistic| of.computed(&found, |sums| kind.bounds_of_untraced(sums));
+            let error = worst(columns, estimate);
             match self.plan.target {
                 Target::Error(target) if error > target && photons < cap => {
                     photons = next_samples(photons, error / target, LARGEST_STEP).min(cap);
@@ -135,20 +140,22 @@ impl ScoreAccumulator<'_> {
                 Target::Error(target) if error > target => self.complain(name, target, error, photons),
                 _ => (),
             }
-            self.record(name, photons, &columns, estimate);
+            self.record(kind, name, photons, columns, estimate);
             return Ok(());
         }
     }
 
-    fn record<T>(
+    fn record(
         &mut self,
+        kind: &dyn EstimatorKind,
         name: &'static str,
         samples: u64,
-        columns: &[Column<T>],
-        estimate: impl Fn(&Statistic<T>) -> Option<Estimate>,
+        columns: &[RowColumn],
+        estimate: impl Fn(&Statistic) -> Option<Estimate>,
     ) {
         for (column, _, of) in columns {
-            let (least, most) = self.plan.metrics[*column].range;
+            let metric = self.plan.metrics[*column];
+            let (least, most) = metric.range;
             match estimate(of).filter(|e| e.error.is_finite()) {
                 // sums may be out by their rounding; + 0 takes the sign from a zero
                 Some(e) => {
@@ -156,9 +163,8 @@ impl ScoreAccumulator<'_> {
                         Some(Estimate { value: e.value.clamp(least, most) + 0.0, ..e });
                 }
                 None => {
-                    let metric = self.plan.metrics[*column];
-                    let tableless = !self.table && matches!(metric.read_from, MetricSource::FaceterView(_));
-                    self.row.leave_out(metric, if tableless { NO_TABLE } else { NOTHING_SEEN });
+                    let why = self.convex.map_or(NOTHING_SEEN, |stone| kind.why_unseen(stone));
+                    self.row.leave_out(metric, why);
                 }
             }
         }
@@ -177,7 +183,7 @@ impl ScoreAccumulator<'_> {
 }
 
 /// The largest error of any column, measured against its scale.
-fn worst<T>(columns: &[Column<T>], estimate: impl Fn(&Statistic<T>) -> Option<Estimate>) -> f64 {
+fn worst(columns: &[RowColumn], estimate: impl Fn(&Statistic) -> Option<Estimate>) -> f64 {
     columns.iter().filter_map(|(_, scale, of)| Some(estimate(of)?.error / scale)).fold(0.0, f64::max)
 }
 

@@ -58,7 +58,7 @@ pub fn negligible(metric: &Metric, plan: &ScoreRequest) -> f64 {
 
 /// Whether the mean of short runs is not what a long one gives: a median that jumps from peak to peak.
 fn is_for_long_runs(metric: &Metric) -> bool {
-    matches!(metric.read_from, MetricSource::PointLight(Statistic::Median(..)))
+    matches!(metric.read_from, MetricSource::Sums(Statistic::Median(_)))
 }
 
 /// Scores the stones and takes their differences.

@@ -4,35 +4,12 @@ use super::adaptive::ScoreAccumulator;
 pub use super::settings::{
     DEFAULT_SAMPLES, MAX_SAMPLES, ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt,
 };
-use crate::design::Zone;
-use crate::estimators::point_light::PointLightNeeds;
-use crate::estimators::view::{ObserverDome, ViewerLighting};
-use crate::estimators::{
-    Contrast, EstimatorError, FaceterView, Hemisphere, PointLight, Quadrature, STOP_POWER, Scintillation,
-    TraceOptics, View, ViewFrame, beam_tallies, faceter_view, fire, hemisphere, nonconvex, pixel_cells,
-    point_light, view,
-};
-use crate::metrics::{Metric, MetricSource, Statistic};
+use crate::estimators::catalogue::CataloguedEstimator;
+use crate::estimators::{ESTIMATORS, EstimatorError, STOP_POWER, Setup, TraceOptics, ViewFrame};
+use crate::metrics::{Metric, MetricSource};
 use crate::sampling::stats::Estimate;
 use crate::trace::ConvexStone;
-use crate::trace::beams::Beams;
 use crate::trace::nonconvex::MeshStone;
-
-/// So many points of the hemisphere are as dear as one of the beam, which has six lines and follows
-/// paths to a hundredth of the power; what a given number of samples is divided by for the beam.
-const BEAM_COST: u64 = 4;
-
-/// The same for a cell of two points.
-const CONTRAST_COST: u64 = 2;
-
-/// The same for a cell of one to a thousand points, three on average, seen twice.
-const ROCKING_COST: u64 = 6;
-
-/// The same for a ray of a stone that is not convex.
-const NONCONVEX_COST: u64 = 16;
-
-/// The same for a direction of the dome that is followed by beams.
-const DIRECTION_COST: u64 = 256;
 
 /// Why scores that look at single rays are left out.
 const NONCONVEX: &str = "not known for stones that are not convex";
@@ -85,14 +62,26 @@ pub fn score_all(subjects: &[ScoreInput], plan: &ScoreRequest) -> Vec<ScoreRow> 
     subjects.iter().map(|s| score(s, plan)).collect()
 }
 
+/// The estimators whose sums a plan's metrics read: in the order of the catalogue, then those of metrics that
+/// no catalogue has.
+fn estimators(plan: &ScoreRequest) -> Vec<CataloguedEstimator> {
+    let reads = |e: &&CataloguedEstimator| plan.metrics.iter().any(|m| m.is_of(e.kind));
+    let mut needed: Vec<CataloguedEstimator> = ESTIMATORS.iter().filter(reads).copied().collect();
+    for metric in &plan.metrics {
+        if !needed.iter().any(|e| metric.is_of(e.kind)) {
+            needed.push(CataloguedEstimator::new(metric.estimator));
+        }
+    }
+    needed
+}
+
 fn fill(
     row: &mut ScoreRow,
     stone: &ConvexStone,
     subject: &ScoreInput,
     plan: &ScoreRequest,
 ) -> Result<(), EstimatorError> {
-    let (medium, view_frame) = (subject.medium(plan), subject.view_frame());
-    let sky = |own: f64| plan.sky(own);
+    let setup = subject.setup(plan);
     for (column, metric) in plan.metrics.iter().enumerate() {
         if let MetricSource::Solid(of) = metric.read_from {
             row.scores[column] = of(&stone.solid).map(Estimate::exact);
@@ -101,76 +90,41 @@ fn fill(
             }
         }
     }
-    let exact = plan.exact && subject.material.is_clear();
-    let table = stone.planes.iter().any(|p| Zone::from_normal(p.normal) == Zone::Table);
-    let mut sheet = ScoreAccumulator { row, plan, exact, nonconvex: false, table, unfinished: false };
-    let (stop, wavelengths) = (plan.stop_power(), medium.wavelengths_per_point());
-    sheet.fill("hemisphere", hemisphere_statistic, false, 1, || {
-        Ok(Hemisphere::in_frame(stone, &medium, view_frame)?.with_stop_power(stop))
-    })?;
-    let surroundings = plan.surroundings();
-    sheet.fill("view", view_statistic, false, wavelengths, || {
-        Ok(View::in_frame(stone, &medium, view_frame, surroundings)?.with_stop_power(stop))
-    })?;
-    let iso = |r| if let MetricSource::FaceterView(f) = r { Some(f) } else { None };
-    let head = sky(faceter_view::GEMRAY_OBSERVER_DEG);
-    sheet.fill("iso", iso, false, 1, || FaceterView::in_frame(stone, &medium, view_frame, head))?;
-    let cells = sky(pixel_cells::AGS_OBSERVER_DEG);
-    let contrast = |r| if let MetricSource::Contrast(f) = r { Some(f) } else { None };
-    sheet.fill("contrast", contrast, false, CONTRAST_COST * wavelengths, || {
-        Ok(Contrast::in_frame(stone, &medium, view_frame, cells)?.with_stop_power(stop))
-    })?;
-    let scintillation = |r| if let MetricSource::Scintillation(f) = r { Some(f) } else { None };
-    sheet.fill("scintillation", scintillation, false, ROCKING_COST * wavelengths, || {
-        Ok(Scintillation::in_frame(stone, &medium, view_frame, cells)?.with_stop_power(stop))
-    })?;
-    let beams = Beams::new(stone);
-    let dispersive = subject.material.is_dispersive();
-    if !dispersive {
-        plan.metrics
-            .iter()
-            .filter(|m| m.needs_dispersion())
-            .for_each(|m| sheet.row.leave_out(m, subject.material.no_dispersion()));
-    } else if subject.material.is_clear() {
-        // beams are nearly exact for one direction, and ten times as cheap as photons
-        let fire = |r| point_light_statistic(r).filter(|f| !PointLightNeeds::from_statistic(f).faint);
-        let readings = || {
-            plan.metrics.iter().filter_map(|m| fire(m.read_from)).map(|f| PointLightNeeds::from_statistic(&f))
+    let (clear, dispersive) = (subject.material.is_clear(), subject.material.is_dispersive());
+    let exact = plan.exact && clear;
+    let mut sheet = ScoreAccumulator { row, plan, exact, convex: Some(stone), unfinished: false };
+    let estimators = estimators(plan);
+    let asked = |e: &CataloguedEstimator| -> Vec<&Metric> {
+        plan.metrics.iter().copied().filter(|m| m.is_of(e.kind)).collect()
+    };
+    let (fit, unfit): (Vec<_>, Vec<_>) =
+        estimators.into_iter().partition(|e| dispersive || !e.kind.needs_dispersion());
+    for estimator in &fit {
+        let methods = match estimator.in_clear_stones.filter(|_| clear) {
+            Some(methods) => methods(stone, setup, &asked(estimator)),
+            None => estimator.kind.methods(stone, setup, &asked(estimator)),
         };
-        let needs = PointLightNeeds { lit: readings().any(|needs| needs.lit), faint: false };
-        sheet.finish("fire", fire, false, |w| fire::fire(&beams, &medium, view_frame, needs, w))?;
-        let colours = |r| point_light_statistic(r).filter(|f| PointLightNeeds::from_statistic(f).faint);
-        sheet.fill("beam", colours, false, BEAM_COST, || {
-            Ok(PointLight::in_frame(stone, &medium, view_frame)?
-                .for_needs(PointLightNeeds { lit: false, faint: true }))
-        })?;
-    } else {
-        sheet.fill("beam", point_light_statistic, false, BEAM_COST, || {
-            PointLight::in_frame(stone, &medium, view_frame)
-        })?;
+        for method in methods {
+            sheet.fill(estimator.kind, method, false)?;
+        }
+    }
+    for metric in unfit.iter().flat_map(asked) {
+        sheet.row.leave_out(metric, subject.material.no_dispersion());
     }
     if exact {
-        let make = || Quadrature::in_frame(stone, &medium, view_frame);
-        sheet.fill("quadrature", hemisphere_statistic, true, DIRECTION_COST, make)?;
-        let reads_strongest =
-            |m: &&Metric| view_statistic(m.read_from).is_some_and(|s| beam_tallies::needs_strongest_path(&s));
-        let strongest = plan.metrics.iter().any(reads_strongest);
-        sheet.finish("view by beams", view_statistic, true, |w| {
-            beam_tallies::view(&beams, &medium, view_frame, surroundings, strongest, w)
-        })?;
-        sheet.finish("iso by beams", iso, true, |_| {
-            Ok(vec![beam_tallies::iso(&beams, &medium, view_frame, head)?])
-        })?;
-        if dispersive {
-            sheet.finish("beam by beams", point_light_statistic, true, |w| {
-                beam_tallies::colours(&beams, &medium, view_frame, w)
-            })?;
+        for estimator in &fit {
+            let methods = estimator.by_beams.map(|methods| methods(stone, setup, &asked(estimator)));
+            for method in methods.into_iter().flatten() {
+                sheet.fill(estimator.kind, method, true)?;
+            }
         }
         sheet.unfinished = true;
         let finished = sheet.row.samples.len();
-        sheet.fill("view", view_statistic, false, 1, || {
-            Ok(View::in_frame(stone, &medium, view_frame, surroundings)?.with_stop_power(stop))
-        })?;
+        for estimator in fit.iter().filter(|e| e.completes_beams) {
+            for method in estimator.kind.methods(stone, setup, &asked(estimator)) {
+                sheet.fill(estimator.kind, method, false)?;
+            }
+        }
         if row.samples.len() > finished {
             // what beams did not give photons have
             let scored = |name: &str| {
@@ -198,33 +152,18 @@ fn fill_nonconvex(
     subject: &ScoreInput,
     plan: &ScoreRequest,
 ) -> Result<(), EstimatorError> {
-    let (medium, view_frame) = (subject.medium(plan), subject.view_frame());
+    let setup = subject.setup(plan);
     plan.metrics.iter().filter(|m| !m.nonconvex).for_each(|m| row.leave_out(m, NONCONVEX));
     if plan.exact && plan.metrics.iter().any(|m| m.by_beams && m.nonconvex) {
         row.note = Some(NO_BEAMS_IN_NONCONVEX);
     }
-    let mut sheet =
-        ScoreAccumulator { row, plan, exact: false, nonconvex: true, table: true, unfinished: false };
-    sheet.fill("hemisphere", hemisphere_statistic, false, NONCONVEX_COST, || {
-        Ok(nonconvex::NonconvexHemisphere::new(stone, &medium, view_frame)?
-            .with_stop_power(plan.stop_power()))
-    })?;
-    sheet.fill("view", view_statistic, false, NONCONVEX_COST, || {
-        let estimator = nonconvex::NonconvexView::new(stone, &medium, view_frame, plan.surroundings())?;
-        Ok(estimator.with_stop_power(plan.stop_power()))
-    })
-}
-
-fn hemisphere_statistic(reading: MetricSource) -> Option<Statistic<hemisphere::HemisphereTally>> {
-    if let MetricSource::Hemisphere(f) = reading { Some(f) } else { None }
-}
-
-fn point_light_statistic(reading: MetricSource) -> Option<Statistic<point_light::PointLightTally>> {
-    if let MetricSource::PointLight(f) = reading { Some(f) } else { None }
-}
-
-fn view_statistic(reading: MetricSource) -> Option<Statistic<view::ViewTally>> {
-    if let MetricSource::View(f) = reading { Some(f) } else { None }
+    let mut sheet = ScoreAccumulator { row, plan, exact: false, convex: None, unfinished: false };
+    for estimator in estimators(plan) {
+        for method in estimator.nonconvex.into_iter().flat_map(|methods| methods(stone, setup)) {
+            sheet.fill(estimator.kind, method, false)?;
+        }
+    }
+    Ok(())
 }
 
 impl ScoreRequest {
@@ -238,23 +177,15 @@ impl ScoreRequest {
             Target::Error(target) => ((0.5 * target) as f32).clamp(LEAST, STOP_POWER),
         }
     }
-
-    /// The dome of a metric whose own observer has a cone of half-angle `own`, in degrees.
-    fn sky(&self, own: f64) -> ObserverDome {
-        ObserverDome::with_observer(self.observer.unwrap_or(own))
-    }
-
-    fn surroundings(&self) -> ViewerLighting {
-        ViewerLighting { scope: self.sky(view::SCOPE_DEG), dome: self.sky(view::GIA_OBSERVER_DEG) }
-    }
 }
 
 impl ScoreInput {
-    fn medium(&self, plan: &ScoreRequest) -> TraceOptics<'_> {
-        TraceOptics { material: &self.material, polarised: plan.polarised }
-    }
-
-    fn view_frame(&self) -> ViewFrame {
-        self.tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth))
+    fn setup(&self, plan: &ScoreRequest) -> Setup<'_> {
+        Setup {
+            medium: TraceOptics { material: &self.material, polarised: plan.polarised },
+            view_frame: self.tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth)),
+            stop_power: plan.stop_power(),
+            observer: plan.observer,
+        }
     }
 }

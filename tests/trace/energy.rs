@@ -46,7 +46,7 @@ fn what_enters_leaves_or_is_counted_as_lost() {
         [brilliant(), random_stone(4, 0), random_stone(500, 1), cube()].into_iter().enumerate()
     {
         let stone = ConvexStone::new(solid);
-        let mut s = Stream::new(SEED, Purpose::Test, 100 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 100 + number as u64);
         for index in [1.0, 1.54, DIAMOND] {
             for _ in 0..20 {
                 let (packet, reflected) = entering(&stone, &mut s, index);
@@ -60,7 +60,7 @@ fn what_enters_leaves_or_is_counted_as_lost() {
 #[test]
 fn a_brilliant_in_uniform_light_gives_all_of_it_back() {
     let stone = ConvexStone::new(brilliant());
-    let mut s = Stream::new(SEED, Purpose::Test, 200);
+    let mut s = Stream::new(SEED, Purpose::TEST, 200);
     for _ in 0..50 {
         let (packet, reflected) = entering(&stone, &mut s, DIAMOND);
         assert!(assert_energy(&stone, packet, reflected, 1e-7) < 1e-6);
@@ -72,7 +72,7 @@ fn a_brilliant_in_uniform_light_gives_all_of_it_back() {
 fn the_twin_keeps_energy_to_twelve_digits() {
     for (number, solid) in [brilliant(), random_stone(4, 0), random_stone(500, 1)].into_iter().enumerate() {
         let stone = ConvexStone::new(solid);
-        let mut s = Stream::new(SEED, Purpose::Test, 300 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 300 + number as u64);
         for _ in 0..10 {
             let (mut packet, _) = entering(&stone, &mut s, DIAMOND);
             for lane in 0..LANES {
@@ -94,7 +94,7 @@ fn every_cut_of_every_material_gives_uniform_light_back() {
     for (number, name) in library::names().enumerate() {
         let design = library::design(name, &BTreeMap::new()).expect("in the library").expect("good");
         let stone = ConvexStone::new(design.solid().expect("closed"));
-        let mut s = Stream::new(SEED, Purpose::Test, 600 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 600 + number as u64);
         for material in materials {
             let index = material.index_d();
             let (mut packet, reflected) = entering(&stone, &mut s, index as f32);

@@ -121,7 +121,7 @@ fn light_along_the_horizon_is_right_but_for_its_side() {
     let turned = design.turned(DMat3::from_axis_angle(axis, 0.1f64.to_radians()));
     let stone = ConvexStone::new(turned.solid().expect("closed"));
     let planes = stone.kernel_planes();
-    let mut s = Stream::new(SEED, Purpose::Test, 700);
+    let mut s = Stream::new(SEED, Purpose::TEST, 700);
     let near = |z: f64| z.abs() < 1e-4;
     let (mut lanes, mut twin, mut rays) = ([0.0; 3], [0.0; 3], 0.0);
     let side = |z: f64| if near(z) { 0 } else { 1 + usize::from(z > 0.0) };

@@ -11,7 +11,7 @@ const PACKETS: usize = 400;
 /// Power that each packet's rays send upward, on one instruction set.
 fn upward(isa: Isa) -> Vec<f64> {
     let stone = ConvexStone::with_isa(brilliant(), isa);
-    let mut s = Stream::new(SEED, Purpose::Test, 500);
+    let mut s = Stream::new(SEED, Purpose::TEST, 500);
     let packet = |_| {
         let (mut packet, _) = entering(&stone, &mut s, DIAMOND);
         let mut up = 0.0;
@@ -27,7 +27,7 @@ fn upward(isa: Isa) -> Vec<f64> {
 fn upward_of_twin() -> Vec<f64> {
     let stone = ConvexStone::new(brilliant());
     let planes = stone.kernel_planes();
-    let mut s = Stream::new(SEED, Purpose::Test, 500);
+    let mut s = Stream::new(SEED, Purpose::TEST, 500);
     let packet = |_| {
         let (packet, _) = entering(&stone, &mut s, DIAMOND);
         let mut up = 0.0;
@@ -63,7 +63,7 @@ fn all_agree_on_totals_within_three_errors() {
 #[test]
 fn all_agree_facet_by_facet() {
     let stones: Vec<_> = Isa::all().into_iter().map(|isa| ConvexStone::with_isa(brilliant(), isa)).collect();
-    let mut s = Stream::new(SEED, Purpose::Test, 501);
+    let mut s = Stream::new(SEED, Purpose::TEST, 501);
     let (mut asked, mut differ) = (0, 0);
     for _ in 0..PACKETS {
         let (mut packet, _) = entering(&stones[0], &mut s, DIAMOND);
@@ -101,7 +101,7 @@ fn every_kernel_keeps_the_light_of_a_cube() {
         println!("{}", isa.name());
         let stone = ConvexStone::with_isa(cube(), isa);
         for (polarised, absorbing) in [(true, false), (false, false), (true, true), (false, true)] {
-            let mut s = Stream::new(SEED, Purpose::Test, 502);
+            let mut s = Stream::new(SEED, Purpose::TEST, 502);
             let (mut packet, _) = entering(&stone, &mut s, 1.5);
             (packet.polarised, packet.absorbing, packet.absorption) = (polarised, absorbing, [0.1; LANES]);
             let entered: f32 = packet.power.iter().sum();

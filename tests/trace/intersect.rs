@@ -21,7 +21,7 @@ fn assert_nearest(planes: &[Plane], before: &Packet, lane: usize, met: usize) {
 
 /// Random slopes above and below a girdle of flats.
 fn random_girdled(flats: usize, slopes: usize, stretch: f64, number: u64) -> Polyhedron {
-    let mut s = Stream::new(SEED, Purpose::Test, number);
+    let mut s = Stream::new(SEED, Purpose::TEST, number);
     let mut planes: Vec<Plane> = (0..flats)
         .map(|i| {
             let turn = (i as f64 + 0.3 * s.unit64()) * std::f64::consts::TAU / flats as f64;
@@ -45,7 +45,7 @@ fn assert_all_nearest(solid: Polyhedron, number: u64) {
     let stones: Vec<_> =
         Isa::all().into_iter().map(|isa| ConvexStone::with_isa(solid.clone(), isa)).collect();
     let planes = stones[0].kernel_planes();
-    let mut s = Stream::new(SEED + 1, Purpose::Test, number);
+    let mut s = Stream::new(SEED + 1, Purpose::TEST, number);
     let (mut packet, _) = entering(&stones[0], &mut s, DIAMOND);
     let mut bounces = 0;
     stones[0].trace(&mut packet.clone(), 0.0, |_, after| {
@@ -68,7 +68,7 @@ fn assert_all_nearest(solid: Polyhedron, number: u64) {
 fn no_direction_meets_no_facet() {
     for isa in Isa::all() {
         let stone = ConvexStone::with_isa(brilliant(), isa);
-        let (mut packet, _) = entering(&stone, &mut Stream::new(SEED, Purpose::Test, 7), DIAMOND);
+        let (mut packet, _) = entering(&stone, &mut Stream::new(SEED, Purpose::TEST, 7), DIAMOND);
         let before = stone.next_facets(&packet);
         packet.dx[5] = f32::NAN;
         let after = stone.next_facets(&packet);
@@ -106,7 +106,7 @@ proptest! {
         let solid = random_stone(count, number);
         let stones: Vec<_> = Isa::all().into_iter().map(|isa| ConvexStone::with_isa(solid.clone(), isa)).collect();
         let planes = stones[0].kernel_planes();
-        let mut s = Stream::new(SEED + 2, Purpose::Test, number);
+        let mut s = Stream::new(SEED + 2, Purpose::TEST, number);
         for _ in 0..64 {
             let origin = random_direction(&mut s) * (1.0 + 3.0 * s.unit());
             let target = random_direction(&mut s) * s.unit();

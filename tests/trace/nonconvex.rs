@@ -79,7 +79,7 @@ fn convex_stones_are_traced_as_the_twin_traces_them() {
         let stone = ConvexStone::new(solid);
         let mesh = MeshStone::new(&stone.solid.triangulate()).expect("closed");
         assert!(mesh.centre.distance(stone.centre) < 1e-12 && (mesh.unit - stone.unit).abs() < 1e-12);
-        let mut s = Stream::new(SEED, Purpose::Test, 900 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 900 + number as u64);
         let (mut bounces, mut parted) = (0, 0);
         for _ in 0..20 {
             let (packet, _) = entering(&stone, &mut s, DIAMOND);
@@ -116,7 +116,7 @@ fn convex_stones_are_traced_as_the_twin_traces_them() {
 fn uniform_light_comes_back_whole() {
     for (number, mesh) in [dented_cube(), notched_prism()].iter().enumerate() {
         let stone = MeshStone::new(mesh).expect("closed");
-        let mut s = Stream::new(SEED, Purpose::Test, 910 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 910 + number as u64);
         let (mut rays, mut again, mut leaked) = (0, 0, 0.0);
         for number in 0..2000 {
             let ray = aimed(&mut s, number % 2 == 0);
@@ -211,7 +211,7 @@ fn chance_is_without_bias() {
     for (number, mesh) in [dented_cube(), notched_prism()].iter().enumerate() {
         let stone = MeshStone::new(mesh).expect("closed");
         let triangles = triangles_of(mesh, &stone);
-        let mut s = Stream::new(SEED, Purpose::Test, 920 + number as u64);
+        let mut s = Stream::new(SEED, Purpose::TEST, 920 + number as u64);
         let (mut compared, mut chances) = (0, 0);
         while compared < 60 {
             let ray = aimed(&mut s, compared % 2 == 0);

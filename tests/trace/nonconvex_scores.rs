@@ -8,32 +8,33 @@ use cutlab::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, ViewFra
 use cutlab::materials::Material;
 use cutlab::sampling::kronecker::KroneckerPoints;
 use cutlab::sampling::random::Purpose;
+use cutlab::sampling::tally::Tally;
 use cutlab::trace::ConvexStone;
 use cutlab::trace::nonconvex::MeshStone;
 use cutlab::trace::reference;
 use glam::DVec3;
 
 /// Sums of the dome that scores read, per power that arrives.
-const DOME: [fn(&hemisphere::HemisphereTally) -> f64; 6] = [
-    |t| t.returned_cos2 / t.arrived,
-    |t| t.returned / t.arrived,
-    |t| t.leaked / t.arrived,
-    |t| t.glare / t.arrived,
-    |t| t.absorbed / t.arrived,
-    |t| t.arrived / t.drawn,
+const DOME: [fn(&Tally) -> f64; 6] = [
+    |t| t[hemisphere::RETURNED_COS2] / t[hemisphere::ARRIVED],
+    |t| t[hemisphere::RETURNED] / t[hemisphere::ARRIVED],
+    |t| t[hemisphere::LEAKED] / t[hemisphere::ARRIVED],
+    |t| t[hemisphere::GLARE] / t[hemisphere::ARRIVED],
+    |t| t[hemisphere::ABSORBED] / t[hemisphere::ARRIVED],
+    |t| t[hemisphere::ARRIVED] / t[hemisphere::DRAWN],
 ];
 
 /// Sums of the view that scores read, per ray.
-const SIGHT: [fn(&view::ViewTally) -> f64; 9] = [
-    |t| t.reflected / t.rays,
-    |t| t.bands[0] / t.rays,
-    |t| t.bands[1] / t.rays,
-    |t| t.bands[2] / t.rays,
-    |t| t.bands[3] / t.rays,
-    |t| t.up_cos2 / t.rays,
-    |t| t.absorbed / t.rays,
-    |t| t.scope_bright / t.rays,
-    |t| t.luminance / t.rays,
+const SIGHT: [fn(&Tally) -> f64; 9] = [
+    |t| t[view::REFLECTED] / t[view::RAYS],
+    |t| t[view::GREEN] / t[view::RAYS],
+    |t| t[view::RED] / t[view::RAYS],
+    |t| t[view::BLUE] / t[view::RAYS],
+    |t| t[view::BELOW] / t[view::RAYS],
+    |t| t[view::UP_COS2] / t[view::RAYS],
+    |t| t[view::ABSORBED] / t[view::RAYS],
+    |t| t[view::SCOPE_BRIGHT] / t[view::RAYS],
+    |t| t[view::LUMINANCE] / t[view::RAYS],
 ];
 
 /// Sixty sums, 4.5 errors each: one set of seeds in 2000 would fail.
@@ -93,16 +94,28 @@ fn all_light_of_a_nonconvex_stone_is_accounted_for() {
             let mut dome =
                 BatchedEstimate::new(NonconvexHemisphere::new(&stone, &medium, aspect).expect("lit"), 3);
             dome.extend_to(1 << 12);
-            let t = |of: fn(&hemisphere::HemisphereTally) -> f64| dome.estimate(of).value;
-            let all = t(|t| (t.returned + t.leaked + t.glare + t.absorbed + t.lost) / t.arrived);
+            let t = |of: fn(&Tally) -> f64| dome.estimate(of).value;
+            let all = t(|t| {
+                (t[hemisphere::RETURNED]
+                    + t[hemisphere::LEAKED]
+                    + t[hemisphere::GLARE]
+                    + t[hemisphere::ABSORBED]
+                    + t[hemisphere::LOST])
+                    / t[hemisphere::ARRIVED]
+            });
             assert!((all - 1.0).abs() < 1e-12, "{all}");
-            assert!(t(|t| t.lost / t.arrived) < 1e-3 && t(|t| t.arrived / t.drawn) > 0.1);
+            assert!(
+                t(|t| t[hemisphere::LOST] / t[hemisphere::ARRIVED]) < 1e-3
+                    && t(|t| t[hemisphere::ARRIVED] / t[hemisphere::DRAWN]) > 0.1
+            );
             let around = ViewerLighting::default();
             let mut gaze =
                 BatchedEstimate::new(NonconvexView::new(&stone, &medium, aspect, around).expect("seen"), 3);
             gaze.extend_to(1 << 12);
-            let all =
-                gaze.estimate(|t| (t.bands.iter().sum::<f64>() + t.reflected + t.absorbed + t.lost) / t.rays);
+            let all = gaze.estimate(|t| {
+                (view::up(t) + t[view::BELOW] + t[view::REFLECTED] + t[view::ABSORBED] + t[view::LOST])
+                    / t[view::RAYS]
+            });
             assert!((all.value - 1.0).abs() < 1e-12, "{all:?}");
         }
     }
@@ -116,9 +129,13 @@ fn a_nonconvex_stone_of_index_one_leaks_everything() {
     let aspect = ViewFrame::tilted(10.0, 70.0);
     let mut dome = BatchedEstimate::new(NonconvexHemisphere::new(&stone, &medium, aspect).expect("lit"), 5);
     dome.extend_to(1 << 12);
-    let share = |of: fn(&hemisphere::HemisphereTally) -> f64| dome.estimate(of).value;
-    assert!(share(|t| (t.glare + t.returned + t.lost) / t.arrived) < 1e-12);
-    assert!((share(|t| t.leaked / t.arrived) - 1.0).abs() < 1e-12);
+    let share = |of: fn(&Tally) -> f64| dome.estimate(of).value;
+    assert!(
+        share(|t| (t[hemisphere::GLARE] + t[hemisphere::RETURNED] + t[hemisphere::LOST])
+            / t[hemisphere::ARRIVED])
+            < 1e-12
+    );
+    assert!((share(|t| t[hemisphere::LEAKED] / t[hemisphere::ARRIVED]) - 1.0).abs() < 1e-12);
 }
 
 /// All light that comes from above along lines of sight, beside a tree that follows both parts of
@@ -136,10 +153,10 @@ fn luminance_of_a_nonconvex_stone_is_that_of_a_tree_of_rays() {
             7,
         );
         gaze.extend_to(1 << 16);
-        let seen = gaze.estimate(|t| t.luminance / t.rays);
+        let seen = gaze.estimate(|t| t[view::LUMINANCE] / t[view::RAYS]);
         let mut ups = Vec::new();
         let mut open = 0.0;
-        for [a, b] in KroneckerPoints::<2>::new(SEED, Purpose::Test, 930, 0..SIGHTS) {
+        for [a, b] in KroneckerPoints::<2>::new(SEED, Purpose::TEST, 930, 0..SIGHTS) {
             let point = DVec3::new(2.0 * a - 1.0, 2.0 * b - 1.0, 3.0);
             let ray = crate::nonconvex::falling(point, -DVec3::Z, polarised);
             if stone.next_facet(point, -DVec3::Z, cutlab::trace::nonconvex::Side::Outside).is_some() {

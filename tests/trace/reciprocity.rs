@@ -73,7 +73,7 @@ type Ways = fn(&ConvexStone, DVec3, DVec3, usize, bool) -> Vec<Way>;
 /// polarisation is followed or not.
 fn assert_returns(ways: Ways, within: f64, most_lost: usize) {
     let stone = ConvexStone::new(brilliant());
-    let mut s = Stream::new(SEED, Purpose::Test, 800);
+    let mut s = Stream::new(SEED, Purpose::TEST, 800);
     let (mut tried, mut lost) = (0, 0);
     for number in 0..200 {
         let polarised = number % 2 == 0;
@@ -149,7 +149,7 @@ fn power_into_a_cone_inside_is_the_power_out_of_it() {
     let surface: f64 = areas.iter().sum();
     let table = (0..areas.len()).max_by(|a, b| stone.normals[*a].z.total_cmp(&stone.normals[*b].z));
     let table = table.expect("a table");
-    let mut s = Stream::new(SEED, Purpose::Test, 801);
+    let mut s = Stream::new(SEED, Purpose::TEST, 801);
     let (mut into, mut out) = (Vec::new(), Vec::new());
     for _ in 0..PACKETS {
         // from the sky: what arrives at the table from inside, within the cone

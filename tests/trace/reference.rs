@@ -20,7 +20,7 @@ const TIE: f64 = 2e-5;
 fn lanes_trace_as_their_twin_does() {
     let stone = ConvexStone::new(brilliant());
     let planes = stone.kernel_planes();
-    let mut s = Stream::new(SEED, Purpose::Test, 400);
+    let mut s = Stream::new(SEED, Purpose::TEST, 400);
     let (mut walks, mut parted) = (0, 0);
     for _ in 0..60 {
         let (start, _) = entering(&stone, &mut s, DIAMOND);

@@ -35,7 +35,7 @@ pub fn random_direction(s: &mut Stream) -> Vec3 {
 
 /// A closed stone of `count` planes: a tetrahedron knocked about, and planes near the unit sphere.
 pub fn random_stone(count: usize, number: u64) -> Polyhedron {
-    let mut s = Stream::new(SEED, Purpose::Test, number);
+    let mut s = Stream::new(SEED, Purpose::TEST, number);
     let tetrahedron =
         [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(Vec3::from_array);
     let mut planes: Vec<Plane> = tetrahedron

@@ -2,6 +2,7 @@
 
 use super::context::{CheckContext, CheckError};
 use crate::sampling::stats::Estimate;
+use serde::Deserialize;
 use std::fmt;
 
 /// A figure comes out if it lies within its tolerance and so many standard errors of ours: chance
@@ -9,7 +10,8 @@ use std::fmt;
 pub const ERRORS: f64 = 3.0;
 
 /// What kind of figure an expectation is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SourceKind {
     /// Stands in a publication, which is named.
     Published,

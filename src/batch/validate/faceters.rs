@@ -1,7 +1,8 @@
 //! Scores of faceters, Harding's closed form, spread and weight.
 
 use super::context::cut;
-use super::{Check, Figure, FigureSource, Measured, SourceKind, TRACER};
+use super::figures::{self, ReferenceFigure};
+use super::{Check, CheckError, Figure, FigureSource, Measured, SourceKind};
 use crate::formats;
 use crate::geometry::Plane;
 use crate::materials::Material;
@@ -11,55 +12,46 @@ use glam::DVec3;
 
 const SUBJECT: &str = "faceters' scores";
 
-const GUILD: FigureSource = FigureSource { kind: SourceKind::Published, name: "usfacetersguild.org" };
 const HARDING: FigureSource = FigureSource { kind: SourceKind::Derived, name: "Harding 1975, closed form" };
 const DEFINITION: FigureSource = FigureSource { kind: SourceKind::Derived, name: "definition of the score" };
 
-/// Without a head shadow, at 1.54: COS and ISO.
-const PUBLISHED: [(&str, [f64; 2]); 2] = [("classic", [40.6, 46.5]), ("first-stone", [82.1, 86.9])];
-
-const SIX: [&str; 6] = ["iso", "cos", "sc2", "table_iso", "table_cos", "table_sc2"];
-
-/// With a head of 10°, on a grid of 300 × 300 cell centres.
-const GRID: [(&str, f64, &[f64]); 3] = [
-    ("SRB.asc", 1.54, &[54.19, 49.88, 31.62, 42.91, 40.12, 27.25]),
-    ("SRB.asc", 2.417, &[69.51, 57.04, 53.73, 53.14, 45.87, 41.87]),
-    ("Turkey.asc", 1.76, &[70.35, 45.94, 51.34]),
-];
-
-/// Pavilion angles at which a symmetric ray turns by 10°.
-const AT_10: [(f64, f64); 2] = [(1.54, 43.378), (2.417, 43.967)];
-
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks: Vec<Check> = PUBLISHED.into_iter().map(published).collect();
-    checks.extend(GRID.into_iter().map(grid));
+    let mut checks: Vec<Check> = figures::subjects("no head shadow").into_iter().map(published).collect();
+    checks.extend(grids().into_iter().map(grid));
     checks.extend([closed_form(), gutter(), tolkowsky(), cube()]);
     checks
 }
 
-fn published((name, expected): (&'static str, [f64; 2])) -> Check {
-    let metrics = ["cos", "iso"];
+fn published(name: &'static str) -> Check {
+    let rows = figures::set_of("no head shadow", name);
+    let metrics: Vec<&str> = rows.iter().map(|f| f.quantity.as_str()).collect();
     let figure =
-        |(m, x)| Figure::near(format!("{m} of {name} at 1.54, no head shadow"), GUILD, x, 4.0).unit("%");
-    Check::new(SUBJECT, metrics.into_iter().zip(expected).map(figure).collect(), move |lab| {
+        |f: &&'static ReferenceFigure| f.named(format!("{} of {name} at 1.54, no head shadow", f.quantity));
+    Check::new(SUBJECT, rows.iter().map(figure).collect(), move |lab| {
         let plan =
             ScoreRequest { observer: Some(0.0), target: Target::Samples(1 << 16), ..ScoreRequest::default() };
         Ok(Measured::new(lab.planned(&cut(name)?, &Material::from_index(1.54), &metrics, plan)?))
     })
 }
 
-fn grid((file, index, expected): (&'static str, f64, &'static [f64])) -> Check {
-    let figure =
-        |(m, x): (&str, &f64)| Figure::near(format!("{m} of {file} at {index}"), TRACER, *x, 0.7).unit("%");
-    Check::new(SUBJECT, SIX.into_iter().zip(expected).map(figure).collect(), move |lab| {
+/// Figures with a head of 10°, on a grid of 300 × 300 cell centres: those of one file and index together.
+fn grids() -> Vec<Vec<&'static ReferenceFigure>> {
+    let all = figures::set("head of 10°");
+    all.chunk_by(|a, b| (&a.of, a.at) == (&b.of, b.at)).map(<[_]>::to_vec).collect()
+}
+
+fn grid(rows: Vec<&'static ReferenceFigure>) -> Check {
+    let figure = |f: &&'static ReferenceFigure| {
+        f.named(format!("{} of {} at {}", f.quantity, f.of, f.at.unwrap_or(f64::NAN)))
+    };
+    Check::new(SUBJECT, rows.iter().map(figure).collect(), move |lab| {
+        let Some(ReferenceFigure { of: file, at: Some(index), .. }) = rows.first() else {
+            return Err(CheckError::Unknown("a file with its index".into()));
+        };
         let design = formats::read(&lab.file(&format!("pairs/{file}"))?)?.design;
-        Ok(Measured::new(lab.scores(
-            &design,
-            &Material::from_index(index),
-            &SIX[..expected.len()],
-            1 << 17,
-        )?))
+        let metrics: Vec<&str> = rows.iter().map(|f| f.quantity.as_str()).collect();
+        Ok(Measured::new(lab.scores(&design, &Material::from_index(*index), &metrics, 1 << 17)?))
     })
 }
 
@@ -70,10 +62,12 @@ fn turn(index: f64, pavilion_deg: f64) -> f64 {
 }
 
 fn closed_form() -> Check {
-    let figure = |(n, p)| {
-        Figure::near(format!("pavilion angle at which light turns by 10° at {n}"), HARDING, p, 5e-4).unit("°")
+    let rows = figures::set("turn by 10°");
+    let index = |f: &ReferenceFigure| f.at.unwrap_or(f64::NAN);
+    let figure = |f: &&'static ReferenceFigure| {
+        f.named(format!("pavilion angle at which light turns by 10° at {}", index(f)))
     };
-    Check::new(SUBJECT, AT_10.map(figure).into(), |_| {
+    Check::new(SUBJECT, rows.iter().map(figure).collect(), move |_| {
         // the greatest angle that turns it by 10° or more
         let solve = |n: f64| {
             let (mut lo, mut hi) = (42.0f64, 45.0f64);
@@ -83,7 +77,7 @@ fn closed_form() -> Check {
             }
             0.5 * (lo + hi)
         };
-        Ok(Measured::exact(AT_10.map(|(n, _)| solve(n))))
+        Ok(Measured::exact(rows.iter().map(|f| solve(index(f)))))
     })
 }
 

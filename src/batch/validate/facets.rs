@@ -1,8 +1,9 @@
 //! Light at facets: Fresnel's formulas, energy, exact beams and the tracers that they must agree with.
 
 use super::context::{cut, material};
+use super::figures::{self, ReferenceFigure};
 use super::stones::{INDEX, brilliant, brilliant_by_name};
-use super::{Check, CheckError, Expected, Figure, FigureSource, Measured, SourceKind, TRACER};
+use super::{Check, CheckError, Expected, Figure, FigureSource, Measured, SourceKind};
 use crate::design::library;
 use crate::estimators::weighted_exits::BeamEffort as Work;
 use crate::estimators::{BatchedEstimate, TraceOptics, View, beam_view, view};
@@ -10,6 +11,7 @@ use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::fresnel;
 use crate::sampling::stats::Estimate;
+use crate::sampling::tally::Tally;
 use crate::scoring::score::{ScoreRequest, Target};
 use crate::trace::ConvexStone;
 use crate::trace::beams::{
@@ -27,28 +29,24 @@ const ENERGY: FigureSource = FigureSource { kind: SourceKind::Derived, name: "en
 const TWO_WAYS: FigureSource =
     FigureSource { kind: SourceKind::Derived, name: "beams and photons are the same light" };
 
-/// Threshold of power; then beams, up, down, up·cos², not followed.
-const BEAMS: [(f64, [f64; 5]); 3] = [
-    (1e-5, [11_025.0, 0.734823, 0.067648, 0.576448, 0.023181]),
-    (1e-6, [87_049.0, 0.743030, 0.075199, 0.579620, 0.007424]),
-    (1e-7, [436_465.0, 0.745918, 0.077765, 0.580646, 0.001969]),
-];
-
 /// The tracer that the figures are from gave a beam up after so many facets, which tells at 1e-7.
 const MOST_FACETS: u32 = 201;
 
-/// The limit by 262,144 quasi-random traces: reflected, up, up·cos², down.
-const LIMIT: [(&str, f64); 4] = [
-    ("light reflected at entry", 0.174347),
-    ("light up", 0.74693),
-    ("light up × cos²", 0.58098),
-    ("light down", 0.07872),
-];
+/// The figures of the set "vertical view", the limit by 262,144 quasi-random traces, with tolerances.
+///
+/// - `way`: by which ours are found
+fn limit(way: &str, tolerances: [f64; 4]) -> Vec<Figure> {
+    let row = |(f, tolerance): (&'static ReferenceFigure, f64)| {
+        Figure::near(format!("{}, {way}", f.quantity), f.source(), f.expected, tolerance)
+    };
+    figures::set("vertical view").into_iter().zip(tolerances).map(row).collect()
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
     let mut checks = vec![formulas(), air()];
-    checks.extend(BEAMS.into_iter().map(beams));
+    let all = figures::set("beams");
+    checks.extend(all.chunk_by(|a, b| a.at == b.at).map(beams));
     checks.extend([limit_by_photons(), limit_by_beams(), polarisation(), energy(), beams_sum()]);
     checks.push(beams_against_photons());
     checks
@@ -108,17 +106,10 @@ fn reference() -> Result<ConvexStone, CheckError> {
     Ok(ConvexStone::new(brilliant(&[])?.solid()?))
 }
 
-fn beams((power, expected): (f64, [f64; 5])) -> Check {
-    let names = ["number", "light up", "light down", "light up × cos²", "light not followed"];
-    let tolerances = [0.0, 6e-7, 6e-7, 6e-7, 6e-7];
-    let row = |((name, x), t)| Figure::near(format!("{name}, beams down to {power:e}"), TRACER, x, t);
-    let mut figures: Vec<Figure> = names.into_iter().zip(expected).zip(tolerances).map(row).collect();
-    figures.push(Figure::near(
-        format!("light reflected at entry, beams down to {power:e}"),
-        TRACER,
-        0.17435,
-        6e-6,
-    ));
+fn beams(rows: &[&'static ReferenceFigure]) -> Check {
+    let power = rows.first().and_then(|f| f.at).unwrap_or(f64::NAN);
+    let mut figures: Vec<Figure> =
+        rows.iter().map(|f| f.named(format!("{}, beams down to {power:e}", f.quantity))).collect();
     figures.push(Figure::near(format!("all light, beams down to {power:e}"), ENERGY, 1.0, 1e-9));
     Check::new(SUBJECT, figures, move |_| {
         let until = StopCriteria { facets: MOST_FACETS, ..StopCriteria::at_power(power) };
@@ -128,17 +119,18 @@ fn beams((power, expected): (f64, [f64; 5])) -> Check {
 }
 
 fn limit_by_photons() -> Check {
-    let tolerances = [1e-6, 2e-4, 2e-4, 2e-4];
-    let row = |((name, x), t)| Figure::near(format!("{name}, photons"), TRACER, x, t);
-    let figures = LIMIT.into_iter().zip(tolerances).map(row).collect();
-    Check::new(SUBJECT, figures, |lab| {
+    Check::new(SUBJECT, limit("photons", [1e-6, 2e-4, 2e-4, 2e-4]), |lab| {
         let (stone, material) = (reference()?, Material::from_index(DIAMOND));
         let medium = TraceOptics { material: &material, polarised: false };
         let mut seen = BatchedEstimate::new(View::new(&stone, &medium)?, lab.seed);
         seen.extend_to(1 << 18);
-        let share = |of: fn(&view::ViewTally) -> f64| seen.estimate(|t| of(t) / t.rays);
-        let found =
-            [share(|t| t.reflected), share(view::ViewTally::up), share(|t| t.up_cos2), share(|t| t.bands[3])];
+        let share = |of: fn(&Tally) -> f64| seen.estimate(|t| of(t) / t[view::RAYS]);
+        let found = [
+            share(|t| t[view::REFLECTED]),
+            share(view::up),
+            share(|t| t[view::UP_COS2]),
+            share(|t| t[view::BELOW]),
+        ];
         Ok(Measured::new(found.into()))
     })
 }
@@ -157,9 +149,8 @@ const FAR: Work = Work {
 
 fn limit_by_beams() -> Check {
     // 262,144 quasi-random traces are good to 3e-5
-    let tolerances = [2e-5, 6e-5, 6e-5, 6e-5];
-    let row = |((name, x), t)| Figure::near(format!("{name}, beams finished by photons"), TRACER, x, t);
-    Check::new(SUBJECT, LIMIT.into_iter().zip(tolerances).map(row).collect(), |lab| {
+    let figures = limit("beams finished by photons", [2e-5, 6e-5, 6e-5, 6e-5]);
+    Check::new(SUBJECT, figures, |lab| {
         let stone = reference()?;
         let work = Work { seed: lab.seed, ..FAR };
         let g = beam_view::beam_view(&Beams::new(&stone), DVec3::NEG_Z, DIAMOND, false, &work)?;
@@ -168,10 +159,8 @@ fn limit_by_beams() -> Check {
 }
 
 fn polarisation() -> Check {
-    let name = "change of light up by polarisation";
-    // ± .000003
-    let figure = Figure::near(name, TRACER, 0.000566, 6e-6);
-    Check::new(SUBJECT, vec![figure], |lab| {
+    let figures = figures::set("polarisation").into_iter().map(|f| f.named(&f.quantity)).collect();
+    Check::new(SUBJECT, figures, |lab| {
         let stone = reference()?;
         let work = Work { seed: lab.seed, ..FAR };
         let up = |polarised| {

@@ -1,97 +1,73 @@
 //! Indices of refraction and dispersion of materials.
 
 use super::context::material;
-use super::{Check, CheckError, Figure, FigureSource, Measured, SourceKind};
+use super::figures::{self, ReferenceFigure};
+use super::{Check, CheckError, Measured};
 use crate::optics::dispersion::{Dispersion, lines};
 
 const SUBJECT: &str = "indices";
 
-const PETER: FigureSource =
-    FigureSource { kind: SourceKind::Published, name: "diamond at the Fraunhofer lines (Peter)" };
-const DATABASE: FigureSource = FigureSource { kind: SourceKind::Published, name: "refractiveindex.info" };
-const SCHOTT: FigureSource = FigureSource { kind: SourceKind::Published, name: "Schott's data sheet" };
-const HANDBOOK: FigureSource = FigureSource { kind: SourceKind::Published, name: "gemmological tables" };
-
-const DIAMOND: [(&str, f64, f64); 8] = [
-    ("B", lines::B, 2.40728),
-    ("C", lines::C, 2.40990),
-    ("D", lines::D, 2.41726),
-    ("d", lines::D_HELIUM, 2.41749),
-    ("e", lines::E, 2.42359),
-    ("F", lines::F, 2.43554),
-    ("G", lines::G, 2.45173),
-    ("h", lines::H, 2.46205),
-];
-
-/// Whether the extraordinary ray; n_D and its tolerance; B–G and its tolerance (both lines are rounded
-/// where it is printed).
-type IndexRow = (&'static str, bool, (f64, f64), Option<(f64, f64)>, FigureSource);
-
-const FIVE: f64 = 1e-5;
-
-const MATERIALS: [IndexRow; 24] = [
-    ("diamond", false, (2.41726, FIVE), Some((0.04444, FIVE)), DATABASE),
-    ("corundum", false, (1.76808, FIVE), Some((0.0181, 1e-4)), DATABASE),
-    ("corundum", true, (1.76000, FIVE), Some((0.0177, 1e-4)), DATABASE),
-    ("quartz", false, (1.54421, FIVE), Some((0.0133, 1e-4)), DATABASE),
-    ("quartz", true, (1.55331, FIVE), Some((0.0138, 1e-4)), DATABASE),
-    ("spinel", false, (1.71610, FIVE), Some((0.0202, 1e-4)), DATABASE),
-    ("moissanite", false, (2.64743, FIVE), Some((0.112, 1e-3)), DATABASE),
-    ("moissanite", true, (2.68897, FIVE), None, DATABASE),
-    ("cubic-zirconia", false, (2.15846, FIVE), Some((0.0604, 1e-4)), DATABASE),
-    ("yag", false, (1.83265, FIVE), Some((0.0272, 1e-4)), DATABASE),
-    ("strontium-titanate", false, (2.40799, FIVE), Some((0.2096, 1e-4)), DATABASE),
-    ("rutile", false, (2.61291, FIVE), Some((0.31, 1e-2)), DATABASE),
-    ("rutile", true, (2.90865, FIVE), Some((0.40, 1e-2)), DATABASE),
-    ("zircon", false, (1.925, 1e-3), Some((0.039, 6e-4)), HANDBOOK),
-    ("zircon", true, (1.984, 1e-3), None, HANDBOOK),
-    ("topaz", false, (1.612, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
-    ("imperial-topaz", false, (1.631, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
-    ("beryl", false, (1.583, 1e-3), Some((0.014, 6e-4)), HANDBOOK),
-    ("beryl", true, (1.577, 1e-3), None, HANDBOOK),
-    ("tourmaline", false, (1.644, 1e-3), Some((0.017, 6e-4)), HANDBOOK),
-    ("tourmaline", true, (1.624, 1e-3), None, HANDBOOK),
-    ("calcite", false, (1.6584, 1e-3), None, HANDBOOK),
-    ("calcite", true, (1.4864, 1e-3), None, HANDBOOK),
-    ("chrysoberyl", false, (1.748, 1e-3), None, HANDBOOK),
-];
-
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let line = |(name, _, n): &(&str, f64, f64)| {
-        Figure::near(format!("diamond at the line {name}"), PETER, *n, 2e-5)
-    };
-    let mut checks = vec![Check::new(SUBJECT, DIAMOND.iter().map(line).collect(), |_| {
+    let lines_of_diamond = figures::set("lines of diamond");
+    let line = |f: &&'static ReferenceFigure| f.named(format!("diamond at the line {}", f.quantity));
+    let mut checks = vec![Check::new(SUBJECT, lines_of_diamond.iter().map(line).collect(), move |_| {
         let diamond = material("diamond")?;
-        Ok(Measured::exact(DIAMOND.map(|(_, nm, _)| diamond.index(nm))))
+        let index = |f: &&ReferenceFigure| line_nm(&f.quantity).map_or(f64::NAN, |nm| diamond.index(nm));
+        Ok(Measured::exact(lines_of_diamond.iter().map(index)))
     })];
-    checks.extend(MATERIALS.into_iter().map(index_check));
-    let glass = vec![
-        Figure::near("n-bk7 at d", SCHOTT, 1.51680, FIVE),
-        Figure::near("n-bk7, F–C", SCHOTT, 0.008054, 2e-6),
-    ];
+    let all = figures::set("indices");
+    let ray = |f: &ReferenceFigure| f.quantity.starts_with(EXTRAORDINARY);
+    checks.extend(all.chunk_by(|a, b| a.of == b.of && ray(a) == ray(b)).map(index_check));
+    let glass = |f: &'static ReferenceFigure| match f.quantity.as_str() {
+        "n_d" => f.named("n-bk7 at d"),
+        other => f.named(format!("n-bk7, {other}")),
+    };
+    let glass = figures::set("indices of glass").into_iter().map(glass).collect();
     checks.push(Check::new(SUBJECT, glass, |_| {
         let glass = material("n-bk7")?;
         Ok(Measured::exact([glass.index(lines::D_HELIUM), glass.index(lines::F) - glass.index(lines::C)]))
     }));
-    for (name, n, tolerance) in [("fused-silica", 1.45846, 1e-5), ("fluorite", 1.43385, 2e-5)] {
-        let source = FigureSource { kind: SourceKind::Published, name: "Malitson's table" };
-        let figure = Figure::near(format!("{name} at d"), source, n, tolerance);
+    for row in figures::set("indices of Malitson") {
+        let figure = row.named(format!("{} at d", row.of));
         checks.push(Check::new(SUBJECT, vec![figure], move |_| {
-            Ok(Measured::exact([material(name)?.index(lines::D_HELIUM)]))
+            Ok(Measured::exact([material(&row.of)?.index(lines::D_HELIUM)]))
         }));
     }
     checks
 }
 
-fn index_check((name, extraordinary, (n, digits), b_g, source): IndexRow) -> Check {
-    let ray = if extraordinary { " extraordinary" } else { "" };
-    let mut figures = vec![Figure::near(format!("{name}{ray} at D"), source, n, digits)];
-    figures.extend(b_g.map(|(b_g, d)| Figure::near(format!("{name}{ray}, B–G"), source, b_g, d)));
-    Check::new(SUBJECT, figures, move |_| {
-        let material = material(name)?;
-        let none = || CheckError::Unknown(format!("extraordinary ray of {name}"));
-        let law: &Dispersion = if extraordinary {
+/// How quantities of the extraordinary ray begin.
+const EXTRAORDINARY: &str = "extraordinary";
+
+/// The wavelength of a Fraunhofer line, in nanometres.
+fn line_nm(name: &str) -> Option<f64> {
+    let all = [
+        ("B", lines::B),
+        ("C", lines::C),
+        ("D", lines::D),
+        ("d", lines::D_HELIUM),
+        ("e", lines::E),
+        ("F", lines::F),
+        ("G", lines::G),
+        ("h", lines::H),
+    ];
+    all.into_iter().find(|(line, _)| *line == name).map(|(_, nm)| nm)
+}
+
+/// The index at D of one ray of a material, and its dispersion from B to G where it is known.
+fn index_check(rows: &[&'static ReferenceFigure]) -> Check {
+    let rows = rows.to_vec();
+    let figure = |f: &&'static ReferenceFigure| {
+        let ray = if f.quantity.starts_with(EXTRAORDINARY) { " extraordinary" } else { "" };
+        let what = if f.quantity.ends_with("B–G") { ", B–G" } else { " at D" };
+        f.named(format!("{}{ray}{what}", f.of))
+    };
+    Check::new(SUBJECT, rows.iter().map(figure).collect(), move |_| {
+        let Some(first) = rows.first() else { return Ok(Measured::default()) };
+        let material = material(&first.of)?;
+        let none = || CheckError::Unknown(format!("extraordinary ray of {}", first.of));
+        let law: &Dispersion = if first.quantity.starts_with(EXTRAORDINARY) {
             material.extraordinary.as_ref().ok_or_else(none)?
         } else {
             &material.dispersion

@@ -46,8 +46,8 @@ fn metric(m: &Metric) -> CatalogueEntry {
     let observer = m.observer.map_or("none".into(), |a| format!("{a}° half-angle, or --observer"));
     let how = match m.read_from {
         MetricSource::Solid(_) => "none: a closed form",
-        MetricSource::View(Statistic::Share(_)) => "by Wilson's interval, of 64 batches of random rays",
-        MetricSource::PointLight(Statistic::Median(..)) => {
+        MetricSource::Sums(Statistic::Share(..)) => "by Wilson's interval, of 64 batches of random rays",
+        MetricSource::Sums(Statistic::Median(_)) => {
             "of 64 batches of random rays: the longer side of a 95 % interval for the median, over 1.96"
         }
         _ => "of 64 batches of random rays",
@@ -57,7 +57,7 @@ fn metric(m: &Metric) -> CatalogueEntry {
     let text = block(
         &format!("{}: {}", m.name, m.about),
         &[
-            ("definition", m.definition.into()),
+            ("definition", m.definition()),
             ("observer", observer),
             ("unit", format!("{unit}, {} to {}", m.range.0, m.range.1)),
             (
@@ -67,7 +67,7 @@ fn metric(m: &Metric) -> CatalogueEntry {
                     word => word.into(),
                 },
             ),
-            ("experiment", m.read_from.estimator().into()),
+            ("experiment", m.estimator.name().into()),
             ("stones", shapes.into()),
             ("error", error),
             ("source", m.source.into()),
@@ -78,10 +78,10 @@ fn metric(m: &Metric) -> CatalogueEntry {
         "range": [m.range.0, m.range.1],
         "better": (!m.better.word().is_empty()).then(|| m.better.word()),
         "observer_deg": m.observer,
-        "experiment": m.read_from.estimator(),
+        "experiment": m.estimator.name(),
         "by_beams": m.by_beams,
         "dented": m.nonconvex,
-        "definition": m.definition,
+        "definition": m.definition(),
         "source": m.source,
     });
     CatalogueEntry { name: m.name.into(), about: m.about_and_better(), text, facts }

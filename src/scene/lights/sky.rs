@@ -73,7 +73,7 @@ mod tests {
                 expected += f64::from(parts.y) * 2.0 * f64::from(PI) / f64::from(n * n);
             }
             let n = 200_000;
-            let places = KroneckerPoints::<2>::new(1, Purpose::Test, 0, 0..n);
+            let places = KroneckerPoints::<2>::new(1, Purpose::TEST, 0, 0..n);
             let seen: f64 = places
                 .filter_map(|u| dome.sample_li(Vec3::ZERO, normal, u.map(|x| x as f32)))
                 .map(|g| f64::from(g.radiance_over_pdf.y * g.direction.dot(normal)) / n as f64)

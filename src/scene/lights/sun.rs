@@ -95,7 +95,7 @@ mod tests {
         let sun = Sun { direction, colour: Vec3::splat(1e6) };
         let n = 10_000;
         let (mut seen, mut rings) = (0.0, [0.0; 10]);
-        for u in KroneckerPoints::<2>::new(1, Purpose::Test, 0, 0..n) {
+        for u in KroneckerPoints::<2>::new(1, Purpose::TEST, 0, 0..n) {
             let light_sample = sun.sample_li(Vec3::ZERO, Vec3::Z, u.map(|x| x as f32)).expect("above");
             // a hair less for the roundness of f32
             let toward = warps::to_world(direction, Vec3::Z).lerp(light_sample.direction, 0.999).normalize();

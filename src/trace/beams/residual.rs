@@ -13,6 +13,9 @@ use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, Packet};
 use glam::{DVec2, Vec3};
 
+/// Photons that finish what beams leave over, one stream a batch.
+const STREAM: Purpose = Purpose::named("beam residual");
+
 /// A photon with less than this share of its power is given up: of a residual of 2.5 %, 2.5e-7.
 const STOP_POWER: f32 = 1e-5;
 
@@ -63,7 +66,7 @@ impl<const K: usize> ResidualPhotons<K> {
     pub fn new(seed: u64, batches: usize, photons: usize) -> Self {
         let most = photons.max(2);
         let batches = (0..batches as u64).map(|b| {
-            let mut stream = Stream::new(seed, Purpose::BeamResidual, b);
+            let mut stream = Stream::new(seed, STREAM, b);
             let step = FIRST_STEP;
             PhotonBatch { next: step * stream.unit64(), stream, step, photons: Vec::with_capacity(most) }
         });
