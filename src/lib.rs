@@ -15,6 +15,7 @@
 
 pub mod color;
 pub mod design;
+mod error;
 pub mod estimators;
 pub mod geometry;
 pub mod limits;
@@ -24,6 +25,7 @@ pub mod metrics;
 pub mod optics;
 pub mod parallel;
 pub mod parse;
+pub mod prelude;
 pub mod progress;
 pub mod sampling;
 pub mod scoring;
@@ -51,3 +53,15 @@ pub mod report;
 
 #[cfg(feature = "cli")]
 pub mod cli;
+
+pub use design::{Design, LengthUnit};
+pub use error::{Error, ErrorKind};
+pub use glam;
+pub use materials::Material;
+pub use metrics::Metric;
+pub use progress::Progress;
+#[cfg(feature = "render")]
+pub use render::{Picture, RenderRequest};
+pub use sampling::stats::Estimate;
+pub use scoring::{ScoreRequest, Scores};
+pub use stone::{Stone, StoneOptions};

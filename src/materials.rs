@@ -27,6 +27,16 @@ pub fn is_path(name: &str) -> bool {
     name.contains(['/', std::path::MAIN_SEPARATOR]) || name.to_lowercase().ends_with(".toml")
 }
 
+/// A name that no material has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no material is called '{name}'{} (all: cutlab list materials)", parse::did_you_mean(.nearest.as_deref()))]
+pub struct NoSuchMaterial {
+    /// The name.
+    pub name: String,
+    /// The material that is probably meant.
+    pub nearest: Option<String>,
+}
+
 impl Material {
     /// The material that `argument` names: one of the catalogue, or a TOML file; a path is never a name of the
     /// catalogue. The error suggests a name that is near, or says where in the file what was expected and found.
@@ -41,9 +51,21 @@ impl Material {
             return Material::read(Path::new(argument), argument, false, limits).map_err(|e| e.to_string());
         }
         let _ = limits;
-        let near = parse::nearest_name(argument, MATERIALS.iter().map(|m| m.name.as_ref()));
-        let near = parse::did_you_mean(near);
-        Err(format!("no material is called '{argument}'{near} (all: cutlab list materials)"))
+        Material::named(argument).map_err(|e| e.to_string())
+    }
+
+    /// The material called `name`, of which the error says that there is none and which is near.
+    ///
+    /// ```
+    /// let ruby = cutlab::Material::named("ruby")?;
+    /// assert!((ruby.index_d() - 1.768).abs() < 1e-3 && !ruby.is_clear());
+    /// # Ok::<(), cutlab::Error>(())
+    /// ```
+    pub fn named(name: &str) -> Result<Material, NoSuchMaterial> {
+        let near = || parse::nearest_name(name, MATERIALS.iter().map(|m| m.name.as_ref()));
+        Material::by_name(name)
+            .cloned()
+            .ok_or_else(|| NoSuchMaterial { name: name.into(), nearest: near().map(str::to_owned) })
     }
 
     /// The material called `name`, or none.

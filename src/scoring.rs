@@ -3,4 +3,10 @@
 mod adaptive;
 pub mod comparison;
 pub mod score;
+pub mod scores;
 pub mod settings;
+
+pub use comparison::Comparison;
+pub use score::{score, score_all};
+pub use scores::{ScoreError, Scores};
+pub use settings::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt};

@@ -18,6 +18,8 @@ const ROWS: &[&[&str]] = &[
     &["photons", "batch"],
     &["integrators"],
     &["render"],
+    &["error"],
+    &["prelude"],
     &["report", "manual"],
     &["cli"],
 ];

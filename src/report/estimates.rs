@@ -2,21 +2,9 @@
 
 use crate::sampling::stats::Estimate;
 
-/// An estimate as text: its value to two digits of its error, and the error if there is one. Small numbers are
-/// in powers of ten; a value that rounds to zero has no sign.
+/// An estimate as text: [`Estimate::text`].
 pub fn estimate_text(e: Estimate) -> (String, Option<String>) {
-    let unsigned = |text: String| {
-        let nothing = text.parse::<f64>() == Ok(0.0);
-        if nothing { text.trim_start_matches('-').to_owned() } else { text }
-    };
-    if e.error <= 0.0 || !e.error.is_finite() {
-        return (unsigned(format!("{:.4}", e.value)), None);
-    }
-    let digits = (1.0 - e.error.log10().floor()).max(0.0) as usize;
-    if digits > 6 {
-        return (unsigned(format!("{:.2e}", e.value)), Some(format!("{:.0e}", e.error)));
-    }
-    (unsigned(format!("{:.digits$}", e.value)), Some(format!("{:.digits$}", e.error)))
+    e.text()
 }
 
 /// An estimate with its error as HTML, or a dash if there is none.
@@ -39,7 +27,7 @@ mod tests {
 
     #[test]
     fn numbers_show_two_digits_of_their_error() {
-        let shown = |value, error| estimate_text(Estimate { value, error });
+        let shown = |value, error| Estimate { value, error }.text();
         assert_eq!(shown(0.283_21, 0.000_43), ("0.28321".into(), Some("0.00043".into())));
         assert_eq!(shown(12.345, 0.5), ("12.35".into(), Some("0.50".into())));
         assert_eq!(shown(4.371e-5, 4.3e-8), ("4.37e-5".into(), Some("4e-8".into())));

@@ -1,6 +1,7 @@
 //! Estimates with standard errors, from independent batches.
 
 use serde::Serialize;
+use std::fmt;
 
 /// A value and its standard error, in the same unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -15,6 +16,33 @@ impl Estimate {
     /// A value without error (a closed form).
     pub fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
+    }
+
+    /// As text: the value to two digits of its error, and the error if there is one. Small numbers are in powers of
+    /// ten; a value that rounds to zero has no sign.
+    pub fn text(self) -> (String, Option<String>) {
+        let unsigned = |text: String| {
+            let nothing = text.parse::<f64>() == Ok(0.0);
+            if nothing { text.trim_start_matches('-').to_owned() } else { text }
+        };
+        if self.error <= 0.0 || !self.error.is_finite() {
+            return (unsigned(format!("{:.4}", self.value)), None);
+        }
+        let digits = (1.0 - self.error.log10().floor()).max(0.0) as usize;
+        if digits > 6 {
+            return (unsigned(format!("{:.2e}", self.value)), Some(format!("{:.0e}", self.error)));
+        }
+        (unsigned(format!("{:.digits$}", self.value)), Some(format!("{:.digits$}", self.error)))
+    }
+}
+
+/// `0.2838 ± 0.0010`; a value without error alone.
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.text() {
+            (value, Some(error)) => write!(f, "{value} ± {error}"),
+            (value, None) => f.write_str(&value),
+        }
     }
 }
 

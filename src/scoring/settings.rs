@@ -168,6 +168,9 @@ pub struct ScoreRequest {
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have one
     /// ([`Metric::observer`]); none leaves each its own.
     pub observer: Option<f64>,
+    /// Names that were asked for and that no metric has.
+    #[serde(skip)]
+    pub unknown: Vec<String>,
 }
 
 impl Default for ScoreRequest {
@@ -182,6 +185,7 @@ impl Default for ScoreRequest {
             cap: MAX_SAMPLES,
             exact: false,
             observer: None,
+            unknown: Vec::new(),
         }
     }
 }

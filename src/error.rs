@@ -1,0 +1,112 @@
+//! The one error of the library's root, and its kinds.
+
+#[cfg(feature = "files")]
+use crate::formats::FormatError;
+use crate::materials::NoSuchMaterial;
+use crate::scoring::ScoreError;
+use crate::stone::StoneError;
+#[cfg(feature = "files")]
+use crate::storage::atomic_write::WriteError;
+#[cfg(feature = "files")]
+use std::io::ErrorKind as IoErrorKind;
+
+/// What went wrong: one sentence that names the file, line, facet or option, what was expected and what was
+/// found. [`Error::kind`] tells what to do about it.
+///
+/// ```
+/// use cutlab::{Error, ErrorKind, Stone};
+///
+/// let error = Error::from(Stone::parse("round-briliant").unwrap_err());
+/// assert_eq!(error.kind(), ErrorKind::NotFound);
+/// assert!(error.to_string().contains("did you mean 'round-brilliant'"));
+/// ```
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Of a stone.
+    #[error(transparent)]
+    Stone(#[from] StoneError),
+    /// Of scores.
+    #[error(transparent)]
+    Score(#[from] ScoreError),
+    /// Of a design or a mesh that is read or written.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// Of a file that is written.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// Of a picture.
+    #[cfg(feature = "render")]
+    #[error(transparent)]
+    Render(#[from] crate::render::RenderError),
+    /// A material that there is not.
+    #[error(transparent)]
+    Material(#[from] NoSuchMaterial),
+}
+
+/// Kinds of errors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A name that nothing has, or a file that is not there: ask for another.
+    NotFound,
+    /// Content or an argument that is wrong: mend it.
+    Invalid,
+    /// More than is read: raise the limits.
+    Limit,
+    /// The operating system refused: look at rights and room.
+    Io,
+    /// The work was ended early, as it was asked to.
+    Cancelled,
+}
+
+impl Error {
+    /// What to do about it.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Error::Stone(error) => of_stone(error),
+            Error::Score(ScoreError::NoSuchMetric { .. }) | Error::Material(_) => ErrorKind::NotFound,
+            Error::Score(_) => ErrorKind::Invalid,
+            #[cfg(feature = "files")]
+            Error::Format(error) => of_format(error),
+            #[cfg(feature = "files")]
+            Error::Write(_) => ErrorKind::Io,
+            #[cfg(feature = "render")]
+            Error::Render(error) => of_render(error),
+        }
+    }
+}
+
+fn of_stone(error: &StoneError) -> ErrorKind {
+    match error {
+        #[cfg(feature = "files")]
+        StoneError::Format(error) => of_format(error),
+        StoneError::NoSuchStone { .. } | StoneError::NoSuchFile { .. } | StoneError::Impossible { .. } => {
+            ErrorKind::NotFound
+        }
+        _ => ErrorKind::Invalid,
+    }
+}
+
+#[cfg(feature = "files")]
+fn of_format(error: &FormatError) -> ErrorKind {
+    match error {
+        FormatError::Read { cause, .. } if cause.kind() == IoErrorKind::NotFound => ErrorKind::NotFound,
+        FormatError::Read { .. } | FormatError::Write(_) => ErrorKind::Io,
+        FormatError::Limit { .. } | FormatError::TooLarge { .. } => ErrorKind::Limit,
+        _ => ErrorKind::Invalid,
+    }
+}
+
+#[cfg(feature = "render")]
+fn of_render(error: &crate::render::RenderError) -> ErrorKind {
+    use crate::render::RenderError;
+    match error {
+        RenderError::Stone(error) => of_stone(error),
+        RenderError::Write(_) => ErrorKind::Io,
+        RenderError::Cancelled => ErrorKind::Cancelled,
+        _ => ErrorKind::Invalid,
+    }
+}
