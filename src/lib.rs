@@ -13,6 +13,8 @@
 //! `parallel` takes all threads, `files` adds designs, meshes and tables on disk, `render` scenes and
 //! pictures, `report` drawings and pages, and `cli` (the default) is all of it and the program.
 
+#![deny(missing_docs)]
+
 pub mod color;
 pub mod design;
 mod error;

@@ -303,7 +303,7 @@ fn tables_that_are_read_back_are_limited() {
             );
             assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
         }
-        // a row without end, with the checksum in the companion put right
+        // a row without end, with the checksum in the sidecar put right
         let row = if extension == "csv" { "\"" } else { "{" };
         let table = [
             fs::read(at(&format!("1-2.{extension}"))).expect("is there"),

@@ -302,7 +302,7 @@ fn photon_map(rest: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// What tables of scores and their companions are read back from.
+/// What tables of scores and their sidecars are read back from.
 pub fn tables(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
     if how % 4 == 3 {
