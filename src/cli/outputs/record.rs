@@ -5,7 +5,7 @@
 
 use crate::cli::args::stone;
 use crate::parse::shell;
-use crate::report::page::escaped;
+use crate::report::svg_canvas::escaped;
 use crate::storage::limits;
 use exr::meta::MetaData;
 use std::ffi::OsString;
