@@ -1,7 +1,7 @@
 //! The rules of the house: rows of rooms, file headers and lengths, no way to panic, one file with
 //! `unsafe`, markup by canvas and templates alone, no folder that nobody expects.
 
-use cutlab::sampling::random::Purpose;
+use cutlab::advanced::sampling::random::Purpose;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,7 @@ const ROWS: &[&[&str]] = &[
     &["prelude"],
     &["report", "manual"],
     &["cli"],
+    &["advanced"],
 ];
 
 /// Folders of the repository, apart from what git ignores.
@@ -75,8 +76,10 @@ fn row_of(room: &str) -> Option<usize> {
     ROWS.iter().position(|row| row.contains(&room))
 }
 
-/// Every room that the text names after `crate::`, also in `crate::{a, b::c}`.
+/// Every room that the text names after `crate::`, also in `crate::{a, b::c}`. What a macro names after
+/// `$crate::` is for those who use it.
 fn imports(text: &str) -> Vec<String> {
+    let text = text.replace("$crate::", "");
     let mut rooms = Vec::new();
     let word = |s: &str| s.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
     for rest in text.split("crate::").skip(1) {

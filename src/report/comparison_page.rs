@@ -19,7 +19,7 @@ const OWN_STYLE: &str = include_str!("comparison_page.css");
 /// Pixels across a picture through a scope.
 const SCOPE_SIDE: u32 = 400;
 
-/// Steps that [`html`] reports, for each stone.
+/// Steps that [`html()`] reports, for each stone.
 pub const STEPS: usize = 3;
 
 /// Names longer than this make a table too wide: a number stands for them.

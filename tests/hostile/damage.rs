@@ -3,9 +3,9 @@
 
 use super::targets::{self, FOUND, READ_ONLY};
 use super::{SAMPLES, cutlab};
-use cutlab::formats::{self, FORMATS};
-use cutlab::integrators::animation;
-use cutlab::storage::journal::Journal;
+use cutlab::advanced::formats::{self, FORMATS};
+use cutlab::advanced::integrators::animation;
+use cutlab::advanced::storage::journal::Journal;
 use rayon::prelude::*;
 use std::fs;
 use std::io::Cursor;

@@ -2,7 +2,7 @@
 //! entities that would expand. The program runs with a gigabyte of address space and says one line.
 
 use super::cutlab;
-use cutlab::{formats, limits};
+use cutlab::advanced::{formats, limits};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
