@@ -2,11 +2,17 @@
 
 pub mod fingerprint;
 pub mod finished_row;
+mod input_files;
 pub mod merge;
+mod proportion_columns;
 pub mod request;
+mod row_maker;
+pub mod score_rows;
 pub mod shard;
 pub mod sidecar;
 pub mod sweep;
+pub mod sweep_rows;
 pub mod table;
 pub mod table_job;
+pub mod table_rows;
 pub mod validate;

@@ -21,7 +21,6 @@ mod merge;
 mod outputs;
 mod plot;
 mod plot_output;
-mod proportion_columns;
 mod render;
 mod report;
 mod score;

@@ -49,6 +49,11 @@ impl TryFrom<StatedSteps> for Steps {
     }
 }
 
+/// The key of a stone's size, which every stone has.
+pub const SIZE: &str = "size";
+/// The key of its refractive index.
+pub const INDEX: &str = "ri";
+
 /// No range has more values.
 const MOST: f64 = 1e9;
 /// No value is greater.

@@ -4,6 +4,7 @@
 use super::args::values;
 use super::exit_code::{CliError, complain};
 use super::heartbeat;
+use crate::progress::Progress;
 use crate::storage::terminal::{in_line, printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeSet;
@@ -35,6 +36,13 @@ pub struct Console {
 const MOST_THREADS: u32 = 256;
 /// How many threads there are, if `--threads` does not say.
 const THREADS: &str = "RAYON_NUM_THREADS";
+
+/// What work tells without a bar: its notes.
+impl Progress for Console {
+    fn note(&self, text: &str) {
+        Console::note(self, text);
+    }
+}
 
 impl Console {
     /// Starts the threads that work is done on, as many as were asked for but no more than

@@ -9,6 +9,7 @@ use crate::render::RenderError;
 use crate::scene::SceneError;
 use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
+use crate::storage::terminal::one_line;
 pub use crate::storage::terminal::printable;
 use crate::storage::text::display_name;
 use std::ffi::OsString;
@@ -243,12 +244,6 @@ impl From<SolidError> for CliError {
 /// One line on standard error; nobody there to read it is no reason to fail.
 pub fn complain(message: &str) {
     let _ = writeln!(std::io::stderr(), "cutlab: {}", one_line(message));
-}
-
-/// The text with its lines joined, and without what a terminal would obey.
-fn one_line(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
-    printable(&lines.join("; "))
 }
 
 /// Ends after the argument parser: help and version go to standard output, an error becomes one

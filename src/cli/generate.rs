@@ -106,7 +106,7 @@ pub fn run(args: &GenerateArgs, console: &Console) -> Result<ExitStatus, CliErro
         )));
     }
     let stone = match args.stone.to_str() {
-        Some(text) => args.stone_args.open_convex(parameters.applied_to(text))?,
+        Some(text) => args.stone_args.open_convex(grammar::with_parameters(text, &parameters.0))?,
         None => args.stone_args.open_convex(&args.stone)?,
     };
     let mut notes: Vec<String> = stone.warnings().iter().map(|w| format!("note: {w}")).collect();

@@ -1,28 +1,21 @@
 //! `cutlab score`: a table of scores, one row a stone, or one a stone and tilt.
 
 use super::args::inputs;
-use super::args::scoring;
-use super::args::scoring::{InputFiles, ScoringArgs};
-use super::args::stone;
-use super::args::stone::DEFAULT_STONE;
-use super::args::tables;
+use super::args::scoring::{self, ScoringArgs};
+use super::args::stone::{self, DEFAULT_STONE};
 use super::args::tables::{TableArgs, TableCommand};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use super::plot_output::{Look, Plots};
-use super::proportion_columns as proportions;
 use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
-use crate::batch::sidecar::TableLayout;
+use crate::batch::score_rows::ScoreRows;
 use crate::batch::sweep::Steps;
-use crate::batch::table;
-use crate::batch::table::TableCell;
-use crate::batch::table_job::{FinishedRow, Order};
+use crate::batch::table_job::Order;
+use crate::batch::table_rows::TILT;
 use crate::metrics::Metric;
 use crate::parse;
 use crate::parse::NumberUnit;
-use crate::report::plot::{TILT, TILT_AXIS};
-use crate::scoring::score::Tilt;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -78,73 +71,29 @@ pub struct ScoreArgs {
 
 /// Scores every stone and writes the table.
 pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let plan = args.scoring.plan();
-    let sort = sort(args, &plan.metrics)?;
-    let specs = inputs::expanded(&args.stones)?;
-    let mut outputs = Outputs::reading_stones(&specs, console);
-    let mut leading = table::STONE_COLUMNS.to_vec();
-    if args.proportions {
-        leading.extend(proportions::COLUMNS);
-    }
-    let axes = match (&args.tilt_axis[..], args.plot.is_empty()) {
+    let scores = args.scoring.plan();
+    let sort = sort(args, &scores.metrics)?;
+    let stones = inputs::expanded(&args.stones)?;
+    let mut outputs = Outputs::reading_stones(&stones, console);
+    let azimuths = match (&args.tilt_axis[..], args.plot.is_empty()) {
         ([], true) => vec![0.0],
         ([], false) => vec![0.0, 90.0],
         (given, _) => given.to_vec(),
     };
-    let tilts: Vec<Tilt> = args.tilt.map_or_else(Vec::new, |steps| {
-        axes.iter()
-            .flat_map(|&azimuth| steps.values().map(move |degrees| Tilt { degrees, azimuth }))
-            .collect()
-    });
-    if args.tilt.is_some() {
-        leading.push(TILT);
-        leading.extend((axes.len() > 1).then_some(TILT_AXIS));
-    }
-    let request = TableRequest::Score(ScoreTable {
+    let plots = Plots::new(&args.plot, &scores.metrics, &args.look, &[TILT.into()])?;
+    let table = ScoreTable {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.scoring.options(),
-        scores: plan.clone(),
-        tilt: args.tilt.map(|degrees| TiltRange { degrees, azimuths: axes.clone() }),
+        scores,
+        tilt: args.tilt.map(|degrees| TiltRange { degrees, azimuths }),
         proportions: args.proportions,
         sort,
-    });
-    let columns = table::columns(&leading, &plan.metrics);
-    let each = tilts.len().max(1) as u64;
-    let inputs = InputFiles::new(&request, specs.iter().map(OsString::as_os_str));
-    let plots = Plots::new(&args.plot, &plan.metrics, &args.look, &[TILT.into()])?;
-    let study = TableCommand {
-        request: &request,
-        identity: inputs.identity.clone(),
-        total: specs.len() as u64 * each,
-        layout: args.tilt.map(|_| layout(&specs, &axes)),
-        order: sort.map(|sort| sort.order),
-        notes: args.scoring.notes(false),
-        what: "scoring",
-        line: &|i, form| {
-            let spec = &specs[(i / each) as usize];
-            let tilt = tilts.get((i % each) as usize).copied();
-            let (row, outcome) = inputs.checked(spec, args.scoring.score(spec, tilt, &plan, console));
-            scoring::tell(&stone::display_name(spec), &row, console);
-            let mut leading = table::stone_cells(&row);
-            if args.proportions {
-                leading.extend(proportions::cells(spec, &args.scoring, console));
-            }
-            leading.extend(tilt.map(|t| TableCell::number(t.degrees)));
-            leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| TableCell::number(t.azimuth)));
-            let sorts = |m: &&'static Metric| sort.is_some_and(|s| s.metric.name == m.name);
-            let key = plan.metrics.iter().position(sorts).and_then(|m| row.scores[m]);
-            Ok(FinishedRow {
-                outcome,
-                samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
-                key: key.map(|e| e.value),
-                text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: tables::complaint(&stone::display_name(spec), &row),
-                note: row.omissions(),
-            })
-        },
-        columns: columns.clone(),
     };
-    study.run(&args.table, &plots, &mut outputs, console)
+    let request = TableRequest::Score(table.clone());
+    let rows = ScoreRows::new(&request, &table, &stones, console);
+    let command =
+        TableCommand { request: &request, rows: &rows, notes: args.scoring.notes(false), what: "scoring" };
+    command.run(&args.table, &plots, &mut outputs, console)
 }
 
 /// How the rows are sorted, if they are to be.
@@ -158,17 +107,6 @@ fn sort(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<SortRequ
         return Err(CliError::input("--sort needs the whole table: leave out --shard"));
     }
     Ok(Some(SortRequest { order: Order { top: args.top, ..sort.order }, ..sort }))
-}
-
-/// What a plot of the tilted stones shows: a curve for each stone and axis.
-fn layout(specs: &[OsString], axes: &[f64]) -> TableLayout {
-    let alone = match specs {
-        [spec] => stone::display_name(spec),
-        _ => String::new(),
-    };
-    let several = [(specs.len() > 1, table::STONE_COLUMNS[0]), (axes.len() > 1, TILT_AXIS)];
-    let curves = several.iter().filter(|(is, _)| *is).map(|(_, column)| column.to_string()).collect();
-    TableLayout { stone: alone, axes: vec![TILT.into()], curves, scattered: false, is_diamond: false }
 }
 
 /// Value parser of `--sort`.

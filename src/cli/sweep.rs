@@ -1,31 +1,20 @@
 //! `cutlab sweep`: scores over a grid of parameters, or over scattered points.
 
-use super::args::family::FamilyArgs;
-use super::args::scoring;
-use super::args::scoring::{InputFiles, ScoringArgs};
+use super::args::scoring::ScoringArgs;
 use super::args::stone;
-use super::args::tables;
 use super::args::tables::{TableArgs, TableCommand};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use super::plot_output::{Look, Plots};
 use crate::batch::request::{SweepTable, TableRequest};
-use crate::batch::sidecar::TableLayout;
-use crate::batch::sweep::{MOST_SCATTERED, Sweep, SweptParameter};
-use crate::batch::table;
-use crate::batch::table::TableCell;
-use crate::batch::table_job::FinishedRow;
-use crate::materials::weight::Weight;
+use crate::batch::sweep::{INDEX, MOST_SCATTERED, SIZE, SweptParameter};
+use crate::batch::sweep_rows::SweepRows;
 use crate::parse;
 use crate::stone::grammar;
 use crate::storage::atomic_write;
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
-
-/// Keys that every stone has.
-const SIZE: &str = "size";
-const INDEX: &str = "ri";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -66,86 +55,22 @@ fn scattered(text: &str) -> Result<u64, String> {
 
 /// Scores every point and writes the table.
 pub fn run(args: &SweepArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let plan = args.scoring.plan();
-    let sweep = Sweep { varied: args.vary.clone(), scatter: args.scatter, seed: args.scoring.seed };
     check(args)?;
-    let request = TableRequest::Sweep(SweepTable {
+    let table = SweepTable {
         stone: stone::display_name(&args.stone),
         options: args.scoring.options(),
-        scores: plan.clone(),
+        scores: args.scoring.plan(),
         vary: args.vary.clone(),
         scatter: args.scatter,
-    });
-    let mut leading: Vec<&str> = sweep.varied.iter().map(|v| v.key.as_str()).collect();
-    leading.push("facets");
-    let columns = table::columns(&leading, &plan.metrics);
-    let total = sweep.count().ok_or_else(|| CliError::input("the grid has too many points to count"))?;
-    let axes: Vec<String> = sweep.varied.iter().map(|v| v.key.clone()).collect();
-    let plots = Plots::new(&args.plot, &plan.metrics, &args.look, &axes)?;
-    let layout = TableLayout {
-        stone: stone::display_name(&args.stone),
-        is_diamond: is_diamond(args)?,
-        axes,
-        curves: Vec::new(),
-        scattered: sweep.scatter.is_some(),
     };
-    let inputs = InputFiles::new(&request, [args.stone.as_os_str()].into_iter());
-    let study = TableCommand {
-        request: &request,
-        identity: inputs.identity.clone(),
-        total,
-        layout: Some(layout),
-        order: None,
-        notes: args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE)),
-        what: "sweeping",
-        line: &|i, form| {
-            let point = sweep.point(i);
-            let (spec, scoring) = at_point(args, &point);
-            let (row, outcome) = inputs.checked(&args.stone, scoring.score(&spec, None, &plan, console));
-            let shown = stone::display_name(&spec);
-            scoring::tell(&shown, &row, console);
-            let mut leading: Vec<TableCell> = point.iter().map(|x| TableCell::number(*x)).collect();
-            leading.push(row.facets.into());
-            Ok(FinishedRow {
-                outcome,
-                samples: row.samples.iter().map(|(of, n)| (of.to_string(), *n)).collect(),
-                key: None,
-                text: form.row(&columns, &table::cells(leading, &row))?,
-                complaint: tables::complaint(&shown, &row),
-                note: row.omissions(),
-            })
-        },
-        columns: columns.clone(),
-    };
-    study.run(&args.table, &plots, &mut Outputs::reading_stones([&args.stone], console), console)
-}
-
-/// The stone at a point, and how to score it.
-fn at_point(args: &SweepArgs, point: &[f64]) -> (OsString, ScoringArgs) {
-    let is_varied = |key: &str| args.vary.iter().any(|v| v.key == key);
-    let has_size = args.stone.to_str().is_some_and(|stone| grammar::size_is_parameter(stone, is_varied));
-    let mut scoring = args.scoring.clone();
-    let mut given = FamilyArgs::default();
-    for (varied, &value) in args.vary.iter().zip(point) {
-        match varied.key.as_str() {
-            INDEX => scoring = scoring.with_index(value),
-            SIZE if !has_size => scoring = scoring.with_size(value),
-            key => {
-                given.0.insert(key.into(), value);
-            }
-        }
-    }
-    let spec = match args.stone.to_str() {
-        Some(stone) => given.applied_to(stone).into(),
-        None => args.stone.clone(), // a file, which has no parameters
-    };
-    (spec, scoring)
-}
-
-/// Whether the stone is of diamond at every point.
-fn is_diamond(args: &SweepArgs) -> Result<bool, CliError> {
-    let stone = args.scoring.stone_args.open(&args.stone)?;
-    Ok(Weight::new(stone.material()).is_diamond() && args.vary.iter().all(|v| v.key != INDEX))
+    let axes: Vec<String> = table.vary.iter().map(|v| v.key.clone()).collect();
+    let plots = Plots::new(&args.plot, &table.scores.metrics, &args.look, &axes)?;
+    let request = TableRequest::Sweep(table.clone());
+    let rows = SweepRows::new(&request, &table, &args.stone, console)?;
+    let rows = rows.ok_or_else(|| CliError::input("the grid has too many points to count"))?;
+    let notes = args.scoring.notes(args.vary.iter().any(|v| v.key == SIZE));
+    let command = TableCommand { request: &request, rows: &rows, notes, what: "sweeping" };
+    command.run(&args.table, &plots, &mut Outputs::reading_stones([&args.stone], console), console)
 }
 
 /// Whether the stone's family has the parameter `key`.

@@ -185,7 +185,7 @@ mod tests {
         let error = ScoreRequest::new(["wrl"]).run(&stone).expect_err("no metric");
         assert_eq!(
             error.to_string(),
-            "no metric is called 'wrl', did you mean 'wlr'? (all: cutlab list metrics)"
+            "no metric is called 'wrl'; did you mean 'wlr'? (all: cutlab list metrics)"
         );
         let scores = ScoreRequest::new(["WLR"]).samples(64).run(&stone).expect("a stone");
         assert!(scores["wlr"].value > 0.0 && scores["iso"].value.is_nan() && scores.get("iso").is_none());

@@ -108,3 +108,16 @@ pub enum StoneError {
         found: f64,
     },
 }
+
+impl StoneError {
+    /// Whether the operating system refused to read what is there. A name that leads to no file is a wrong
+    /// argument instead.
+    pub fn is_io(&self) -> bool {
+        #[cfg(feature = "files")]
+        if let StoneError::Format(FormatError::Read { cause, .. }) = self {
+            use std::io::ErrorKind::{IsADirectory, NotADirectory, NotFound};
+            return !matches!(cause.kind(), NotFound | NotADirectory | IsADirectory);
+        }
+        false
+    }
+}

@@ -241,6 +241,19 @@ pub fn size_is_parameter(spec: &str, given: impl Fn(&str) -> bool) -> bool {
     })
 }
 
+/// The STONE `spec` with these parameters in place of its own.
+pub fn with_parameters(spec: &str, given: &BTreeMap<String, f64>) -> String {
+    if given.is_empty() {
+        return spec.into();
+    }
+    let (name, own) = spec.split_once(':').unwrap_or((spec, ""));
+    let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_lowercase();
+    let kept = own.split(',').filter(|item| !item.trim().is_empty() && !given.contains_key(&key_of(item)));
+    let given = given.iter().map(|(key, value)| format!("{key}={}", parse::format_number(*value)));
+    let items: Vec<String> = kept.map(str::to_string).chain(given).collect();
+    format!("{name}:{}", items.join(","))
+}
+
 /// A file name for a stone: the cut's name, or the file's without folder and extension.
 pub fn file_stem(argument: impl AsRef<OsStr>) -> OsString {
     let argument = argument.as_ref();
@@ -327,6 +340,14 @@ mod tests {
         }
         assert_eq!(file_stem("x/D.v2.asc:material=topaz"), "D.v2");
         assert_eq!(file_stem("oval:table=57,material=topaz"), "oval");
+    }
+
+    #[test]
+    fn parameters_replace_those_of_a_stone() {
+        let given = BTreeMap::from([("table".to_string(), 57.5)]);
+        assert_eq!(with_parameters("round-brilliant", &given), "round-brilliant:table=57.5");
+        assert_eq!(with_parameters("a:table=50, star=40", &given), "a: star=40,table=57.5");
+        assert_eq!(with_parameters("x.asc", &BTreeMap::new()), "x.asc");
     }
 
     #[cfg(unix)]

@@ -19,6 +19,12 @@ pub fn in_line(text: &str) -> String {
     printable(text).replace('\n', "\\n")
 }
 
+/// The text with its lines joined by semicolons, as [`printable`]: for errors, which are one line.
+pub fn one_line(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
+    printable(&lines.join("; "))
+}
+
 /// JSON text with the same characters escaped as JSON has it. What stands outside of strings holds none
 /// but line ends.
 pub fn printable_json(text: &str) -> String {

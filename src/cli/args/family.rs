@@ -3,7 +3,6 @@
 use super::values;
 use crate::design::families::{FAMILIES, Parameter};
 use crate::design::library;
-use crate::parse;
 use crate::parse::NumberUnit;
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use std::collections::BTreeMap;
@@ -87,33 +86,9 @@ impl FromArgMatches for FamilyArgs {
     }
 }
 
-impl FamilyArgs {
-    /// The STONE `spec` with these values in place of its own.
-    pub fn applied_to(&self, spec: &str) -> String {
-        if self.0.is_empty() {
-            return spec.into();
-        }
-        let (name, own) = spec.split_once(':').unwrap_or((spec, ""));
-        let key_of = |item: &str| item.split('=').next().unwrap_or_default().trim().to_lowercase();
-        let kept =
-            own.split(',').filter(|item| !item.trim().is_empty() && !self.0.contains_key(&key_of(item)));
-        let given = self.0.iter().map(|(key, value)| format!("{key}={}", parse::format_number(*value)));
-        let items: Vec<String> = kept.map(str::to_string).chain(given).collect();
-        format!("{name}:{}", items.join(","))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn flags_replace_the_values_in_a_stone() {
-        let given = FamilyArgs([("table".to_string(), 57.5)].into());
-        assert_eq!(given.applied_to("round-brilliant"), "round-brilliant:table=57.5");
-        assert_eq!(given.applied_to("a:table=50, star=40"), "a: star=40,table=57.5");
-        assert_eq!(FamilyArgs::default().applied_to("x.asc"), "x.asc");
-    }
 
     #[test]
     fn every_parameter_of_every_family_is_a_flag() {

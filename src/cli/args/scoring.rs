@@ -1,25 +1,17 @@
 //! Arguments of every command that scores: metrics, accuracy, light, material.
 
 use super::stone::{self, StoneArgs};
-use super::{inputs, values};
-use crate::batch::fingerprint::{FileDigest, Fingerprint};
-use crate::batch::request::TableRequest;
-use crate::batch::table_job::RowStatus;
+use super::values;
 use crate::cli::console::Console;
-use crate::cli::exit_code::{CliError, ExitStatus};
-use crate::cli::limits::limits;
+use crate::cli::exit_code::CliError;
 use crate::design::USUAL_WIDTH_MM;
-use crate::materials::Material;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
-use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt, score};
-use crate::stone::grammar::STANDARD_INPUT;
-use crate::stone::{Stone, StoneOptions, StoneSpec};
-use std::collections::BTreeMap;
-use std::ffi::{OsStr, OsString};
-use std::path::PathBuf;
+use crate::scoring::score::{ScoreRequest, Target};
+use crate::stone::{Stone, StoneOptions};
+use std::ffi::OsStr;
 
 #[derive(Debug, Clone, clap::Args)]
 pub struct ScoringArgs {
@@ -52,18 +44,6 @@ pub struct ScoringArgs {
 }
 
 impl ScoringArgs {
-    /// The same with another index in place of material and index.
-    pub fn with_index(mut self, ri: f64) -> ScoringArgs {
-        self.stone_args = StoneArgs { material: None, ri: Some(ri), ..self.stone_args };
-        self
-    }
-
-    /// The same with another size.
-    pub fn with_size(mut self, mm: f64) -> ScoringArgs {
-        self.size = Some(mm);
-        self
-    }
-
     /// Whether beams were asked for.
     pub fn is_exact(&self) -> bool {
         self.exact
@@ -132,101 +112,10 @@ impl ScoringArgs {
         }
         Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
     }
-
-    /// Scores the STONE `spec`.
-    pub fn score(
-        &self,
-        spec: &OsStr,
-        tilt: Option<Tilt>,
-        plan: &ScoreRequest,
-        console: &Console,
-    ) -> (ScoreRow, RowStatus) {
-        let (row, code) = match self.open(spec, console) {
-            Ok(stone) => (score(&ScoreInput::from_stone(&stone, tilt), plan), None),
-            Err(failure) => {
-                let own = StoneSpec::parse(spec).ok().and_then(|parts| parts.material().cloned());
-                let material = own.or(self.stone_args.asked()).map(|m| m.name.to_string());
-                let name = stone::display_name(spec);
-                let row = ScoreRow::failed(name, material.unwrap_or_default(), failure.message(), plan);
-                (row, Some(failure.code()))
-            }
-        };
-        let outcome = match &row.error {
-            None => RowStatus::Ok,
-            Some(_) if row.scores.iter().any(Option::is_some) => RowStatus::TargetMissed,
-            Some(_) if code == Some(ExitStatus::Io) => RowStatus::IoError,
-            Some(_) => RowStatus::Failed,
-        };
-        (row, outcome)
-    }
 }
 
 /// No material has a higher index; beyond it a score takes up to a hundred times as long as a diamond's.
 const HIGH_INDEX: f64 = 4.0;
-
-/// Says what is to be said of a row's scores, once for all rows of which it is.
-pub fn tell(stone: &str, row: &ScoreRow, console: &Console) {
-    if let Some(note) = row.note {
-        console.note_of_one(&format!("{stone}: {note}"), note);
-    }
-}
-
-/// What a table is a function of.
-pub struct InputFiles {
-    /// In one word.
-    pub identity: String,
-    /// The stones that are files, with what they held when the table was begun.
-    files: BTreeMap<OsString, (PathBuf, FileDigest)>,
-}
-
-impl InputFiles {
-    /// Those of a table of these stones.
-    pub fn new<'a>(request: &TableRequest, stones: impl Iterator<Item = &'a OsStr>) -> InputFiles {
-        let (mut identity, mut files) = (Fingerprint::of_request(request), BTreeMap::new());
-        add_material(&mut identity, request.options().asked_material().ok().flatten().as_ref());
-        for stone in stones {
-            identity.add(stone.as_encoded_bytes());
-            let parts = StoneSpec::parse(stone).ok();
-            add_material(&mut identity, parts.as_ref().and_then(StoneSpec::material));
-            if stone == STANDARD_INPUT {
-                identity.add_file(&FileDigest::of_standard_input(limits()));
-            }
-            if let Some(file) = inputs::file_of(stone) {
-                let held = FileDigest::of_file(&file, limits());
-                identity.add_file(&held);
-                files.insert(stone.to_owned(), (file, held));
-            }
-        }
-        InputFiles { identity: identity.hex(), files }
-    }
-
-    /// The row of `stone`, unless its file has changed since the table was begun: the row is then not
-    /// one of this table.
-    pub fn checked(&self, stone: &OsStr, scored: (ScoreRow, RowStatus)) -> (ScoreRow, RowStatus) {
-        let (mut row, outcome) = scored;
-        let Some((file, held)) = self.files.get(stone) else { return (row, outcome) };
-        let now = FileDigest::of_file(file, limits());
-        let read_in_time = !now.is_readable() && row.scores.iter().any(Option::is_some);
-        if now == *held || read_in_time {
-            return (row, outcome);
-        }
-        let (what, outcome) = match now.is_readable() {
-            true => ("was replaced", RowStatus::Failed),
-            false => ("has vanished", RowStatus::IoError),
-        };
-        row.scores.fill(None);
-        row.samples.clear();
-        row.error = Some(format!("the file {what} since the table was begun: start again"));
-        (row, outcome)
-    }
-}
-
-/// Adds what the file of a user's material holds, tables beside it included.
-fn add_material(identity: &mut Fingerprint, material: Option<&Material>) {
-    if let Some(material) = material.filter(|m| m.file.is_some()) {
-        identity.add(format!("{material:?}"));
-    }
-}
 
 /// Value parser of `--metrics`.
 pub fn metric(name: &str) -> Result<&'static Metric, String> {

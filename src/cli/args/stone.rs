@@ -56,11 +56,6 @@ impl StoneArgs {
         }
     }
 
-    /// The material or index asked for, if any.
-    pub fn asked(&self) -> Option<Material> {
-        self.material.clone().or(self.ri.map(Material::from_index))
-    }
-
     /// Opens a stone as it is asked for, in its own size.
     pub fn open(&self, spec: impl AsRef<OsStr>) -> Result<Stone, CliError> {
         Ok(Stone::open(spec, &self.options(None))?)

@@ -4,9 +4,10 @@ use super::stone;
 use crate::batch::merge::TablePart;
 use crate::batch::request::TableRequest;
 use crate::batch::shard::Shard;
-use crate::batch::sidecar::{TableLayout, TableMeta};
+use crate::batch::sidecar::TableMeta;
 use crate::batch::table::{NumericColumns, TableError, TableFormat};
-use crate::batch::table_job::{FinishedRow, JobEvent, Order, TableJob, TableJobError, TableSummary};
+use crate::batch::table_job::{JobEvent, TableJob, TableJobError, TableSummary};
+use crate::batch::table_rows::TableRows;
 use crate::cli::console::Console;
 use crate::cli::exit_code;
 use crate::cli::exit_code::{CliError, ExitStatus};
@@ -14,7 +15,6 @@ use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
 use crate::cli::terminal_table;
-use crate::scoring::score::ScoreRow;
 use crate::storage::atomic_write;
 use crate::storage::journal::JournalRemark;
 use indicatif::ProgressBar;
@@ -59,22 +59,12 @@ pub fn format_of(output: &Path, console: &Console) -> Result<TableFormat, CliErr
 pub struct TableCommand<'a> {
     /// What was asked for.
     pub request: &'a TableRequest,
-    /// Fingerprint of the request and its inputs.
-    pub identity: String,
-    /// The table's columns.
-    pub columns: Vec<String>,
-    /// Rows of the whole table.
-    pub total: u64,
-    /// What its scores can be drawn against.
-    pub layout: Option<TableLayout>,
-    /// How its rows are sorted, if they are.
-    pub order: Option<Order>,
+    /// Its rows.
+    pub rows: &'a dyn TableRows,
     /// What to say before the work.
     pub notes: Vec<String>,
     /// Word for the progress bar.
     pub what: &'static str,
-    /// Makes a row.
-    pub line: &'a (dyn Fn(u64, TableFormat) -> Result<FinishedRow, TableError> + Sync),
 }
 
 impl TableCommand<'_> {
@@ -126,13 +116,13 @@ impl TableCommand<'_> {
             }
         };
         let batch = TableJob {
-            identity: &self.identity,
-            total: self.total,
+            identity: self.rows.identity(),
+            total: self.rows.total(),
             shard: table.shard,
             form,
-            columns: &self.columns,
-            order: self.order,
-            line: &|i| (self.line)(i, form),
+            columns: self.rows.columns(),
+            order: self.rows.order(),
+            line: &|i| self.rows.row(i, form),
             tell: &tell,
         };
         let say_notes = || self.notes.iter().for_each(|note| console.note(note));
@@ -188,7 +178,11 @@ impl TableCommand<'_> {
         let bytes = copied.copy.unwrap_or_default();
         if to_read {
             let table = NumericColumns::read(&bytes, batch.form, limits())?;
-            console.print(&terminal_table::text(&self.columns, &table, &self.request.scores().metrics))?;
+            console.print(&terminal_table::text(
+                self.rows.columns(),
+                &table,
+                &self.request.scores().metrics,
+            ))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
         drawn.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
@@ -201,8 +195,10 @@ impl TableCommand<'_> {
         bytes: impl FnOnce() -> Result<Vec<u8>, CliError>,
         form: TableFormat,
     ) -> Result<Vec<PathBuf>, CliError> {
-        match &self.layout {
-            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, layout, &self.request.command()),
+        match self.rows.layout() {
+            Some(layout) if !plots.is_empty() => {
+                plots.draw(&bytes()?, form, &layout, &self.request.command())
+            }
             _ => Ok(Vec::new()),
         }
     }
@@ -210,7 +206,7 @@ impl TableCommand<'_> {
     /// The table that is there already, if it is whole and of just this job.
     fn already(&self, table: &TableArgs, begun: bool, console: &Console) -> Option<TablePart> {
         let part = TablePart::open(&table.output, limits()).ok().filter(|_| !begun && !console.force)?;
-        let is_same = part.meta.study == self.identity && part.meta.shard == self.shard_of(table);
+        let is_same = part.meta.study == self.rows.identity() && part.meta.shard == self.shard_of(table);
         is_same.then_some(part)
     }
 
@@ -237,12 +233,12 @@ impl TableCommand<'_> {
 
     fn meta(&self, shard: Shard, summary: &TableSummary, crc32: u32) -> TableMeta {
         TableMeta {
-            layout: self.layout.clone(),
-            total: self.total,
+            layout: self.rows.layout(),
+            total: self.rows.total(),
             shard: (shard != Shard::WHOLE).then_some(shard),
             summary: summary.clone(),
             crc32: format!("{crc32:08x}"),
-            ..TableMeta::new(self.request, self.identity.clone(), self.columns.clone())
+            ..TableMeta::new(self.request, self.rows.identity().into(), self.rows.columns().to_vec())
         }
     }
 }
@@ -316,12 +312,6 @@ pub fn tell_written(
     };
     console.note(&format!("wrote {}: {} rows{of}{failed}{short}", names.join(", "), summary.rows));
     Ok(())
-}
-
-/// What to say of a row with an error.
-pub fn complaint(stone: &str, row: &ScoreRow) -> Option<String> {
-    let error = row.error.as_ref()?;
-    Some(if error.contains(stone) { error.clone() } else { format!("{stone}: {error}") })
 }
 
 /// Done, or how many failed: a row whose error was not reached still has its scores.

@@ -1,6 +1,7 @@
 //! What a plot shows: a score, its axes, marks.
 
 use super::style::Style;
+pub use crate::batch::table_rows::{TILT, TILT_AXIS};
 use crate::design::families::Family;
 use crate::metrics::Metric;
 
@@ -51,12 +52,6 @@ pub struct ScorePlot<'a> {
     /// A stone to be marked above the others: its name and place on the axes.
     pub own: Option<(&'a str, &'a [f64])>,
 }
-
-/// Column of a stone's tilt.
-pub const TILT: &str = "tilt_deg";
-
-/// Column of the azimuth about which a stone is tilted.
-pub const TILT_AXIS: &str = "tilt_axis_deg";
 
 /// A point or a line to be named in a plot.
 pub(super) struct ReferenceMark {

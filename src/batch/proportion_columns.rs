@@ -1,10 +1,10 @@
 //! Columns of a table of scores that say what each stone is: name, proportions and weight.
 
-use super::args::scoring::ScoringArgs;
-use super::console::Console;
-use crate::batch::table::TableCell;
+use super::row_maker::RowMaker;
+use super::table::TableCell;
 use crate::design::{LengthUnit, proportions};
 use crate::materials::weight::Weight;
+use crate::stone::{Stone, StoneOptions};
 use std::ffi::OsStr;
 
 /// The columns: percentages of the girdle width, degrees, and the weight where the stone's size is known.
@@ -24,22 +24,22 @@ pub const COLUMNS: [&str; 12] = [
 ];
 
 /// The cells of [`COLUMNS`]; empty where the stone is none, or has no such measure.
-pub fn cells(spec: &OsStr, scoring: &ScoringArgs, console: &Console) -> Vec<TableCell> {
-    measured_cells(spec, scoring, console).unwrap_or_else(|| vec![TableCell::Empty(()); COLUMNS.len()])
+pub fn cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Vec<TableCell> {
+    measured_cells(spec, options, maker).unwrap_or_else(|| vec![TableCell::Empty(()); COLUMNS.len()])
 }
 
-fn measured_cells(spec: &OsStr, scoring: &ScoringArgs, console: &Console) -> Option<Vec<TableCell>> {
-    let stone = scoring.stone_args.open(spec).ok()?;
+fn measured_cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Option<Vec<TableCell>> {
+    let stone = Stone::open(spec, &StoneOptions { size_mm: None, ..options.clone() }).ok()?;
     let design = stone.design()?;
     let p = proportions::of_design(design).ok()?;
     let to_mm =
-        scoring.size.map(|mm| mm / p.width).or((design.unit == LengthUnit::Millimetre).then_some(1.0));
+        options.size_mm.map(|mm| mm / p.width).or((design.unit == LengthUnit::Millimetre).then_some(1.0));
     let weight = Weight::new(stone.material());
     let carats = to_mm.and_then(|k| weight.carats(p.volume * k.powi(3)));
     if to_mm.is_some()
         && let Some(note) = weight.note()
     {
-        console.note_of_one(&format!("weight of {}: {note}", stone.name()), &note);
+        maker.say_of_one(&format!("weight of {}: {note}", stone.name()), &note);
     }
     let number = |x: Option<f64>| x.map_or(TableCell::Empty(()), TableCell::number);
     Some(vec![
