@@ -22,11 +22,11 @@ mod ring {
     use cutlab::estimators::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
     use cutlab::estimators::weighted_exits::integrate_exits;
     use cutlab::sampling::statistic::Statistic;
-    use cutlab::sampling::tally::{Column, Tally};
+    use cutlab::sampling::tally::{Column, Tally, columns};
     use cutlab::trace::ConvexStone;
     use cutlab::trace::beams::{Beams, IncidentBeam};
 
-    cutlab::columns! {
+    columns! {
         /// Light on the outline.
         SEEN,
         /// Power from 30 to 60° above the girdle plane.
@@ -81,13 +81,13 @@ mod crown {
     use cutlab::sampling::kronecker::KroneckerPoints;
     use cutlab::sampling::random::Purpose;
     use cutlab::sampling::statistic::Statistic;
-    use cutlab::sampling::tally::{Column, Tally};
+    use cutlab::sampling::tally::{Column, Tally, columns};
     use cutlab::trace::ConvexStone;
     use std::ops::Range;
 
     const STREAM: Purpose = Purpose::named("places over a crown");
 
-    cutlab::columns! {
+    columns! {
         /// Places of the square about the stone.
         PLACES,
         /// Those over the stone.
