@@ -22,11 +22,11 @@ mod ring {
     use cutlab::advanced::estimators::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
     use cutlab::advanced::estimators::weighted_exits::integrate_exits;
     use cutlab::advanced::sampling::statistic::Statistic;
-    use cutlab::advanced::sampling::tally::{Column, Tally};
+    use cutlab::advanced::sampling::tally::{Column, Tally, columns};
     use cutlab::advanced::trace::ConvexStone;
     use cutlab::advanced::trace::beams::{Beams, IncidentBeam};
 
-    cutlab::columns! {
+    columns! {
         /// Light on the outline.
         SEEN,
         /// Power from 30 to 60° above the girdle plane.
@@ -81,13 +81,13 @@ mod crown {
     use cutlab::advanced::sampling::kronecker::KroneckerPoints;
     use cutlab::advanced::sampling::random::Purpose;
     use cutlab::advanced::sampling::statistic::Statistic;
-    use cutlab::advanced::sampling::tally::{Column, Tally};
+    use cutlab::advanced::sampling::tally::{Column, Tally, columns};
     use cutlab::advanced::trace::ConvexStone;
     use std::ops::Range;
 
     const STREAM: Purpose = Purpose::named("places over a crown");
 
-    cutlab::columns! {
+    columns! {
         /// Places of the square about the stone.
         PLACES,
         /// Those over the stone.

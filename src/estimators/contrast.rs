@@ -9,7 +9,7 @@ use super::{EstimatorError, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
 use crate::sampling::statistic::Statistic;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::ConvexStone;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ pub struct Contrast<'a> {
 }
 
 // Sums of a batch.
-crate::columns! {
+columns! {
     /// Cells, drawn in proportion to their share of the outline.
     CELLS,
     /// Σ luminance, dome = 1.

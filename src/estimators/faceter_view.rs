@@ -10,7 +10,7 @@ use crate::design::Zone;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use crate::sampling::statistic::Statistic;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
@@ -50,7 +50,7 @@ pub(super) fn facing_flags(stone: &ConvexStone, view_frame: ViewFrame) -> Vec<f3
 
 // Sums of a batch. Light from height h (sine of its elevation) has three weights: 1 (ISO), h (COS) and
 // 2h√(1 − h²) (SC2).
-crate::columns! {
+columns! {
     /// Rays.
     RAYS,
     /// Power.

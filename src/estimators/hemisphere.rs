@@ -9,7 +9,7 @@ use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use crate::sampling::statistic::Statistic;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::sampling::warps;
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
@@ -39,7 +39,7 @@ pub struct Hemisphere<'a> {
 }
 
 // Sums of a batch; every accepted direction arrives with power 1.
-crate::columns! {
+columns! {
     /// Directions drawn, those from below the horizon included.
     DRAWN,
     /// Power that arrived: directions from above the horizon.

@@ -10,7 +10,7 @@ use crate::optics::dispersion::lines;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use crate::sampling::statistic::Statistic;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use glam::DVec3;
@@ -83,7 +83,7 @@ impl PointLightNeeds {
 
 // Sums of a batch; every ray has power 1 in every line. The histogram has the power of [`PAIRED_POWER`] by
 // angle, in classes of [`CLASS_DEG`].
-crate::columns! {
+columns! {
     /// Points of the outline.
     POINTS,
     /// Σ m cos² over visible exits, mean over the six lines.

@@ -12,7 +12,7 @@ use crate::geometry::measure::centroid;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
 use crate::sampling::statistic::Statistic;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::ConvexStone;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -81,7 +81,7 @@ pub fn pivot(solid: &Polyhedron) -> DVec3 {
 }
 
 // Sums of a batch.
-crate::columns! {
+columns! {
     /// Cells, drawn in proportion to their share of the outline.
     CELLS,
     /// Σ luminance, dome = 1.

@@ -9,7 +9,7 @@ use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
-use crate::sampling::tally::{Column, Tally};
+use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
 use std::ops::Range;
@@ -35,7 +35,7 @@ pub struct View<'a> {
 }
 
 // Sums of a batch; every ray has power 1.
-crate::columns! {
+columns! {
     /// Rays.
     RAYS,
     /// Reflected at entry.

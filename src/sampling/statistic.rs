@@ -155,8 +155,9 @@ fn error_of_median(value: f64, batches: &[CumulativeHistogram], classes: usize) 
 mod tests {
     use super::*;
     use crate::sampling::random::{Purpose, Stream};
+    use crate::sampling::tally::columns;
 
-    crate::columns! {
+    columns! {
         /// Samples of a kind.
         SEEN,
         /// All samples.

@@ -7,7 +7,7 @@ use std::ops::{Index, IndexMut};
 /// Most columns of a tally; a column beyond it does not compile.
 pub const MAX_COLUMNS: usize = 24;
 
-/// A column of a tally: a sum over the samples of an estimator. Declared by [`crate::columns`].
+/// A column of a tally: a sum over the samples of an estimator. Declared by [`columns`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
     number: usize,
@@ -16,7 +16,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The column number `number` of an estimator; for [`crate::columns`].
+    /// The column number `number` of an estimator; for [`columns`].
     pub const fn new(number: usize, name: &'static str) -> Column {
         assert!(number < MAX_COLUMNS, "a tally has no more than MAX_COLUMNS columns");
         Column { number, name }
@@ -28,7 +28,7 @@ impl Column {
 /// ```
 /// use cutlab::advanced::sampling::tally::Tally;
 ///
-/// cutlab::columns! {
+/// cutlab::advanced::sampling::tally::columns! {
 ///     /// Rays.
 ///     RAYS,
 ///     /// Power that leaves upward.
@@ -56,6 +56,8 @@ macro_rules! columns {
         pub const COLUMNS: [$crate::advanced::sampling::tally::Column; [$(stringify!($name)),*].len()] = [$($name),*];
     };
 }
+
+pub use columns;
 
 /// The sums of a batch: one a [`Column`], and a histogram for an estimator that has a median.
 #[derive(Debug, Clone, Default, PartialEq)]
