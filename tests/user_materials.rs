@@ -211,6 +211,15 @@ fn what_cannot_be_is_refused_with_its_place() {
     assert!(error.ends_with("found '400 x' in line 3 of t.csv"), "{error}");
 }
 
+/// A spectrometer's noise in the ultraviolet and infrared refuses no spectrum; in the visible it does.
+#[test]
+fn rows_far_from_the_visible_do_not_count() {
+    let far =
+        of_table("quantity = \"per-mm\"", "200,-5\n370,0.1\n550,0.2\n740,0.1\n900,-3\n").expect("sound");
+    assert!((far.absorption_per_mm(550.0) - 0.2).abs() < 1e-12 && far.absorption_per_mm(380.0) >= 0.1);
+    assert!(of_table("quantity = \"per-mm\"", "370,0.1\n550,-0.2\n740,0.1\n").is_err());
+}
+
 /// [D] The sample's plate is computed from the catalogue's ruby, so that it gives its absorption back.
 #[test]
 fn a_plate_in_a_file_gives_the_absorption_that_it_was_computed_from() {
