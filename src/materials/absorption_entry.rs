@@ -2,7 +2,7 @@
 
 use super::table_entry::{TableReader, at, read_rows};
 use crate::optics::absorption::{Absorption, AbsorptionSpectrum, Band};
-use crate::optics::dispersion::Dispersion;
+use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::optics::fresnel::unpolarised;
 use crate::optics::spectral_curve::SpectralCurve;
 use crate::parse::data_file::ValueProblem;
@@ -18,6 +18,9 @@ const NOISE: f64 = 0.02;
 
 /// The least transmittance that is told from none: a spectrometer's stray light is more.
 const LEAST_TRANSMITTANCE: f64 = 1e-6;
+
+/// The greatest absorption coefficient (1/mm), width (cm⁻¹) or wavelength (nm): beyond any that is known.
+const MOST: f64 = 1e9;
 
 /// Most bands.
 const MOST_BANDS: usize = 1000;
@@ -140,9 +143,14 @@ impl AbsorptionEntry {
             let expected = format!("a table from {} to {} nm or more", COVERED_NM.0, COVERED_NM.1);
             return Err(ValueProblem::new("table", expected, format!("{first} to {last} nm")));
         }
-        let mut points = Vec::with_capacity(rows.len());
-        for row in rows {
-            let surface = self.includes_surface_losses.then(|| unpolarised(1.0, index.index(row.nm)).0);
+        // what lies beyond the neighbours of a picture's wavelengths is noise, or another law's
+        let (from, to) = VISIBLE_NM;
+        let begin = rows.partition_point(|row| row.nm <= from).saturating_sub(1);
+        let end = (rows.partition_point(|row| row.nm < to) + 1).min(rows.len());
+        let mut points = Vec::with_capacity(end - begin);
+        for row in &rows[begin..end] {
+            let n = index.index(row.nm.clamp(from, to));
+            let surface = self.includes_surface_losses.then(|| unpolarised(1.0, n).0);
             let per_mm = match quantity {
                 Quantity::PerMm => positive(row.value),
                 Quantity::PerCm => positive(row.value / 10.0),
@@ -161,16 +169,13 @@ impl AbsorptionEntry {
 impl BandEntry {
     fn band(&self) -> Result<Band, ValueProblem> {
         for (key, value, expected) in [
-            ("centre-nm", self.centre_nm, "a wavelength above 0"),
-            (
-                "half-widths-per-cm",
-                self.half_widths_per_cm[0].min(self.half_widths_per_cm[1]),
-                "widths above 0",
-            ),
-            ("peak-per-mm", self.peak_per_mm, "an absorption coefficient above 0"),
+            ("centre-nm", self.centre_nm, "a wavelength"),
+            ("half-widths-per-cm", self.half_widths_per_cm[0], "widths"),
+            ("half-widths-per-cm", self.half_widths_per_cm[1], "widths"),
+            ("peak-per-mm", self.peak_per_mm, "an absorption coefficient"),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                let expected = format!("{expected} in band '{}'", self.name);
+            if !(value > 0.0 && value <= MOST) {
+                let expected = format!("{expected} above 0 in band '{}'", self.name.escape_debug());
                 return Err(ValueProblem::new(key, expected, value.to_string()));
             }
         }
@@ -185,7 +190,11 @@ impl BandEntry {
 
 /// An absorption coefficient, or what is expected of one.
 fn positive(per_mm: f64) -> Result<f64, String> {
-    if per_mm >= 0.0 { Ok(per_mm) } else { Err("an absorption coefficient of 0 or more".into()) }
+    if (0.0..=MOST).contains(&per_mm) {
+        Ok(per_mm)
+    } else {
+        Err("an absorption coefficient of 0 or more".into())
+    }
 }
 
 /// Absorption coefficient, 1/mm, of a plate that lets a share of the light through, or what is expected of it.

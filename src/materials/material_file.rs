@@ -105,11 +105,12 @@ impl MaterialFile {
     }
 }
 
-/// The law, if it gives an index that a material can have at every wavelength of a picture.
+/// The law, if it gives an index that a material can have at every nanometre of a picture.
 fn checked(law: Dispersion, key: &'static str) -> Result<Dispersion, ValueProblem> {
     let (from, to) = VISIBLE_NM;
-    let nodes = (0..=70).map(|i| from + (to - from) * f64::from(i) / 70.0);
-    match nodes.map(|nm| (nm, law.index(nm))).find(|(_, n)| !INDICES.contains(n)) {
+    let nodes = std::iter::successors(Some(from), |nm| Some(nm + 1.0)).take_while(|nm| *nm <= to);
+    let mut indices = nodes.map(|nm| (nm, law.index(nm)));
+    match indices.find(|(_, n)| !INDICES.contains(n)) {
         None => Ok(law),
         Some((nm, n)) => {
             let expected =
