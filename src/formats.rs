@@ -317,7 +317,7 @@ fn no_writer(asked: &str) -> FormatError {
 const COMMON_EXTENSIONS: [&str; 2] = ["toml", "txt"];
 
 /// Whether a file that nobody named, but that lies in a folder, is meant as a stone: by an extension that
-/// only designs and meshes have, else by its content. A scene, a table with its companion and the
+/// only designs and meshes have, else by its content. A scene, a table with its sidecar and the
 /// settings of other programs are not; a design that is damaged is.
 pub fn is_meant_as_stone(path: &Path, limits: Limits) -> bool {
     /// From here on no other kind of file begins like that.

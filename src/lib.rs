@@ -13,55 +13,74 @@
 //! `parallel` takes all threads, `files` adds designs, meshes and tables on disk, `render` scenes and
 //! pictures, `report` drawings and pages, and `cli` (the default) is all of it and the program.
 
-pub mod color;
-pub mod design;
-mod error;
-pub mod estimators;
-pub mod geometry;
-pub mod limits;
+#![deny(missing_docs)]
+
+pub mod advanced;
 pub mod manual;
-pub mod materials;
-pub mod metrics;
-pub mod optics;
-pub mod parallel;
-pub mod parse;
 pub mod prelude;
-pub mod progress;
-pub mod sampling;
-pub mod scoring;
-pub mod stone;
-pub mod trace;
+
+mod color;
+mod design;
+mod error;
+mod estimators;
+mod geometry;
+mod limits;
+mod materials;
+mod metrics;
+mod optics;
+mod parallel;
+mod parse;
+mod progress;
+mod sampling;
+mod scoring;
+mod stone;
+mod trace;
 
 #[cfg(feature = "files")]
-pub mod batch;
+mod batch;
 #[cfg(feature = "files")]
-pub mod formats;
+mod formats;
 #[cfg(feature = "files")]
-pub mod storage;
+mod storage;
 
 #[cfg(feature = "render")]
-pub mod integrators;
+mod integrators;
 #[cfg(feature = "render")]
-pub mod photons;
+mod photons;
 #[cfg(feature = "render")]
-pub mod render;
+mod render;
 #[cfg(feature = "render")]
-pub mod scene;
+mod scene;
 
 #[cfg(feature = "report")]
-pub mod report;
+mod report;
 
 #[cfg(feature = "cli")]
-pub mod cli;
+mod cli;
 
+#[cfg(feature = "files")]
+pub use batch::request::{ComparisonTable, ScoreTable, SweepTable, TableRequest};
+pub use color::Illuminant;
 pub use design::{Design, LengthUnit};
 pub use error::{Error, ErrorKind};
+#[cfg(feature = "files")]
+pub use formats::FormatError;
+pub use geometry::{Plane, Polyhedron};
 pub use glam;
+#[cfg(feature = "render")]
+pub use integrators::animation::Turn;
+#[cfg(feature = "render")]
+pub use integrators::{Film, Pass, ToneCurve};
+pub use limits::Limits;
 pub use materials::Material;
-pub use metrics::Metric;
+pub use metrics::{METRICS, Metric};
 pub use progress::Progress;
 #[cfg(feature = "render")]
-pub use render::{Picture, RenderRequest};
+pub use render::{
+    AnimationRequest, Background, Exposure, Picture, PictureKind, RenderError, RenderRequest, StopRequest,
+};
 pub use sampling::stats::Estimate;
-pub use scoring::{ScoreRequest, Scores};
-pub use stone::{Stone, StoneOptions};
+#[cfg(feature = "render")]
+pub use scene::{Pose, Scene, SceneFile};
+pub use scoring::{Comparison, ScoreError, ScoreRequest, Scores, Target, Tilt};
+pub use stone::{Orientation, Stone, StoneError, StoneOptions, StoneSpec, UpAxis};

@@ -73,8 +73,8 @@ pub const PIXELS_PER_BYTE: Limit = Limit::new(1024, "pixels of a panorama for ea
 pub const PHOTON_MAP: Limit = Limit::new(4 << 30, "bytes in a photon map");
 /// Materials and illuminants, and the tables of spectra beside them: a thousand times the size of any.
 pub const SPECTRUM: Limit = Limit::new(4 << 20, "bytes in a material, an illuminant or a table beside it");
-/// The companion of a table.
-pub const COMPANION: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
+/// The sidecar of a table.
+pub const SIDECAR: Limit = Limit::new(1 << 20, "bytes in a .meta.json");
 /// One row of a table that is read back.
 pub const ROW: Limit = Limit::new(1 << 20, "bytes in a row of a table");
 
@@ -106,7 +106,7 @@ pub const ALL: &[&Limit] = &[
     &PIXELS_PER_BYTE,
     &PHOTON_MAP,
     &SPECTRUM,
-    &COMPANION,
+    &SIDECAR,
     &ROW,
 ];
 

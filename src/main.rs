@@ -1,5 +1,5 @@
 //! The `cutlab` command.
 
 fn main() -> std::process::ExitCode {
-    cutlab::cli::run()
+    cutlab::advanced::cli::run()
 }

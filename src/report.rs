@@ -13,6 +13,7 @@ pub mod references;
 mod request;
 pub mod sections;
 pub mod stone_report;
+pub mod svg_canvas;
 pub mod tilt_curves;
 pub mod validation;
 pub mod viewer_images;

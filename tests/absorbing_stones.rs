@@ -3,18 +3,18 @@
 mod brilliants;
 
 use brilliants::{SEED, subject};
-use cutlab::color::{Illuminant, cie};
-use cutlab::design::library;
-use cutlab::materials::Material;
-use cutlab::metrics::Metric;
-use cutlab::optics::absorption::{Absorption, Band};
-use cutlab::optics::dispersion::Dispersion;
-use cutlab::optics::fresnel::FresnelCoefficients;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::sampling::stats::{Estimate, ratio};
-use cutlab::scoring::score::{ScoreRequest, Target, score};
-use cutlab::trace::ConvexStone;
-use cutlab::trace::reference::{ScalarInteraction, ScalarRay, trace};
+use cutlab::advanced::color::{Illuminant, cie};
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::Metric;
+use cutlab::advanced::optics::absorption::{Absorption, Band};
+use cutlab::advanced::optics::dispersion::Dispersion;
+use cutlab::advanced::optics::fresnel::FresnelCoefficients;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::sampling::stats::{Estimate, ratio};
+use cutlab::advanced::scoring::score::{ScoreRequest, Target, score};
+use cutlab::advanced::trace::ConvexStone;
+use cutlab::advanced::trace::reference::{ScalarInteraction, ScalarRay, trace};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 

@@ -1,24 +1,24 @@
 //! Absorption along the tracer: energy, the `f64` twin, a plate's closed form, and what size does.
 
-use cutlab::design::Design;
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::integrators::{self, PhotonMaps, Tone};
-use cutlab::materials::Material;
-use cutlab::metrics::METRICS;
-use cutlab::optics::absorption::{Absorption, Band};
-use cutlab::optics::dispersion::lines;
-use cutlab::optics::fresnel::unpolarised;
-use cutlab::optics::stokes::Stokes;
-use cutlab::photons::stone_scattering::{IncidentPhoton, scatter};
-use cutlab::photons::{self, PhotonSets};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::sampling::tally::Tally;
-use cutlab::sampling::warps;
-use cutlab::scene::intersection::StoneHit;
-use cutlab::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, score};
-use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
+use cutlab::advanced::design::Design;
+use cutlab::advanced::estimators::{BatchedEstimate, TraceOptics, View, view};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::integrators::{self, PhotonMaps, Tone};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::METRICS;
+use cutlab::advanced::optics::absorption::{Absorption, Band};
+use cutlab::advanced::optics::dispersion::lines;
+use cutlab::advanced::optics::fresnel::unpolarised;
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::photons::stone_scattering::{IncidentPhoton, scatter};
+use cutlab::advanced::photons::{self, PhotonSets};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::sampling::tally::Tally;
+use cutlab::advanced::sampling::warps;
+use cutlab::advanced::scene::intersection::StoneHit;
+use cutlab::advanced::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, score};
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 
@@ -26,7 +26,8 @@ const SEED: u64 = 29;
 const INDEX: f32 = 1.77;
 
 fn brilliant() -> Polyhedron {
-    let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+    let design =
+        cutlab::advanced::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
     design.solid().expect("closed")
 }
 
@@ -165,7 +166,8 @@ fn a_plate_follows_its_closed_form() {
 #[test]
 fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
     let scores = |material: &str, mm: f64| -> BTreeMap<&str, f64> {
-        let solid = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let solid =
+            cutlab::advanced::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
         let material = Material::by_name(material).expect("in the catalogue").clone();
         let subject = ScoreInput {
             stone: "s".into(),
@@ -232,7 +234,8 @@ fn photons_through_a_plate_keep_what_it_does_not_absorb() {
 #[test]
 fn pictures_show_the_colour_and_the_size() {
     let mean = |material: &str, mm: f64| -> Vec3 {
-        let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+        let design =
+            cutlab::advanced::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
         let scene = scene(
             design.sized(mm).expect("has a width"),
             Material::by_name(material).expect("in the catalogue").clone(),

@@ -5,8 +5,8 @@ mod bench;
 mod room;
 
 use bench::Bench;
-use cutlab::integrators::image_io;
-use cutlab::scene::Scene;
+use cutlab::advanced::integrators::image_io;
+use cutlab::advanced::scene::Scene;
 use glam::{Vec3, Vec4};
 use room::{ROOM, SMALL, built, taken};
 

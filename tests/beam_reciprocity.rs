@@ -1,9 +1,11 @@
 //! Reciprocity of exact beams: light sent back along an exit returns by the same facets.
 
-use cutlab::design::families;
-use cutlab::geometry::Polyhedron;
-use cutlab::trace::ConvexStone;
-use cutlab::trace::beams::{BeamExit, BeamVisitor, Beams, IncidentBeam, StopCriteria, UnpolarisedLight};
+use cutlab::advanced::design::families;
+use cutlab::advanced::geometry::Polyhedron;
+use cutlab::advanced::trace::ConvexStone;
+use cutlab::advanced::trace::beams::{
+    BeamExit, BeamVisitor, Beams, IncidentBeam, StopCriteria, UnpolarisedLight,
+};
 use glam::DVec3;
 use std::collections::BTreeMap;
 

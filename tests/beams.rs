@@ -1,18 +1,18 @@
 //! Exact beams: an independent tracer's figures, the sum of all light, photons.
 
-use cutlab::batch::validate::figures;
-use cutlab::design::{families, library};
-use cutlab::estimators::beam_view;
-use cutlab::estimators::colour_separation;
-use cutlab::estimators::weighted_exits::{BeamEffort, WeightedSums, integrate_exits};
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, View, point_light, view};
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::materials::Material;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::beams::{
+use cutlab::advanced::batch::validate::figures;
+use cutlab::advanced::design::{families, library};
+use cutlab::advanced::estimators::beam_view;
+use cutlab::advanced::estimators::colour_separation;
+use cutlab::advanced::estimators::weighted_exits::{BeamEffort, WeightedSums, integrate_exits};
+use cutlab::advanced::estimators::{BatchedEstimate, PointLight, TraceOptics, View, point_light, view};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, EnergyBudget, IncidentBeam, StopCriteria, UnpolarisedLight,
 };
-use cutlab::trace::{ConvexStone, Isa};
+use cutlab::advanced::trace::{ConvexStone, Isa};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 
@@ -250,7 +250,8 @@ fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
 #[test]
 fn all_instruction_sets_follow_the_same_beams() {
     let direction = DVec3::new(0.5, 0.2, -0.8).normalize();
-    let stokes = cutlab::optics::stokes::Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
+    let stokes =
+        cutlab::advanced::optics::stokes::Stokes::unpolarised(1.0, direction.any_orthonormal_vector());
     let until = StopCriteria::at_power(1e-5);
     let runs = Isa::all().into_iter().map(|isa| {
         let stone = ConvexStone::with_isa(brilliant(&[]), isa);

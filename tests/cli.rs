@@ -298,7 +298,7 @@ fn report_leaves_everything_about_a_stone() {
     let page = std::fs::read_to_string(bench.path("out/index.html")).expect("written");
     assert_eq!(page.matches("data:image/png;base64,").count(), 4);
     assert!(!page.contains("http://") && !page.contains("https://"), "the page needs no network");
-    for metric in cutlab::metrics::METRICS.iter() {
+    for metric in cutlab::advanced::metrics::METRICS.iter() {
         assert!(page.contains(metric.name), "{}", metric.name);
     }
     assert!(page.contains("cutlab report round-brilliant -o out"));

@@ -1,9 +1,9 @@
 //! Colour against published figures: whites, the spectral locus, sRGB, a chart's patches, gems.
 
-use cutlab::color::Illuminant;
-use cutlab::color::cie;
-use cutlab::color::cie::{adapted_srgb, chromaticity, matching, srgb_encode, srgb_matrix};
-use cutlab::materials::Material;
+use cutlab::advanced::color::Illuminant;
+use cutlab::advanced::color::cie;
+use cutlab::advanced::color::cie::{adapted_srgb, chromaticity, matching, srgb_encode, srgb_matrix};
+use cutlab::advanced::materials::Material;
 use glam::Vec3;
 
 fn light(name: &str) -> std::sync::Arc<Illuminant> {

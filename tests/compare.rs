@@ -5,8 +5,8 @@ mod brilliants;
 
 use bench::Bench;
 use brilliants::{SEED, diamond, named, plan, subject};
-use cutlab::scoring::comparison::{SIGNIFICANT, compare};
-use cutlab::scoring::score::{ScoreRequest, score};
+use cutlab::advanced::scoring::comparison::{SIGNIFICANT, compare};
+use cutlab::advanced::scoring::score::{ScoreRequest, score};
 
 /// The difference of two stones is that of long runs of each, and sharper than their errors.
 #[test]
@@ -14,8 +14,11 @@ fn differences_are_right_and_sharper_than_the_scores() {
     let subjects = ["reference", "57"].map(|n| subject(n, &named(n), diamond()));
     let plan = plan(&["wlr", "leakage"], 1 << 16);
     let compared = compare(&subjects, &plan, &|| ());
-    let long =
-        ScoreRequest { target: cutlab::scoring::score::Target::Samples(1 << 20), seed: SEED + 9, ..plan };
+    let long = ScoreRequest {
+        target: cutlab::advanced::scoring::score::Target::Samples(1 << 20),
+        seed: SEED + 9,
+        ..plan
+    };
     let [a, b] = [0, 1].map(|i| score(&subjects[i], &long).scores);
     for m in 0..2 {
         let (a, b) = (a[m].expect("applies"), b[m].expect("applies"));

@@ -4,9 +4,9 @@
 //! The corpus is in `$CUTLAB_CORPUS`, or in `../shared/corpus` beside the package; where there is
 //! none, the tests say so and pass.
 
-use cutlab::design::Design;
-use cutlab::formats::{self, FORMATS, Format, Loaded};
-use cutlab::geometry::{Plane, Polyhedron};
+use cutlab::advanced::design::Design;
+use cutlab::advanced::formats::{self, FORMATS, Format, Loaded};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -289,8 +289,9 @@ fn both_forms_of_a_gemcad_design_agree() {
         for (a, b) in text.tiers.iter().zip(&binary.tiers) {
             assert_eq!((&a.name, &a.instructions), (&b.name, &b.instructions));
             assert!(a.angle_deg.zip(b.angle_deg).is_some_and(|(a, b)| (a - b).abs() < 1e-6));
-            let names =
-                |t: &cutlab::design::Tier| t.facets.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
+            let names = |t: &cutlab::advanced::design::Tier| {
+                t.facets.iter().map(|f| f.name.clone()).collect::<Vec<_>>()
+            };
             assert_eq!(names(a), names(b), "{name}");
         }
     }

@@ -9,10 +9,10 @@
 mod brilliants;
 
 use brilliants::{SEED, plan, subject};
-use cutlab::design::library;
-use cutlab::materials::Material;
-use cutlab::metrics::{METRICS, Metric, MetricSource, Statistic};
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::{METRICS, Metric, MetricSource, Statistic};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Daylight against the figures of lighting engineers.
 
-use cutlab::color::cie;
-use cutlab::color::daylight::{ClearSky, SUN_RADIUS_DEG};
+use cutlab::advanced::color::cie;
+use cutlab::advanced::color::daylight::{ClearSky, SUN_RADIUS_DEG};
 use glam::Vec3;
 use std::f32::consts::PI;
 

@@ -1,9 +1,9 @@
 //! Depth of field: the circle of confusion is that of a thin lens, a plane in focus stays sharp, and
 //! what a lens cannot be is said.
 
-use cutlab::integrators::{self, PhotonMaps, Tone};
-use cutlab::photons::{PhotonSets, PhotonSettings};
-use cutlab::scene::{Scene, SceneFile, SceneOverrides};
+use cutlab::advanced::integrators::{self, PhotonMaps, Tone};
+use cutlab::advanced::photons::{PhotonSets, PhotonSettings};
+use cutlab::advanced::scene::{Scene, SceneFile, SceneOverrides};
 use std::path::Path;
 
 /// Pixels across, and down.

@@ -1,9 +1,9 @@
 //! Design files: what GemCad's two forms and Gem Cut Studio's keep of a design, in both directions.
 
-use cutlab::design::{Design, Facet, Gear, Tier};
-use cutlab::formats::{self, Loaded};
-use cutlab::geometry::Plane;
-use cutlab::stone::Stone;
+use cutlab::advanced::design::{Design, Facet, Gear, Tier};
+use cutlab::advanced::formats::{self, Loaded};
+use cutlab::advanced::geometry::Plane;
+use cutlab::advanced::stone::Stone;
 use glam::DVec3;
 use std::path::Path;
 
@@ -112,7 +112,7 @@ fn tiers_names_and_texts_survive_in_every_design_format() {
         for f in &mut tier.facets {
             f.index = f.index.map(|i| i - 0.5);
             f.plane.normal =
-                cutlab::design::tiers::facet_normal(design.gear, angle, f.index.expect("an index"));
+                cutlab::advanced::design::tiers::facet_normal(design.gear, angle, f.index.expect("an index"));
         }
     }
     design.tiers[1].instructions = "Cut to a point. ".repeat(60).trim().into();

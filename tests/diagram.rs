@@ -1,10 +1,10 @@
 //! The cutting diagram: one page, black on white, every facet once, names inside their facets.
 
-use cutlab::design::{Design, Gear, Tier, Zone, library};
-use cutlab::formats;
-use cutlab::report::diagram::Paper;
-use cutlab::report::raster::text_width;
-use cutlab::report::{diagram, pdf, raster};
+use cutlab::advanced::design::{Design, Gear, Tier, Zone, library};
+use cutlab::advanced::formats;
+use cutlab::advanced::report::diagram::Paper;
+use cutlab::advanced::report::raster::text_width;
+use cutlab::advanced::report::{diagram, pdf, raster};
 use glam::DVec2;
 use rayon::prelude::*;
 use roxmltree::{Document, Node};

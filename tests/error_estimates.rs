@@ -4,12 +4,12 @@
 mod bench;
 
 use bench::Bench;
-use cutlab::design::library;
-use cutlab::materials::Material;
-use cutlab::metrics::{METRICS, Metric};
-use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::comparison::compare;
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt, score};
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::{METRICS, Metric};
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scoring::comparison::compare;
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt, score};
 use std::collections::BTreeMap;
 
 fn material(name: &str) -> Material {

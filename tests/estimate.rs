@@ -1,14 +1,14 @@
 //! The irradiance of a photon map holds the power of its photons: in even light, in all rings about a
 //! stone, in the dark, however few they are.
 
-use cutlab::color::cie::BANDS;
-use cutlab::integrators::{self, Film, Pass, PhotonMaps, Tone};
-use cutlab::materials::Material;
-use cutlab::photons::map::PhotonMap;
-use cutlab::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::scene::intersection::SurfacePoint;
-use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
+use cutlab::advanced::color::cie::BANDS;
+use cutlab::advanced::integrators::{self, Film, Pass, PhotonMaps, Tone};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::photons::map::PhotonMap;
+use cutlab::advanced::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::scene::intersection::SurfacePoint;
+use cutlab::advanced::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 use std::path::Path;

@@ -3,11 +3,11 @@
 mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
-use cutlab::design::library;
-use cutlab::materials::Material;
-use cutlab::metrics::{METRICS, Metric};
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
-use cutlab::stone::Stone;
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::{METRICS, Metric};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
+use cutlab::advanced::stone::Stone;
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
 #[test]

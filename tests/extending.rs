@@ -4,10 +4,10 @@
 mod brilliants;
 
 use brilliants::{diamond, named, plan, subject};
-use cutlab::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};
-use cutlab::metrics::{Metric, MetricSource, Statistic};
-use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreRequest, Target, score};
+use cutlab::advanced::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};
+use cutlab::advanced::metrics::{Metric, MetricSource, Statistic};
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scoring::score::{ScoreRequest, Target, score};
 
 /// A metric on sums that an estimator has: one row.
 static GLARE_PER_RETURN: Metric = Metric {
@@ -19,12 +19,12 @@ static GLARE_PER_RETURN: Metric = Metric {
 
 /// A metric on a sum of its own: light that leaves towards a lamp-lit ring, by beams.
 mod ring {
-    use cutlab::estimators::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
-    use cutlab::estimators::weighted_exits::integrate_exits;
-    use cutlab::sampling::statistic::Statistic;
-    use cutlab::sampling::tally::{Column, Tally};
-    use cutlab::trace::ConvexStone;
-    use cutlab::trace::beams::{Beams, IncidentBeam};
+    use cutlab::advanced::estimators::kind::{EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
+    use cutlab::advanced::estimators::weighted_exits::integrate_exits;
+    use cutlab::advanced::sampling::statistic::Statistic;
+    use cutlab::advanced::sampling::tally::{Column, Tally};
+    use cutlab::advanced::trace::ConvexStone;
+    use cutlab::advanced::trace::beams::{Beams, IncidentBeam};
 
     cutlab::columns! {
         /// Light on the outline.
@@ -76,13 +76,13 @@ mod ring {
 
 /// An estimator of its own: one file.
 mod crown {
-    use cutlab::estimators::kind::{EstimatorKind, Method, Metric, MetricSource, Setup};
-    use cutlab::estimators::{Estimator, EstimatorError};
-    use cutlab::sampling::kronecker::KroneckerPoints;
-    use cutlab::sampling::random::Purpose;
-    use cutlab::sampling::statistic::Statistic;
-    use cutlab::sampling::tally::{Column, Tally};
-    use cutlab::trace::ConvexStone;
+    use cutlab::advanced::estimators::kind::{EstimatorKind, Method, Metric, MetricSource, Setup};
+    use cutlab::advanced::estimators::{Estimator, EstimatorError};
+    use cutlab::advanced::sampling::kronecker::KroneckerPoints;
+    use cutlab::advanced::sampling::random::Purpose;
+    use cutlab::advanced::sampling::statistic::Statistic;
+    use cutlab::advanced::sampling::tally::{Column, Tally};
+    use cutlab::advanced::trace::ConvexStone;
     use std::ops::Range;
 
     const STREAM: Purpose = Purpose::named("places over a crown");

@@ -4,18 +4,18 @@
 mod brilliants;
 
 use brilliants::{SEED, n2417, named, plan, scores, stone, subject};
-use cutlab::batch::validate::figures;
-use cutlab::design::{Design, library};
-use cutlab::estimators::{
+use cutlab::advanced::batch::validate::figures;
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::estimators::{
     BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, scintillation, view::ObserverDome,
 };
-use cutlab::formats;
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::materials::Material;
-use cutlab::optics::fresnel;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::scoring::score::{ScoreRequest, score};
-use cutlab::trace::{ConvexStone, reference};
+use cutlab::advanced::formats;
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::optics::fresnel;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::scoring::score::{ScoreRequest, score};
+use cutlab::advanced::trace::{ConvexStone, reference};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

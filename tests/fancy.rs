@@ -1,7 +1,7 @@
 //! Fancy brilliants against the round one: a round outline gives it back, an ellipse its affine
 //! image; step cuts against hand-derived heights.
 
-use cutlab::design::{Design, families, proportions};
+use cutlab::advanced::design::{Design, families, proportions};
 use std::collections::BTreeMap;
 
 fn built(family: &str, values: &[(&str, f64)]) -> Design {
@@ -23,7 +23,7 @@ fn a_round_outline_gives_the_round_brilliant() {
         let fancy = built(family, &values);
         assert_eq!(fancy.facets().count(), 153, "{family}");
         for p in fancy.planes() {
-            let off = |q: &cutlab::geometry::Plane| {
+            let off = |q: &cutlab::advanced::geometry::Plane| {
                 (p.normal - q.normal).length() + (p.distance - q.distance).abs()
             };
             let nearest = round.planes().iter().map(off).fold(f64::INFINITY, f64::min);
@@ -66,6 +66,7 @@ fn steps_have_the_heights_of_their_angles() {
     assert!((p.pavilion_depth_percent - 25.0 * (tan(55.0) + tan(40.0))).abs() < 1e-9);
     assert!((p.girdle_percent - 3.0).abs() < 1e-9 && (p.table_percent.expect("a table") - 60.0).abs() < 1e-9);
     // a rectangle of 1 × 1.5 less four corners of .15
-    let outline = cutlab::geometry::measure::polygon_area(&stone.solid().expect("closed").outline());
+    let outline =
+        cutlab::advanced::geometry::measure::polygon_area(&stone.solid().expect("closed").outline());
     assert!((outline / p.width.powi(2) - (1.5 - 2.0 * 0.15 * 0.15)).abs() < 1e-9);
 }

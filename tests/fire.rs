@@ -3,13 +3,13 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::design::library;
-use cutlab::estimators::point_light::PointLightNeeds;
-use cutlab::estimators::weighted_exits::BeamEffort;
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, ViewFrame, fire, point_light};
-use cutlab::sampling::stats::jackknife;
-use cutlab::trace::ConvexStone;
-use cutlab::trace::beams::Beams;
+use cutlab::advanced::design::library;
+use cutlab::advanced::estimators::point_light::PointLightNeeds;
+use cutlab::advanced::estimators::weighted_exits::BeamEffort;
+use cutlab::advanced::estimators::{BatchedEstimate, PointLight, TraceOptics, ViewFrame, fire, point_light};
+use cutlab::advanced::sampling::stats::jackknife;
+use cutlab::advanced::trace::ConvexStone;
+use cutlab::advanced::trace::beams::Beams;
 
 /// Streaks and lit area of three stones, with and without polarisation, upright and tilted, by both:
 /// 4 errors.

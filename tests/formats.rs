@@ -1,11 +1,11 @@
 //! Formats: what is written reads back to the same planes, good files are read, bad ones are
 //! refused in one line that says where and why, and no bytes at all make a reader panic.
 
-use cutlab::design::{Design, LengthUnit};
-use cutlab::formats::{self, FORMATS, Loaded};
-use cutlab::geometry::Plane;
-use cutlab::geometry::polyhedron::PlaneStatus;
-use cutlab::stone::Stone;
+use cutlab::advanced::design::{Design, LengthUnit};
+use cutlab::advanced::formats::{self, FORMATS, Loaded};
+use cutlab::advanced::geometry::Plane;
+use cutlab::advanced::geometry::polyhedron::PlaneStatus;
+use cutlab::advanced::stone::Stone;
 use glam::{DMat3, DVec3};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,15 +2,15 @@
 //! out is absorbed, and what no light reaches is dark; over plates, meshes, mirrors, every kind of light and
 //! every scene of the catalogue.
 
-use cutlab::color::Illuminant;
-use cutlab::integrators::{self, Film, PhotonMaps, Tone};
-use cutlab::photons::{PhotonSets, PhotonSettings};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::scene::intersection::SurfacePoint;
-use cutlab::scene::lights::LIGHTS;
-use cutlab::scene::lights::dome::Dome;
-use cutlab::scene::surface::Shape;
-use cutlab::scene::{Bsdf, Light, Reflectance, SCENES, Scene, SceneFile, SceneOverrides, preset};
+use cutlab::advanced::color::Illuminant;
+use cutlab::advanced::integrators::{self, Film, PhotonMaps, Tone};
+use cutlab::advanced::photons::{PhotonSets, PhotonSettings};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::scene::intersection::SurfacePoint;
+use cutlab::advanced::scene::lights::LIGHTS;
+use cutlab::advanced::scene::lights::dome::Dome;
+use cutlab::advanced::scene::surface::Shape;
+use cutlab::advanced::scene::{Bsdf, Light, Reflectance, SCENES, Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use std::fmt::Write;
 use std::path::Path;

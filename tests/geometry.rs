@@ -1,8 +1,8 @@
 //! Half-space intersection: known solids, random ones, and the planes that bound nothing.
 
-use cutlab::design::library;
-use cutlab::geometry::polyhedron::PlaneStatus;
-use cutlab::geometry::{Plane, Polyhedron, SolidError};
+use cutlab::advanced::design::library;
+use cutlab::advanced::geometry::polyhedron::PlaneStatus;
+use cutlab::advanced::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DQuat, DVec3};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap};

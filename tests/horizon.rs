@@ -3,11 +3,11 @@
 mod brilliants;
 
 use brilliants::{SEED, subject};
-use cutlab::design::{Design, library};
-use cutlab::materials::Material;
-use cutlab::metrics::{METRICS, Metric};
-use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score};
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::{METRICS, Metric};
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score};
 
 /// Indices of refraction: quartz for faceters, diamond.
 const INDICES: [f64; 2] = [1.54, 2.417];

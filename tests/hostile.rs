@@ -18,9 +18,9 @@ mod slow;
 #[path = "../tools/fuzz/targets.rs"]
 mod targets;
 
-use cutlab::formats::{self, FORMATS};
-use cutlab::scene::SCENES;
-use cutlab::stone::Stone;
+use cutlab::advanced::formats::{self, FORMATS};
+use cutlab::advanced::scene::SCENES;
+use cutlab::advanced::stone::Stone;
 use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage};
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -1,7 +1,7 @@
 //! The rules of the house: rows of rooms, file headers and lengths, no way to panic, one file with
-//! `unsafe`, no folder that nobody expects.
+//! `unsafe`, markup by canvas and templates alone, no folder that nobody expects.
 
-use cutlab::sampling::random::Purpose;
+use cutlab::advanced::sampling::random::Purpose;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,7 @@ const ROWS: &[&[&str]] = &[
     &["prelude"],
     &["report", "manual"],
     &["cli"],
+    &["advanced"],
 ];
 
 /// Folders of the repository, apart from what git ignores.
@@ -75,8 +76,10 @@ fn row_of(room: &str) -> Option<usize> {
     ROWS.iter().position(|row| row.contains(&room))
 }
 
-/// Every room that the text names after `crate::`, also in `crate::{a, b::c}`.
+/// Every room that the text names after `crate::`, also in `crate::{a, b::c}`. What a macro names after
+/// `$crate::` is for those who use it.
 fn imports(text: &str) -> Vec<String> {
+    let text = text.replace("$crate::", "");
     let mut rooms = Vec::new();
     let word = |s: &str| s.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
     for rest in text.split("crate::").skip(1) {
@@ -238,6 +241,76 @@ fn nothing_in_the_program_reads_reports() {
         let reads = code(&text).lines().any(|l| l.contains("include") && l.contains("reports/"));
         assert!(!reads, "{} reads reports/", path.display());
     }
+}
+
+/// Files whose strings may hold tags, and why.
+const WITH_TAGS: &[&str] = &[
+    "src/report/svg_canvas.rs",   // writes the elements of every drawing
+    "src/formats/gcs.rs",         // Gem Cut Studio's own XML
+    "src/formats/gcs_write.rs",   // the same
+    "src/formats/unsupported.rs", // knows pages and drawings by their first tag
+];
+
+/// The string literals of Rust code, without their quotes.
+fn literals(code: &str) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut rest = code;
+    while let Some(at) = rest.find(['"', '\'', '/']) {
+        let (before, here) = rest.split_at(at);
+        let after = if here.starts_with("//") {
+            here.find('\n').unwrap_or(here.len())
+        } else if here.starts_with("'\"'") || here.starts_with("'\\") {
+            3 // a quote or an escaped sign as a char
+        } else if let Some(text) = here.strip_prefix('"') {
+            let hashes = before.len() - before.trim_end_matches('#').len();
+            let length = if before.trim_end_matches('#').ends_with('r') {
+                text.find(&format!("\"{}", "#".repeat(hashes)))
+            } else {
+                let mut escaped = false;
+                text.find(|c| {
+                    let ends = c == '"' && !escaped;
+                    escaped = c == '\\' && !escaped;
+                    ends
+                })
+            };
+            let length = length.expect("a string ends");
+            found.push(&text[..length]);
+            length + 2
+        } else {
+            1
+        };
+        rest = &here[after..];
+    }
+    found
+}
+
+/// Whether a text has a tag: `<a`, `</a`, `<!a`; `:<a` is a width in a format.
+fn has_tag(text: &str) -> bool {
+    text.match_indices('<').any(|(i, _)| {
+        let name = text[i + 1..].trim_start_matches(['/', '!']);
+        !text[..i].ends_with(':') && name.starts_with(|c: char| c.is_ascii_alphabetic())
+    })
+}
+
+#[test]
+fn markup_is_written_by_the_canvas_and_by_templates() {
+    let mut wrong = Vec::new();
+    for (path, text) in sources().iter().filter(|(path, _)| !WITH_TAGS.iter().any(|p| path == Path::new(p))) {
+        let code = code(text);
+        wrong.extend(
+            literals(&code).iter().filter(|l| has_tag(l)).map(|l| format!("{}: {l}", path.display())),
+        );
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_check_of_markup_sees_every_form_of_string() {
+    let code = "let a = \"<b>\\\"x\"; // \"no\"\nlet b = ('\"', '\\'', 'c'); f::<'a>(r#\"</p>\"#, br\"<!doctype\", \"{:<w$}\");";
+    assert_eq!(literals(code), ["<b>\\\"x", "</p>", "<!doctype", "{:<w$}"]);
+    let tags: Vec<bool> = literals(code).into_iter().map(has_tag).collect();
+    assert_eq!(tags, [true, true, true, false]);
+    assert!(!has_tag("a < b, <1>, x <- y"));
 }
 
 #[test]

@@ -4,20 +4,20 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::design::{Design, library};
-use cutlab::estimators::view::{ObserverDome, ViewerLighting};
-use cutlab::estimators::{
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::estimators::view::{ObserverDome, ViewerLighting};
+use cutlab::advanced::estimators::{
     BatchedEstimate, Contrast, Estimator, EstimatorKind, FaceterView, Hemisphere, PointLight, Scintillation,
     TraceOptics, View, ViewFrame, contrast, faceter_view, hemisphere, pixel_cells, point_light,
     scintillation, view, view_metrics,
 };
-use cutlab::integrators::{self, PhotonMaps, Tone};
-use cutlab::materials::Material;
-use cutlab::metrics::MetricSource;
-use cutlab::photons::{PhotonSets, PhotonSettings};
-use cutlab::sampling::stats::Estimate;
-use cutlab::scene::{PlacedStone, SceneOverrides, preset};
-use cutlab::trace::{ConvexStone, Isa};
+use cutlab::advanced::integrators::{self, PhotonMaps, Tone};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::MetricSource;
+use cutlab::advanced::photons::{PhotonSets, PhotonSettings};
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scene::{PlacedStone, SceneOverrides, preset};
+use cutlab::advanced::trace::{ConvexStone, Isa};
 use std::collections::BTreeMap;
 
 const SAMPLES: u64 = 1 << 15;

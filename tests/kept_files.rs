@@ -129,7 +129,7 @@ fn an_input_is_never_an_output_whatever_leads_to_it() {
     assert!(said.contains("none"), "{said}");
 }
 
-/// What a scene names, the panorama given for it and the companions of tables are inputs too.
+/// What a scene names, the panorama given for it and the sidecars of tables are inputs too.
 #[cfg(unix)]
 #[test]
 fn files_that_inputs_name_are_never_outputs() {
@@ -194,7 +194,7 @@ fn places_are_tried_before_the_work() {
         std::os::unix::fs::symlink(target, bench.path(link)).expect("links");
     }
     let long = format!("{}.csv", "x".repeat(252));
-    let nearly = format!("{}.csv", "x".repeat(245)); // its companion has no room
+    let nearly = format!("{}.csv", "x".repeat(245)); // its sidecar has no room
     let mut places = vec!["folder", "folder.csv", "file/t.csv", &long, &nearly];
     if cfg!(unix) {
         places.extend(["dangling.csv", "loop.csv"]);
@@ -248,7 +248,7 @@ fn read_only_files_are_refused_and_modes_are_kept() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn streams_have_no_companions_and_stay_what_they_are() {
+fn streams_have_no_sidecars_and_stay_what_they_are() {
     let bench = Bench::new();
     let score = ["score", "-q", "cube", "--metrics", "spread", "-o"];
     let plain = bench.ends(0, &[&score[..], &["-"]].concat()).0;

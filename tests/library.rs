@@ -1,9 +1,9 @@
 //! Every cut of the library: a closed convex stone with the proportions that its file promises.
 
-use cutlab::design::gia_envelopes::envelope;
-use cutlab::design::proportions::{self, Proportions};
-use cutlab::design::{Design, library};
-use cutlab::geometry::polyhedron::PlaneStatus;
+use cutlab::advanced::design::gia_envelopes::envelope;
+use cutlab::advanced::design::proportions::{self, Proportions};
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::geometry::polyhedron::PlaneStatus;
 use std::collections::BTreeMap;
 
 fn made(name: &str, values: &[(&str, f64)]) -> Design {
@@ -104,7 +104,7 @@ fn every_cut_of_tiers_can_be_drawn_out() {
         drawn += 1;
         let (before, after) = (made(name, &[]), made(name, &[("length-to-width", 1.7)]));
         let (before, after) = (before.solid().expect("closed"), after.solid().expect("closed"));
-        let size = |s: &cutlab::geometry::Polyhedron| s.bounds().1 - s.bounds().0;
+        let size = |s: &cutlab::advanced::geometry::Polyhedron| s.bounds().1 - s.bounds().0;
         let (a, b) = (size(&before), size(&after));
         assert!((b.y / b.x - 1.7).abs() < 1e-9, "{name}: {}", b.y / b.x);
         // width and height stay, every facet stands, and the volume grows with the length
@@ -146,7 +146,8 @@ fn the_ratios_of_a_stone_drawn_out_are_those_of_the_round_one() {
 
 #[test]
 fn there_is_no_heart_and_it_is_said_why() {
-    let error = cutlab::stone::Stone::parse("heart").map(|i| i.format()).expect_err("no heart").to_string();
+    let error =
+        cutlab::advanced::stone::Stone::parse("heart").map(|i| i.format()).expect_err("no heart").to_string();
     assert!(error.contains("dent") && error.contains("'pear'"), "{error}");
 }
 

@@ -5,7 +5,7 @@
 mod bench;
 
 use bench::Bench;
-use cutlab::storage::journal::Journal;
+use cutlab::advanced::storage::journal::Journal;
 
 /// What memory may differ by from one run to another, in kB: threads' stacks and allocators' reserves.
 const ROOM: u64 = 8_000;

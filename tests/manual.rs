@@ -5,11 +5,11 @@ mod bench;
 
 use bench::{Bench, text};
 use clap::error::ErrorKind;
-use cutlab::color::Illuminant;
-use cutlab::design::design_file::DesignFile;
+use cutlab::advanced::color::Illuminant;
+use cutlab::advanced::design::design_file::DesignFile;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::scene::SceneFile;
 use cutlab::manual::{SCENE_GRAMMAR, TOPICS};
-use cutlab::materials::Material;
-use cutlab::scene::SceneFile;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -75,7 +75,7 @@ fn every_command_of_the_examples_runs() {
         for line in blocks(markdown, "sh").iter().flat_map(|block| commands(block)) {
             if LONG.iter().any(|long| line.contains(long)) {
                 let words: Vec<&str> = line.split_whitespace().collect();
-                let read = cutlab::cli::command().try_get_matches_from(words);
+                let read = cutlab::advanced::cli::command().try_get_matches_from(words);
                 assert!(read.is_ok(), "{document}: {line}: {:?}", read.err());
                 continue;
             }
@@ -94,7 +94,7 @@ fn every_command_of_the_examples_runs() {
 
 #[test]
 fn commands_and_options_in_the_text_exist() {
-    let mut command = cutlab::cli::command();
+    let mut command = cutlab::advanced::cli::command();
     command.build();
     let all = command.get_subcommands().chain([&command]).flat_map(clap::Command::get_arguments);
     let known: BTreeSet<String> = all.filter_map(|arg| arg.get_long().map(|l| format!("--{l}"))).collect();
@@ -110,7 +110,8 @@ fn commands_and_options_in_the_text_exist() {
             if !code.starts_with("cutlab ") || code.split(' ').any(is_placeholder) {
                 continue;
             }
-            if let Err(error) = cutlab::cli::command().try_get_matches_from(code.split_whitespace()) {
+            if let Err(error) = cutlab::advanced::cli::command().try_get_matches_from(code.split_whitespace())
+            {
                 let kinds = [ErrorKind::DisplayHelp, ErrorKind::MissingRequiredArgument];
                 assert!(kinds.contains(&error.kind()), "{document}: `{code}`: {error}");
             }
@@ -162,7 +163,7 @@ fn help_shows_topics_and_the_help_of_commands() {
     let bench = Bench::new();
     let help = shown(&bench, &["help"]);
     assert_eq!(help, shown(&bench, &["--help"]));
-    let mut command = cutlab::cli::command();
+    let mut command = cutlab::advanced::cli::command();
     command.build();
     for sub in command.get_subcommands().map(clap::Command::get_name) {
         assert_eq!(shown(&bench, &["help", sub]), shown(&bench, &[sub, "--help"]), "{sub}");
@@ -213,7 +214,7 @@ fn man_pages_are_written_by_the_rule_of_outputs() {
     // examples keep their lines
     let score = shown(&bench, &["man", "-o", "pages", "--json"]);
     let files: Vec<String> = serde_json::from_str(&score).expect("JSON");
-    assert_eq!(files.len(), cutlab::cli::command().get_subcommands().count() + 1);
+    assert_eq!(files.len(), cutlab::advanced::cli::command().get_subcommands().count() + 1);
     let page = text(&bench.read("pages/cutlab-score.1"));
     assert!(page.contains(".nf\n") && page.contains("\\-\\-metrics"), "{page}");
     // the same command replaces its pages, whatever they hold; another's are not replaced

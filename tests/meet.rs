@@ -1,10 +1,10 @@
 //! The meet-point solver against corners derived by hand, the closed form of the round brilliant,
 //! and its errors.
 
-use cutlab::design::Design;
-use cutlab::design::design_file::{DesignFile, DocumentError};
-use cutlab::design::families::{self, round_brilliant::derived_angles};
-use cutlab::design::meet_points::MeetError;
+use cutlab::advanced::design::Design;
+use cutlab::advanced::design::design_file::{DesignFile, DocumentError};
+use cutlab::advanced::design::families::{self, round_brilliant::derived_angles};
+use cutlab::advanced::design::meet_points::MeetError;
 use std::collections::BTreeMap;
 
 fn tried(text: &str) -> Result<Design, DocumentError> {
@@ -151,7 +151,7 @@ tier = [
     let met = solved(&text);
     assert_eq!(met.facets().count(), 153);
     for facet in closed.facets() {
-        let near = |p: &cutlab::geometry::Plane| {
+        let near = |p: &cutlab::advanced::geometry::Plane| {
             (p.normal - facet.plane.normal).length().max((p.distance - facet.plane.distance).abs())
         };
         let off = met.planes().iter().map(near).fold(f64::INFINITY, f64::min);

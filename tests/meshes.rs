@@ -1,9 +1,9 @@
 //! Meshes: what is written has no gap and no triangle without area; closed meshes that are no convex
 //! stone are shown, and written as meshes.
 
-use cutlab::design::{Facet, Tier, library};
-use cutlab::formats::MeshExport;
-use cutlab::geometry::Plane;
+use cutlab::advanced::design::{Facet, Tier, library};
+use cutlab::advanced::formats::MeshExport;
+use cutlab::advanced::geometry::Plane;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -148,12 +148,12 @@ fn assert_sound(what: &str, surface: &MeshExport) {
 
 #[test]
 fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
-    let drawn =
-        library::names().filter(|n| cutlab::stone::Stone::parse(format!("{n}:length-to-width=2")).is_ok());
+    let drawn = library::names()
+        .filter(|n| cutlab::advanced::stone::Stone::parse(format!("{n}:length-to-width=2")).is_ok());
     let specs = library::names().map(String::from).chain(drawn.map(|n| format!("{n}:length-to-width=2")));
     for spec in specs {
-        let design = cutlab::stone::Stone::parse(&spec)
-            .and_then(cutlab::stone::Stone::into_design)
+        let design = cutlab::advanced::stone::Stone::parse(&spec)
+            .and_then(cutlab::advanced::stone::Stone::into_design)
             .unwrap_or_else(|e| panic!("{e}"));
         let facets = design.facets().count();
         let surface = MeshExport::from_design(&design, None).unwrap_or_else(|e| panic!("{e}"));
@@ -168,8 +168,8 @@ fn what_is_written_of_every_cut_has_no_gap_and_no_empty_triangle() {
 /// of the four that it cuts is as far from the next as `f32` can tell.
 #[test]
 fn corners_that_nearly_meet_are_written_as_one() {
-    let mut design = cutlab::stone::Stone::parse("octahedron")
-        .and_then(cutlab::stone::Stone::into_design)
+    let mut design = cutlab::advanced::stone::Stone::parse("octahedron")
+        .and_then(cutlab::advanced::stone::Stone::into_design)
         .expect("a library cut");
     let top = design.solid().expect("closed").bounds().1.z;
     let plane = Plane { normal: DVec3::Z, distance: top * (1.0 - 1e-9) };

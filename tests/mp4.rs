@@ -4,9 +4,9 @@
 mod bench;
 
 use bench::Bench;
-use cutlab::integrators::animation::{self, FrameTiming};
-use cutlab::integrators::image_io::Provenance;
-use cutlab::integrators::mp4;
+use cutlab::advanced::integrators::animation::{self, FrameTiming};
+use cutlab::advanced::integrators::image_io::Provenance;
+use cutlab::advanced::integrators::mp4;
 use mp4_atom::{Any, Atom, Codec, Colr, Decode, DecodeAtom, Header, Ilst, Mdat, Moov, StszSamples};
 use openh264::decoder::Decoder;
 use openh264::formats::YUVSource;

@@ -1,10 +1,10 @@
 //! Dispersion, Fresnel and colour against published figures and identities.
 
-use cutlab::batch::validate::figures;
-use cutlab::color::cie;
-use cutlab::materials::{MATERIALS, Material};
-use cutlab::optics::dispersion::lines;
-use cutlab::optics::fresnel::{critical_angle_deg, unpolarised};
+use cutlab::advanced::batch::validate::figures;
+use cutlab::advanced::color::cie;
+use cutlab::advanced::materials::{MATERIALS, Material};
+use cutlab::advanced::optics::dispersion::lines;
+use cutlab::advanced::optics::fresnel::{critical_angle_deg, unpolarised};
 use glam::Vec3;
 
 #[test]

@@ -1,9 +1,9 @@
 //! Stones on their side, upside down or leaning: they are noticed, and `--up` and `--align` turn them.
 
-use cutlab::design::orientation::{doubt, turned_up, up_of};
-use cutlab::design::{Design, library};
-use cutlab::formats::{self};
-use cutlab::stone::Stone;
+use cutlab::advanced::design::orientation::{doubt, turned_up, up_of};
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::formats::{self};
+use cutlab::advanced::stone::Stone;
 use glam::{DMat3, DVec3};
 use std::path::{Path, PathBuf};
 use std::process::Command;

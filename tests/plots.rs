@@ -30,7 +30,7 @@ fn envelopes_are_drawn_for_diamond_alone() {
         let (table, plot) = (format!("{number}.csv"), format!("{number}.svg"));
         bench.good(&[&sweep(stone, options)[..], &["-o", &table, "--plot", &plot]].concat());
         let first = drawn(&bench, &plot).contains("envelope of");
-        // the table's companion knows it too
+        // the table's sidecar knows it too
         bench.good(&["plot", "-q", &table, "-o", "again.svg", "--force"]);
         assert_eq!(drawn(&bench, "again.svg").contains("envelope of"), first, "{stone} {options:?}");
         first

@@ -1,13 +1,13 @@
 //! Polarised light: the Mueller matrices against field components, the lanes against the twin,
 //! energy, and what polarisation does to a view.
 
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View, view};
-use cutlab::materials::Material;
-use cutlab::optics::fresnel::FresnelCoefficients;
-use cutlab::optics::stokes::Stokes;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::sampling::warps;
-use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
+use cutlab::advanced::estimators::{BatchedEstimate, TraceOptics, View, view};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::optics::fresnel::FresnelCoefficients;
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::sampling::warps;
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -15,7 +15,8 @@ const SEED: u64 = 7_319;
 const INDEX: f64 = 2.417;
 
 fn brilliant(isa: Isa) -> ConvexStone {
-    let design = cutlab::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
+    let design =
+        cutlab::advanced::design::families::build("round-brilliant", &BTreeMap::new()).expect("builds");
     ConvexStone::with_isa(design.solid().expect("closed"), isa)
 }
 

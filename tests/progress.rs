@@ -1,6 +1,6 @@
 //! The file of progress, byte by byte: torn, broken, someone else's.
 
-use cutlab::storage::journal::{Journal, JournalRemark};
+use cutlab::advanced::storage::journal::{Journal, JournalRemark};
 use std::cell::RefCell;
 use std::path::Path;
 

@@ -1,15 +1,15 @@
 //! Progressive pictures: they converge to what one picture of many photons shows, by as much as they say.
 
-use cutlab::design::library;
-use cutlab::integrators::{self, Film, Pass, PhotonMaps, Progressive, Tone};
-use cutlab::materials::Material;
-use cutlab::photons::stone_scattering;
-use cutlab::photons::stone_scattering::IncidentPhoton;
-use cutlab::photons::{self, PhotonSets};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::sampling::warps;
-use cutlab::scene::intersection::{Intersection, Past, SurfacePoint};
-use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
+use cutlab::advanced::design::library;
+use cutlab::advanced::integrators::{self, Film, Pass, PhotonMaps, Progressive, Tone};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::photons::stone_scattering;
+use cutlab::advanced::photons::stone_scattering::IncidentPhoton;
+use cutlab::advanced::photons::{self, PhotonSets};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::sampling::warps;
+use cutlab::advanced::scene::intersection::{Intersection, Past, SurfacePoint};
+use cutlab::advanced::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::{Vec2, Vec3};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;

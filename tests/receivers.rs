@@ -2,11 +2,11 @@
 //! trip through cutlab's own readers cannot show them.
 
 use base64::Engine;
-use cutlab::design::{Design, Gear, Tier, library};
-use cutlab::formats::{self};
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::materials::Material;
-use cutlab::stone::Stone;
+use cutlab::advanced::design::{Design, Gear, Tier, library};
+use cutlab::advanced::formats::{self};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::stone::Stone;
 use glam::DVec3;
 use std::path::Path;
 
@@ -83,8 +83,11 @@ fn gemcad_words(text: &str) -> Vec<Plane> {
                     assert!(tier.1 != 0.0, "a facet through the origin: {line}");
                     let down = if tier.0 == 0.0 { tier.1 < 0.0 } else { tier.0.is_sign_negative() };
                     let angle = tier.0.abs().copysign(if down { -1.0 } else { 1.0 });
-                    let normal =
-                        cutlab::design::tiers::facet_normal(Gear { teeth: gear, offset: 0.0 }, angle, index);
+                    let normal = cutlab::advanced::design::tiers::facet_normal(
+                        Gear { teeth: gear, offset: 0.0 },
+                        angle,
+                        index,
+                    );
                     planes.push(Plane { normal, distance: tier.1.abs() });
                 }
             }
@@ -291,7 +294,7 @@ fn gltf_is_in_metres_upright_and_of_its_material() {
         }
         // and back in millimetres
         let back = formats::read_bytes("x", &encoded(&design, format).bytes, None).expect("reads").design;
-        assert_eq!(back.unit, cutlab::design::LengthUnit::Millimetre);
+        assert_eq!(back.unit, cutlab::advanced::design::LengthUnit::Millimetre);
         assert!((back.solid().expect("closed").width() - 6.5).abs() < 1e-5);
     }
     let ruby = formats::encode_as(&design, Material::by_name("ruby"), "glb").expect("is written");

@@ -1,18 +1,20 @@
 //! The picture: energy of the photon maps, the estimate, the passes, determinism.
 
-use cutlab::color::cie::BANDS;
-use cutlab::design::library;
-use cutlab::integrators::image_io::{self, Bits};
-use cutlab::integrators::{self, Pass, PhotonMaps, Tone};
-use cutlab::limits::Limits;
-use cutlab::materials::Material;
-use cutlab::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton, map_file};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::sampling::warps;
-use cutlab::scene::intersection::{Intersection, Past, SurfacePoint};
-use cutlab::scene::lights::square::Square;
-use cutlab::scene::surface::{Quad, Shape};
-use cutlab::scene::{Bsdf, Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset};
+use cutlab::advanced::color::cie::BANDS;
+use cutlab::advanced::design::library;
+use cutlab::advanced::integrators::image_io::{self, Bits};
+use cutlab::advanced::integrators::{self, Pass, PhotonMaps, Tone};
+use cutlab::advanced::limits::Limits;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton, map_file};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::sampling::warps;
+use cutlab::advanced::scene::intersection::{Intersection, Past, SurfacePoint};
+use cutlab::advanced::scene::lights::square::Square;
+use cutlab::advanced::scene::surface::{Quad, Shape};
+use cutlab::advanced::scene::{
+    Bsdf, Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset,
+};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -5,12 +5,12 @@ mod brilliants;
 
 use bench::Bench;
 use brilliants::{SEED, design, diamond, named, plan, stone, subject};
-use cutlab::design::library;
-use cutlab::materials::Material;
-use cutlab::metrics::METRICS;
-use cutlab::report::references::{References, STONES};
-use cutlab::report::viewer_images::{self, ASET, IDEAL_SCOPE, VIEWER_IMAGES, WINDOWS};
-use cutlab::scoring::score::{ScoreRequest, Target, score};
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::METRICS;
+use cutlab::advanced::report::references::{References, STONES};
+use cutlab::advanced::report::viewer_images::{self, ASET, IDEAL_SCOPE, VIEWER_IMAGES, WINDOWS};
+use cutlab::advanced::scoring::score::{ScoreRequest, Target, score};
 
 /// Shares of the strongest path from the project's sources (reference tracer): green 6.0, red 66.7,
 /// blue 22.8, leakage 4.5, ±.5 % of the face-up area.

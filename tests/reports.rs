@@ -3,7 +3,7 @@
 mod bench;
 
 use bench::{Bench, text};
-use cutlab::trace::Isa;
+use cutlab::advanced::trace::Isa;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -89,7 +89,7 @@ fn error(row: &[String], column: usize) -> f64 {
 #[ignore = "long"]
 fn reference_stones_are_current() {
     let bench = Bench::new();
-    let stones = cutlab::report::references::STONES.map(|(.., stone)| stone);
+    let stones = cutlab::advanced::report::references::STONES.map(|(.., stone)| stone);
     let mut command = vec!["score"];
     command.extend(stones);
     command.extend(["--material", "diamond", "-q", "-o", "references.csv"]);

@@ -1,12 +1,14 @@
 //! Requests for tables: their canonical JSON is their identity, and no field can be left out of it.
 
-use cutlab::batch::fingerprint::{Fingerprint, canonical};
-use cutlab::batch::request::{ComparisonTable, ScoreTable, SortRequest, SweepTable, TableRequest, TiltRange};
-use cutlab::batch::sweep::Steps;
-use cutlab::batch::table_job::Order;
-use cutlab::metrics::Metric;
-use cutlab::scoring::settings::{ScoreRequest, Target};
-use cutlab::stone::{Orientation, StoneOptions, UpAxis};
+use cutlab::advanced::batch::fingerprint::{Fingerprint, canonical};
+use cutlab::advanced::batch::request::{
+    ComparisonTable, ScoreTable, SortRequest, SweepTable, TableRequest, TiltRange,
+};
+use cutlab::advanced::batch::sweep::Steps;
+use cutlab::advanced::batch::table_job::Order;
+use cutlab::advanced::metrics::Metric;
+use cutlab::advanced::scoring::settings::{ScoreRequest, Target};
+use cutlab::advanced::stone::{Orientation, StoneOptions, UpAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
 

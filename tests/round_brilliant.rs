@@ -1,8 +1,8 @@
 //! The round brilliant against the worked rows of the project's sources.
 
-use cutlab::design::families::round_brilliant::derived_angles;
-use cutlab::design::proportions;
-use cutlab::design::{Design, library};
+use cutlab::advanced::design::families::round_brilliant::derived_angles;
+use cutlab::advanced::design::proportions;
+use cutlab::advanced::design::{Design, library};
 use std::collections::BTreeMap;
 
 fn brilliant(values: &[(&str, f64)]) -> Design {

@@ -1,12 +1,12 @@
 //! One solid, one answer: what is measured on a stone is the same whatever file it came in, and names
 //! and weights are those of the stone.
 
-use cutlab::design::families::{self, facet_summary};
-use cutlab::design::measured_tiers;
-use cutlab::design::proportions::{self, Proportions};
-use cutlab::design::{Design, library};
-use cutlab::formats::{self, FORMATS};
-use cutlab::stone::Stone;
+use cutlab::advanced::design::families::{self, facet_summary};
+use cutlab::advanced::design::measured_tiers;
+use cutlab::advanced::design::proportions::{self, Proportions};
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::formats::{self, FORMATS};
+use cutlab::advanced::stone::Stone;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -5,9 +5,9 @@ mod bench;
 mod room;
 
 use bench::Bench;
-use cutlab::integrators::animation::{self, Turn};
-use cutlab::limits::Limits;
-use cutlab::scene::{Scene, SceneFile, SceneOverrides, preset};
+use cutlab::advanced::integrators::animation::{self, Turn};
+use cutlab::advanced::limits::Limits;
+use cutlab::advanced::scene::{Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use room::{ROOM, SMALL, built, taken};
 use std::path::Path;

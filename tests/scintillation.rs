@@ -3,15 +3,15 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, named};
-use cutlab::design::library;
-use cutlab::estimators::view::ObserverDome;
-use cutlab::estimators::{
+use cutlab::advanced::design::library;
+use cutlab::advanced::estimators::view::ObserverDome;
+use cutlab::advanced::estimators::{
     BatchedEstimate, Scintillation, TraceOptics, ViewFrame, pixel_cells, scintillation,
 };
-use cutlab::geometry::Polyhedron;
-use cutlab::materials::Material;
-use cutlab::sampling::stats::Estimate;
-use cutlab::trace::ConvexStone;
+use cutlab::advanced::geometry::Polyhedron;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::trace::ConvexStone;
 use glam::DVec3;
 use std::collections::BTreeMap;
 

@@ -44,7 +44,7 @@ fn folders_and_patterns_are_taken_in_order_and_a_bad_stone_keeps_its_row() {
 }
 
 #[test]
-fn every_form_has_the_same_numbers_and_a_companion_says_what_they_are() {
+fn every_form_has_the_same_numbers_and_a_sidecar_says_what_they_are() {
     let bench = Bench::new();
     for file in ["s.csv", "s.jsonl", "s.json"] {
         bench.good(&score(&["tolkowsky", "octahedron"], &["--error", "0.01", "-o", file]));
@@ -160,8 +160,8 @@ fn shards_merge_into_the_bytes_of_one_machine() {
         let merged = format!("merged.{extension}");
         bench.ends(1, &["merge", &parts[2], &parts[0], &parts[1], "-o", &merged]);
         assert_eq!(bench.read(&merged), bench.read(whole));
-        let companion = |table: &str| bench.read(&format!("{table}.meta.json"));
-        assert_eq!(companion(&merged), companion(whole));
+        let sidecar = |table: &str| bench.read(&format!("{table}.meta.json"));
+        assert_eq!(sidecar(&merged), sidecar(whole));
     }
     // a part of another command, and one that changed
     bench.good(&score(&stones, &["--error", "0.02", "--shard", "2/3", "-o", "other.csv"]));

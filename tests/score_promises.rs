@@ -4,11 +4,11 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, stone, subject};
-use cutlab::batch::table;
-use cutlab::estimators::{BatchedEstimate, PointLight, TraceOptics, point_light};
-use cutlab::materials::Material;
-use cutlab::metrics::METRICS;
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score, score_all};
+use cutlab::advanced::batch::table;
+use cutlab::advanced::estimators::{BatchedEstimate, PointLight, TraceOptics, point_light};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::METRICS;
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score, score_all};
 use glam::DMat3;
 
 #[test]

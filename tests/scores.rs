@@ -7,12 +7,12 @@
 mod brilliants;
 
 use brilliants::{SEED, design, diamond, n2417, named, scores, stone};
-use cutlab::batch::validate::figures::{self, ReferenceFigure};
-use cutlab::design::library;
-use cutlab::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, hemisphere, view};
-use cutlab::materials::Material;
-use cutlab::sampling::stats::Estimate;
-use cutlab::sampling::tally::Tally;
+use cutlab::advanced::batch::validate::figures::{self, ReferenceFigure};
+use cutlab::advanced::design::library;
+use cutlab::advanced::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, hemisphere, view};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::sampling::tally::Tally;
 use std::collections::BTreeMap;
 
 #[track_caller]
@@ -90,9 +90,9 @@ fn wlr_trends_of_the_1998_paper() {
 /// tracer, another sampling, the same definition.
 #[test]
 fn wlr_against_a_plain_tracer() {
-    use cutlab::optics::fresnel;
-    use cutlab::sampling::{random::*, warps};
-    use cutlab::trace::reference;
+    use cutlab::advanced::optics::fresnel;
+    use cutlab::advanced::sampling::{random::*, warps};
+    use cutlab::advanced::trace::reference;
     let stone = stone(&named("nailhead"));
     let up = |facet: usize| stone.planes[facet].normal.z > 1e-3;
     let mut triangles = Vec::new();

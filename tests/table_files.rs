@@ -1,4 +1,4 @@
-//! Tables as files: exact scores, companions, folders, shards in other forms, rows used again, order.
+//! Tables as files: exact scores, sidecars, folders, shards in other forms, rows used again, order.
 
 mod bench;
 
@@ -69,7 +69,7 @@ fn a_killed_table_of_exact_scores_goes_on() {
 const SPREAD: [&str; 2] = ["--metrics", "spread"];
 
 #[test]
-fn each_table_has_a_companion_of_its_own_and_parts_of_all_forms_join_into_any() {
+fn each_table_has_a_sidecar_of_its_own_and_parts_of_all_forms_join_into_any() {
     let bench = Bench::new();
     let score = |options: &[&'static str]| {
         [&["score", "-q", "cube", "42", "oval:table=55,star=50", "octahedron"], &SPREAD[..], options].concat()
@@ -84,9 +84,9 @@ fn each_table_has_a_companion_of_its_own_and_parts_of_all_forms_join_into_any() 
         let joined = whole.replace("whole", "joined");
         bench.good(&["merge", "t.csv", "t.json", "t.jsonl", "-o", &joined]);
         assert_eq!(text(&bench.read(&joined)), text(&bench.read(whole)));
-        let companion = |table: &str| bench.read(&format!("{table}.meta.json"));
-        assert_eq!(companion(&joined), companion(whole));
-        // by a pattern that matches companions and the whole as well
+        let sidecar = |table: &str| bench.read(&format!("{table}.meta.json"));
+        assert_eq!(sidecar(&joined), sidecar(whole));
+        // by a pattern that matches sidecars and the whole as well
         bench.good(&["merge", "[tj]*.*", "-o", &joined]);
     }
     std::fs::rename(bench.path("t.csv.meta.json"), bench.path("t.meta.json")).expect("renames");
@@ -253,7 +253,7 @@ fn plots_of_a_whole_table_are_drawn_without_computing_it_again() {
     bench.good(&["score", "-q", "cube", "--metrics", "spread", "-o", "s.csv"]);
     let said = bench.ends(2, &["plot", "s.csv", "-o", "x.svg"]).1;
     assert!(said.contains("nothing to draw"), "{said}");
-    // an edited table is not the one its companion speaks of
+    // an edited table is not the one its sidecar speaks of
     std::fs::write(bench.path("t.csv"), "mine").expect("writes");
     assert!(bench.ends(2, &["plot", "t.csv", "-o", "x.svg"]).1.contains("checksum"));
     assert!(bench.ends(3, &sweep).1.contains("--force"));

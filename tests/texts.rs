@@ -1,4 +1,4 @@
-//! Text in every encoding that editors write: designs, scenes, tables and their companions.
+//! Text in every encoding that editors write: designs, scenes, tables and their sidecars.
 
 mod bench;
 
@@ -86,7 +86,7 @@ fn scenes_are_read_in_every_encoding() {
 
 /// A table is the same table in another encoding; one of other numbers is not.
 #[test]
-fn tables_and_their_companions_are_read_in_every_encoding() {
+fn tables_and_their_sidecars_are_read_in_every_encoding() {
     let bench = Bench::new();
     let sweep = ["sweep", "-q", "cube", "--vary", "size=4:7:1", "--metrics", "spread,wlr", "--error", "0.05"];
     for (form, number) in [("csv", "1"), ("jsonl", "2"), ("json", "3")] {

@@ -3,11 +3,13 @@
 mod brilliants;
 
 use brilliants::{SEED, diamond, n2417, named, plan, subject};
-use cutlab::estimators::view::ViewerLighting;
-use cutlab::estimators::{BatchedEstimate, FaceterView, TraceOptics, View, ViewFrame, faceter_view, view};
-use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreInput, Tilt, score};
-use cutlab::trace::ConvexStone;
+use cutlab::advanced::estimators::view::ViewerLighting;
+use cutlab::advanced::estimators::{
+    BatchedEstimate, FaceterView, TraceOptics, View, ViewFrame, faceter_view, view,
+};
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scoring::score::{ScoreInput, Tilt, score};
+use cutlab::advanced::trace::ConvexStone;
 use glam::{DMat3, DVec3};
 
 #[track_caller]
@@ -43,7 +45,9 @@ fn a_turned_viewer_sees_a_turned_stone() {
         assert_same("view", a, b);
     }
     let iso = |stone, aspect| {
-        let sky = cutlab::estimators::view::ObserverDome::with_observer(faceter_view::GEMRAY_OBSERVER_DEG);
+        let sky = cutlab::advanced::estimators::view::ObserverDome::with_observer(
+            faceter_view::GEMRAY_OBSERVER_DEG,
+        );
         let mut seen =
             BatchedEstimate::new(FaceterView::in_frame(stone, &medium, aspect, sky).expect("lit"), SEED);
         seen.extend_to(1 << 16);

@@ -1,10 +1,10 @@
 //! What counts as one plane and one corner follows from how a mesh is stored: stones far from the origin, few
 //! decimals, edges divided on one side, scans with noise.
 
-use cutlab::design::Design;
-use cutlab::formats::{self, Loaded};
-use cutlab::geometry::triangulation::TriangleMesh;
-use cutlab::stone::Stone;
+use cutlab::advanced::design::Design;
+use cutlab::advanced::formats::{self, Loaded};
+use cutlab::advanced::geometry::triangulation::TriangleMesh;
+use cutlab::advanced::stone::Stone;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;

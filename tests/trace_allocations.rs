@@ -1,10 +1,10 @@
 //! The tracer allocates nothing: lanes, search, twin, and stones that are not convex.
 
-use cutlab::design::families;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::lane_scheduler::{self, RayClient};
-use cutlab::trace::nonconvex::{MeshStone, Side};
-use cutlab::trace::{ConvexStone, Interaction, Isa, LANES, Packet, reference};
+use cutlab::advanced::design::families;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::lane_scheduler::{self, RayClient};
+use cutlab::advanced::trace::nonconvex::{MeshStone, Side};
+use cutlab::advanced::trace::{ConvexStone, Interaction, Isa, LANES, Packet, reference};
 use glam::{Vec2, Vec3};
 use std::collections::BTreeMap;
 

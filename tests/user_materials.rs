@@ -3,12 +3,12 @@
 mod bench;
 
 use bench::{Bench, text};
-use cutlab::limits::Limits;
-use cutlab::materials::{MATERIAL_FILES, Material};
-use cutlab::optics::dispersion::lines;
-use cutlab::optics::fresnel::unpolarised;
-use cutlab::parse::data_file::DataFileError;
-use cutlab::scene::{SceneFile, SceneOverrides};
+use cutlab::advanced::limits::Limits;
+use cutlab::advanced::materials::{MATERIAL_FILES, Material};
+use cutlab::advanced::optics::dispersion::lines;
+use cutlab::advanced::optics::fresnel::unpolarised;
+use cutlab::advanced::parse::data_file::DataFileError;
+use cutlab::advanced::scene::{SceneFile, SceneOverrides};
 use std::fs;
 use std::path::{Path, PathBuf};
 

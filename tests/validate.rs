@@ -1,6 +1,8 @@
 //! `cutlab validate`: every figure comes out, or says what it lacks.
 
-use cutlab::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict, catalogue, csv, only};
+use cutlab::advanced::batch::validate::{
+    CheckContext, CheckReport, FigureOutcome, Verdict, catalogue, csv, only,
+};
 
 fn run(part: Option<&str>, seed: u64) -> Vec<FigureOutcome> {
     let lab = CheckContext { seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(Into::into) };

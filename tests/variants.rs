@@ -1,7 +1,7 @@
 //! The ways in which people and programs write the formats: each odd file reads as the plain one.
 
-use cutlab::formats::{self, Loaded};
-use cutlab::stone::Stone;
+use cutlab::advanced::formats::{self, Loaded};
+use cutlab::advanced::stone::Stone;
 use std::fmt::Write;
 
 fn read(name: &str, bytes: &[u8]) -> Loaded {
@@ -65,7 +65,7 @@ fn gemcad_text_of_every_hand_is_one_stone() {
     ] {
         let other = read("x.asc", &bytes);
         assert_eq!(other.format, "gemcad", "{what}");
-        let off = |(p, q): (cutlab::geometry::Plane, cutlab::geometry::Plane)| {
+        let off = |(p, q): (cutlab::advanced::geometry::Plane, cutlab::advanced::geometry::Plane)| {
             p.normal.distance(q.normal).max((p.distance - q.distance).abs())
         };
         let (mine, its) = (plain.design.planes(), other.design.planes());

@@ -1,12 +1,12 @@
 //! Scores of a caller's own weights, by exact beams: GemRay's ISO, COS and SC2 of `physics.md` §4,
 //! followed for nine facets inside as GemRay does.
 
-use cutlab::batch::validate::figures;
-use cutlab::design::{Design, library};
-use cutlab::estimators::weighted_exits::{BeamEffort, integrate_exits};
-use cutlab::formats;
-use cutlab::trace::ConvexStone;
-use cutlab::trace::beams::{Beams, IncidentBeam, StopCriteria};
+use cutlab::advanced::batch::validate::figures;
+use cutlab::advanced::design::{Design, library};
+use cutlab::advanced::estimators::weighted_exits::{BeamEffort, integrate_exits};
+use cutlab::advanced::formats;
+use cutlab::advanced::trace::ConvexStone;
+use cutlab::advanced::trace::beams::{Beams, IncidentBeam, StopCriteria};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

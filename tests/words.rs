@@ -62,7 +62,7 @@ fn every_refused_value_is_explained_in_words() {
         "not in 0..",
         "ParseError",
     ];
-    let mut command = cutlab::cli::command();
+    let mut command = cutlab::advanced::cli::command();
     command.build();
     let mut seen = 0;
     for sub in command.get_subcommands() {
@@ -325,7 +325,7 @@ fn threads_are_bounded_and_chosen() {
 #[test]
 fn help_fits_a_page_and_names_the_cuts_of_the_list() {
     let bench = Bench::new();
-    let mut command = cutlab::cli::command();
+    let mut command = cutlab::advanced::cli::command();
     command.build();
     for sub in command.get_subcommands().filter(|s| s.get_name() != "help") {
         let help = bench.good(&[sub.get_name(), "--help"]);
@@ -343,7 +343,7 @@ fn help_fits_a_page_and_names_the_cuts_of_the_list() {
 fn lists_have_one_line_an_entry_and_facts_as_numbers() {
     let bench = Bench::new();
     let lines = bench.good(&["list", "metrics"]);
-    assert_eq!(lines.lines().count(), cutlab::metrics::METRICS.len());
+    assert_eq!(lines.lines().count(), cutlab::advanced::metrics::METRICS.len());
     assert!(bench.good(&["list", "metrics", "wlr", "iso"]).contains("source"));
     let ends = |name: &str, end: &str| lines.lines().any(|l| l.starts_with(name) && l.ends_with(end));
     assert!(ends("wlr ", "; more is better") && ends("leakage ", "; less is better"), "{lines}");

@@ -4,14 +4,16 @@
 
 mod timing;
 
-use cutlab::design::families;
-use cutlab::estimators::{BatchedEstimate, TraceOptics, View, beam_view, view, weighted_exits::BeamEffort};
-use cutlab::materials::Material;
-use cutlab::optics::stokes::Stokes;
-use cutlab::trace::beams::{
+use cutlab::advanced::design::families;
+use cutlab::advanced::estimators::{
+    BatchedEstimate, TraceOptics, View, beam_view, view, weighted_exits::BeamEffort,
+};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::trace::beams::{
     BeamExit, BeamLight, BeamVisitor, Beams, EnergyBudget, IncidentBeam, StopCriteria, UnpolarisedLight,
 };
-use cutlab::trace::{ConvexStone, Isa};
+use cutlab::advanced::trace::{ConvexStone, Isa};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -129,7 +131,9 @@ fn errors(stone: &ConvexStone, material: &Material, real: bool, runs: usize) -> 
             let mut view =
                 BatchedEstimate::new(View::new(stone, &TraceOptics { material, polarised: false })?, 1);
             view.extend_to(samples);
-            Ok::<_, cutlab::estimators::EstimatorError>(view.estimate(|t| view::up(t) / t[view::RAYS]))
+            Ok::<_, cutlab::advanced::estimators::EstimatorError>(
+                view.estimate(|t| view::up(t) / t[view::RAYS]),
+            )
         };
         let (time, up) = best_of(runs.min(3), trace);
         let up = up?;

@@ -8,8 +8,8 @@ mod shower;
 #[path = "timing.rs"]
 mod timing;
 
-use cutlab::design::families;
-use cutlab::trace::{ConvexStone, Isa, LANES, Packet, lane_scheduler, reference};
+use cutlab::advanced::design::families;
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, lane_scheduler, reference};
 use shower::{STOP_POWER, Shower};
 use std::collections::BTreeMap;
 use std::error::Error;

@@ -1,11 +1,11 @@
 //! The light of the benchmarks: vertical and slanting rays on a stone, counted.
 
-use cutlab::sampling::{
+use cutlab::advanced::sampling::{
     random::{Purpose, Stream},
     warps,
 };
-use cutlab::trace::lane_scheduler::RayClient;
-use cutlab::trace::{ConvexStone, Interaction, Packet};
+use cutlab::advanced::trace::lane_scheduler::RayClient;
+use cutlab::advanced::trace::{ConvexStone, Interaction, Packet};
 
 /// Diamond at the D line.
 pub const INDEX: f32 = 2.417;

@@ -7,14 +7,14 @@ mod shower;
 #[path = "timing.rs"]
 mod timing;
 
-use cutlab::design::{families, library};
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::sampling::{
+use cutlab::advanced::design::{families, library};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::sampling::{
     random::{Purpose, Stream},
     warps,
 };
-use cutlab::trace::lane_scheduler::{self, RayClient};
-use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
+use cutlab::advanced::trace::lane_scheduler::{self, RayClient};
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DVec3, Vec3};
 use shower::{INDEX, STOP_POWER, Shower};
 use std::collections::BTreeMap;

@@ -12,12 +12,12 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// One part: a table and what its companion says of it.
+/// One part: a table and what its sidecar says of it.
 #[derive(Debug, Clone)]
 pub struct TablePart {
     /// The table.
     pub table: PathBuf,
-    /// Its companion.
+    /// Its sidecar.
     pub meta: TableMeta,
     /// How it is written.
     pub form: TableFormat,
@@ -38,10 +38,10 @@ pub enum MergeError {
         /// What the operating system said.
         cause: std::io::Error,
     },
-    /// A companion that is none.
-    #[error("{} is not the companion of a table that cutlab wrote: {}", text::display_name(.0), .1)]
+    /// A sidecar that is none.
+    #[error("{} is not the sidecar of a table that cutlab wrote: {}", text::display_name(.0), .1)]
     Meta(PathBuf, String),
-    /// A table that is not what its companion says.
+    /// A table that is not what its sidecar says.
     #[error("{} is not as it was written: its checksum is not the one in {}", text::display_name(.0), text::display_name(.1))]
     Changed(PathBuf, PathBuf),
     /// A whole table.
@@ -59,7 +59,7 @@ pub enum MergeError {
     /// A row that is none.
     #[error("{}: {}", text::display_name(.0), .1)]
     Row(PathBuf, String),
-    /// A part with fewer rows than its companion says.
+    /// A part with fewer rows than its sidecar says.
     #[error("{} ends before its rows do", text::display_name(.0))]
     Short(PathBuf),
     /// The operating system refused.
@@ -89,14 +89,14 @@ fn missing(shards: &[Shard], total: u64) -> String {
 }
 
 impl TablePart {
-    /// The part in the file `table`, with its companion beside it.
+    /// The part in the file `table`, with its sidecar beside it.
     pub fn open(table: &Path, limits: Limits) -> Result<TablePart, MergeError> {
         let form = TableFormat::from_path(table)?;
         let beside = TableMeta::find_for(table);
         let fail = |path: &Path, cause| MergeError::Read { path: path.to_owned(), cause };
         let sum = bounded_read::open_regular(table).and_then(checksum).map_err(|e| fail(table, e))?;
         let wrong = |e: String| MergeError::Meta(beside.clone(), e);
-        let bytes = bounded_read::read_regular(&beside, limits, &limits::COMPANION);
+        let bytes = bounded_read::read_regular(&beside, limits, &limits::SIDECAR);
         let bytes = bytes.map_err(|e| fail(&beside, e))?.map_err(|e| wrong(e.to_string()))?;
         let meta: TableMeta =
             serde_json::from_str(&text::decode(&bytes)).map_err(|e| wrong(e.to_string()))?;
@@ -240,7 +240,7 @@ impl TableParts {
         Ok(out.flush().map_err(fail)?)
     }
 
-    /// Puts the whole table in its place, whole, after its companion: where the table is, all is.
+    /// Puts the whole table in its place, whole, after its sidecar: where the table is, all is.
     pub fn publish(&mut self, form: TableFormat, output: &Path) -> Result<(), MergeError> {
         // the lock of everyone who makes a table here
         let lock = Journal::open(&Journal::path_for(output), &self.identity(), &|_| ())?;

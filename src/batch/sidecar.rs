@@ -1,6 +1,6 @@
 //! Sidecar of a table: the file beside it that says what its columns mean and how it was made.
 //!
-//! The companion of `NAME.csv` is `NAME.csv.meta.json`, its own; versions before it shared
+//! The sidecar of `NAME.csv` is `NAME.csv.meta.json`, its own; versions before it shared
 //! `NAME.meta.json` among the tables of one name, which is still read.
 
 use super::fingerprint::{BUILD, canonical};
@@ -17,7 +17,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// What a companion's name has after its table's.
+/// What a sidecar's name has after its table's.
 const ENDING: &str = ".meta.json";
 
 /// What stands in `NAME.csv.meta.json` beside the table `NAME.csv`.
@@ -27,12 +27,12 @@ pub struct TableMeta {
     pub program: String,
     /// Its version.
     pub version: String,
-    /// Its build ([`super::fingerprint::BUILD`]); empty in companions older than that.
+    /// Its build ([`super::fingerprint::BUILD`]); empty in sidecars older than that.
     #[serde(default)]
     pub build: String,
     /// The command with every setting spelled out, without output and shard.
     pub command: String,
-    /// The same as data: the canonical request. Absent in companions of versions before 0.2.
+    /// The same as data: the canonical request. Absent in sidecars of versions before 0.2.
     #[serde(skip_serializing_if = "Value::is_null", default)]
     pub request: Value,
     /// Seed of the random streams: the same for every row.
@@ -98,7 +98,7 @@ pub struct Definition {
 }
 
 impl TableMeta {
-    /// The companion of a whole table of a plan's scores, without rows, layout and checksum.
+    /// The sidecar of a whole table of a plan's scores, without rows, layout and checksum.
     ///
     /// - `study`: digest of build, request and inputs
     pub fn new(request: &TableRequest, study: String, columns: Vec<String>) -> TableMeta {
@@ -121,33 +121,33 @@ impl TableMeta {
         }
     }
 
-    /// Where the companion of `table` is written.
+    /// Where the sidecar of `table` is written.
     pub fn path_for(table: &Path) -> PathBuf {
         let mut name = table.as_os_str().to_owned();
         name.push(ENDING);
         name.into()
     }
 
-    /// Where the companion of `table` is read: as [`TableMeta::path_for`], or where versions before it put
+    /// Where the sidecar of `table` is read: as [`TableMeta::path_for`], or where versions before it put
     /// it if there alone is one.
     pub fn find_for(table: &Path) -> PathBuf {
         let (own, old) = (TableMeta::path_for(table), table.with_extension("meta.json"));
         if own.symlink_metadata().is_err() && old.symlink_metadata().is_ok() { old } else { own }
     }
 
-    /// Whether a file has a companion's name.
-    pub fn is_companion(path: &Path) -> bool {
+    /// Whether a file has a sidecar's name.
+    pub fn is_sidecar(path: &Path) -> bool {
         path.file_name().is_some_and(|name| name.as_encoded_bytes().ends_with(ENDING.as_bytes()))
     }
 
-    /// Whether a file is a table that has its companion.
+    /// Whether a file is a table that has its sidecar.
     pub fn exists_for(table: &Path) -> bool {
         TableFormat::from_path(table).is_ok()
             && table.extension().is_some()
             && TableMeta::find_for(table).is_file()
     }
 
-    /// Whether the file at `table` is the table, or the part of it, whose companion `is_of`, with nothing
+    /// Whether the file at `table` is the table, or the part of it, whose sidecar `is_of`, with nothing
     /// changed since.
     pub fn belongs_to(
         table: &Path,
@@ -161,12 +161,12 @@ impl TableMeta {
         })
     }
 
-    /// Whether it is a companion of the table of another, or of a part of it.
+    /// Whether it is a sidecar of the table of another, or of a part of it.
     pub fn is_table_of(&self, other: &TableMeta) -> bool {
         self.command == other.command && self.request == other.request
     }
 
-    /// Whether it is a companion of the table that a request made; older ones are known by their command.
+    /// Whether it is a sidecar of the table that a request made; older ones are known by their command.
     pub fn is_of(&self, request: &TableRequest) -> bool {
         match self.request {
             Value::Null => self.command == request.command(),
@@ -174,9 +174,9 @@ impl TableMeta {
         }
     }
 
-    /// The companion in the file at `path`.
+    /// The sidecar in the file at `path`.
     pub fn read(path: &Path, limits: Limits) -> std::io::Result<TableMeta> {
-        let bytes = bounded_read::read_regular(path, limits, &limits::COMPANION)?;
+        let bytes = bounded_read::read_regular(path, limits, &limits::SIDECAR)?;
         let bytes = bytes.map_err(std::io::Error::other)?;
         Ok(serde_json::from_str(&text::decode(&bytes))?)
     }
@@ -198,7 +198,7 @@ impl TableMeta {
             .collect()
     }
 
-    /// As the bytes of the companion.
+    /// As the bytes of the sidecar.
     pub fn bytes(&self) -> Result<Vec<u8>, serde_json::Error> {
         let mut bytes = serde_json::to_vec_pretty(self)?;
         bytes.push(b'\n');
@@ -206,7 +206,7 @@ impl TableMeta {
     }
 }
 
-/// CRC-32 of a file's bytes, as companions have it.
+/// CRC-32 of a file's bytes, as sidecars have it.
 pub fn checksum(mut file: File) -> std::io::Result<String> {
     let (mut sum, mut piece) = (crc32fast::Hasher::new(), vec![0; 1 << 16]);
     loop {

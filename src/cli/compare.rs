@@ -201,7 +201,7 @@ impl ComparisonFormat {
     }
 }
 
-/// Writes the table, after its companion.
+/// Writes the table, after its sidecar.
 fn write_table(
     compared: &Compared,
     path: &Path,

@@ -8,6 +8,7 @@ use super::console::Console;
 use super::exit_code::{self, CliError, ExitStatus};
 use super::form::TargetFormat;
 use super::outputs::{self, Outputs};
+use super::terminal_table;
 use super::weight;
 use crate::formats::{self, Encoded};
 use crate::materials::weight::Weight;
@@ -15,6 +16,7 @@ use crate::report::diagram::Paper;
 use crate::stone::grammar;
 use crate::storage::terminal::in_line;
 use crate::storage::{atomic_write, output_path};
+use comfy_table::{Cell, CellAlignment};
 use plan::Job;
 use serde::Serialize;
 use std::ffi::OsString;
@@ -230,20 +232,15 @@ fn import(
 
 /// The rows in columns, then how many had which outcome.
 fn table(rows: &[ImportRow]) -> String {
-    let listed: Vec<[String; 4]> = rows
-        .iter()
-        .filter(|r| r.outcome != PASSED_OVER)
-        .map(|r| {
-            let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |wrote| in_line(wrote));
-            let facets = r.facets.map_or_else(String::new, |n| n.to_string());
-            [in_line(&r.file), r.format.unwrap_or_default().into(), facets, wrote]
-        })
-        .collect();
-    let heads = ["file", "format", "facets", "wrote"].map(String::from);
-    let width = |c: usize| listed.iter().chain([&heads]).map(|r| r[c].chars().count()).max().unwrap_or(0);
-    let (file, format, facets) = (width(0), width(1), width(2));
-    let line = |r: &[String; 4]| format!("{:file$}  {:format$}  {:>facets$}  {}\n", r[0], r[1], r[2], r[3]);
-    let mut text: String = [&heads].into_iter().chain(&listed).map(line).collect();
+    let mut table = terminal_table::new();
+    let right = |text: String| Cell::new(text).set_alignment(CellAlignment::Right);
+    table.set_header(["file".into(), "format".into(), right("facets".into()), Cell::new("wrote")]);
+    table.add_rows(rows.iter().filter(|r| r.outcome != PASSED_OVER).map(|r| {
+        let wrote = r.wrote.as_ref().map_or_else(|| r.outcome.into(), |wrote| in_line(wrote));
+        let facets = r.facets.map_or_else(String::new, |n| n.to_string());
+        [in_line(&r.file).into(), r.format.unwrap_or_default().into(), right(facets), Cell::new(wrote)]
+    }));
+    let mut text = terminal_table::lines(&table);
     let counts: Vec<String> = [WRITTEN, THERE, "failed", PASSED_OVER]
         .iter()
         .map(|outcome| (rows.iter().filter(|r| r.outcome == *outcome).count(), outcome))

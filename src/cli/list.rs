@@ -5,6 +5,7 @@ mod entries;
 
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
+use super::terminal_table;
 use crate::manual::SCENE_GRAMMAR;
 use crate::parse;
 use catalogue_entry::CatalogueEntry;
@@ -75,9 +76,8 @@ pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
         let chosen = if asked.is_empty() { all.iter().collect() } else { asked };
         console.print_json(&chosen.iter().map(|e| e.json()).collect::<Vec<_>>())?;
     } else if asked.is_empty() {
-        let width = all.iter().map(|e| e.name.chars().count()).max().unwrap_or(0);
-        let lines: Vec<String> = all.iter().map(|e| format!("{:width$}  {}", e.name, e.about)).collect();
-        console.print(&lines.join("\n"))?;
+        let rows = all.iter().map(|e| (e.name.as_str(), e.about.clone()));
+        console.print(&terminal_table::labelled(rows, 0, 0))?;
     } else {
         let texts: Vec<&str> = asked.iter().map(|e| e.text.trim_end()).collect();
         console.print(&texts.join("\n\n"))?;

@@ -23,7 +23,7 @@ Examples:
   cutlab merge one.csv two.csv -o all.csv          the bytes of: cutlab score designs/ -o all.csv
   cutlab merge 'part*.csv' -o sweep.csv --plot wlr.svg    and a map, of the parts of a sweep
 
-Each part needs its companion beside it (one.csv.meta.json), which says which part it is. The whole is
+Each part needs its sidecar beside it (one.csv.meta.json), which says which part it is. The whole is
 written as its own name says, whatever the parts are.")]
 pub struct MergeArgs {
     /// The tables that --shard made, and patterns of their names

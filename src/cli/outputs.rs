@@ -3,7 +3,7 @@
 //! - An input is never an output, whatever leads to it.
 //! - A file that is there is replaced only if the same command made it, or if it holds just what is
 //!   to be written, or with `--force`. The same command is known by the record in the file
-//!   ([`crate::render::record`]), or in a table's companion.
+//!   ([`crate::render::record`]), or in a table's sidecar.
 //! - Every place is tried before anything is computed ([`output_path::check_writable`]).
 
 use super::args::{inputs, stone};

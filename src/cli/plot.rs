@@ -18,7 +18,7 @@ Examples:
   cutlab plot sweep.csv -o wlr.png --title 'Crown and pavilion' --range wlr=0.25:0.29 --pixels 2400
   cutlab plot all.csv -o map.svg                  map-METRIC.svg for every metric of the table
 
-The table needs its companion beside it (sweep.csv.meta.json), which says what its axes are.")]
+The table needs its sidecar beside it (sweep.csv.meta.json), which says what its axes are.")]
 pub struct PlotArgs {
     /// A whole table that sweep, merge or score --tilt wrote
     #[arg(value_name = "TABLE")]

@@ -119,7 +119,7 @@ impl Plots {
     }
 }
 
-/// What a table's companion says of its axes.
+/// What a table's sidecar says of its axes.
 pub fn layout_of(table: &Path, meta: &TableMeta) -> Result<TableLayout, CliError> {
     let why = || {
         let table = stone::display_name(table);

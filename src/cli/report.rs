@@ -7,6 +7,7 @@ use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
 use super::outputs::Outputs;
+use super::terminal_table;
 use crate::batch::fingerprint::BUILD;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
@@ -165,23 +166,24 @@ fn one(
 
 /// The numbers that matter, and the files.
 fn text(bundle: &StoneReport, folder: &Path) -> String {
-    let mut text = String::new();
+    let mut lines: Vec<(String, String)> = Vec::new();
     for section in bundle.sections.iter().filter(|s| s.large > 0) {
-        text += &format!("{}\n", section.head);
+        lines.push((section.head.into(), String::new()));
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
             let value = match score.value.map(estimate_text) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
-                None => "–".into(),
+                None => terminal_table::NONE.into(),
             };
             let better = match score.better.said() {
                 "" => String::new(),
                 said => format!("  ({said})"),
             };
-            text += &format!("  {:<16} {value}{better}\n", score.name);
+            lines.push((format!("  {}", score.name), value + &better));
         }
     }
+    let mut text = terminal_table::labelled(lines, 0, 0);
     for said in bundle.sections.iter().filter_map(Section::omissions) {
         text += &format!("{said}\n");
     }

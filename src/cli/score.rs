@@ -50,7 +50,7 @@ pub struct ScoreArgs {
     proportions: bool,
     /// Sort the rows by a metric, the greatest first; -METRIC the least first
     #[arg(long, value_name = "METRIC", value_parser = parse_sort, allow_hyphen_values = true)]
-    sort: Option<SortOrder>,
+    sort: Option<SortRequest>,
     /// Keep the first N rows of the sorted table
     #[arg(long, value_name = "N", requires = "sort", value_parser = parse_top)]
     top: Option<u64>,
@@ -76,17 +76,10 @@ pub struct ScoreArgs {
     look: Look,
 }
 
-/// What `--sort` asks for.
-#[derive(Debug, Clone, Copy)]
-struct SortOrder {
-    metric: &'static Metric,
-    ascending: bool,
-}
-
 /// Scores every stone and writes the table.
 pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let plan = args.scoring.plan();
-    let order = order(args, &plan.metrics)?;
+    let sort = sort(args, &plan.metrics)?;
     let specs = inputs::expanded(&args.stones)?;
     let mut outputs = Outputs::reading_stones(&specs, console);
     let mut leading = table::STONE_COLUMNS.to_vec();
@@ -113,7 +106,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
         scores: plan.clone(),
         tilt: args.tilt.map(|degrees| TiltRange { degrees, azimuths: axes.clone() }),
         proportions: args.proportions,
-        sort: args.sort.zip(order).map(|(sort, order)| SortRequest { metric: sort.metric, order }),
+        sort,
     });
     let columns = table::columns(&leading, &plan.metrics);
     let each = tilts.len().max(1) as u64;
@@ -124,7 +117,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
         identity: inputs.identity.clone(),
         total: specs.len() as u64 * each,
         layout: args.tilt.map(|_| layout(&specs, &axes)),
-        order,
+        order: sort.map(|sort| sort.order),
         notes: args.scoring.notes(false),
         what: "scoring",
         line: &|i, form| {
@@ -138,7 +131,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
             }
             leading.extend(tilt.map(|t| TableCell::number(t.degrees)));
             leading.extend(tilt.filter(|_| axes.len() > 1).map(|t| TableCell::number(t.azimuth)));
-            let sorts = |m: &&'static Metric| args.sort.is_some_and(|s| s.metric.name == m.name);
+            let sorts = |m: &&'static Metric| sort.is_some_and(|s| s.metric.name == m.name);
             let key = plan.metrics.iter().position(sorts).and_then(|m| row.scores[m]);
             Ok(FinishedRow {
                 outcome,
@@ -154,8 +147,8 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
     study.run(&args.table, &plots, &mut outputs, console)
 }
 
-/// The order of the rows, if they are to be sorted.
-fn order(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<Order>, CliError> {
+/// How the rows are sorted, if they are to be.
+fn sort(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<SortRequest>, CliError> {
     let Some(sort) = args.sort else { return Ok(None) };
     let name = sort.metric.name;
     if !metrics.iter().any(|m| m.name == name) {
@@ -164,7 +157,7 @@ fn order(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<Order>,
     if args.table.shard.of > 1 {
         return Err(CliError::input("--sort needs the whole table: leave out --shard"));
     }
-    Ok(Some(Order { ascending: sort.ascending, top: args.top }))
+    Ok(Some(SortRequest { order: Order { top: args.top, ..sort.order }, ..sort }))
 }
 
 /// What a plot of the tilted stones shows: a curve for each stone and axis.
@@ -179,9 +172,10 @@ fn layout(specs: &[OsString], axes: &[f64]) -> TableLayout {
 }
 
 /// Value parser of `--sort`.
-fn parse_sort(text: &str) -> Result<SortOrder, String> {
+fn parse_sort(text: &str) -> Result<SortRequest, String> {
     let name = text.strip_prefix('-').unwrap_or(text);
-    Ok(SortOrder { metric: super::args::scoring::metric(name)?, ascending: text.starts_with('-') })
+    let order = Order { ascending: text.starts_with('-'), top: None };
+    Ok(SortRequest { metric: scoring::metric(name)?, order })
 }
 
 /// Value parser of `--top`.

@@ -2,6 +2,7 @@
 
 mod measured;
 mod mesh;
+mod sheet;
 mod tiers;
 
 use super::args::inputs;
@@ -32,7 +33,6 @@ use mesh::MeshSheet;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tiers::TierRow;
 
@@ -310,10 +310,8 @@ fn sheet(
 
 impl StoneSheet {
     fn text(&self) -> String {
-        let mut out = format!("{} ({})\n", in_line(&self.file), self.format);
-        let mut line = |label: &str, value: String| {
-            let _ = writeln!(out, "  {label:<15} {value}");
-        };
+        let mut lines: Vec<(&str, String)> = Vec::new();
+        let mut line = |label, value| lines.push((label, value));
         if !self.name.is_empty() && self.name != self.file {
             line("name", in_line(&self.name));
         }
@@ -386,6 +384,6 @@ impl StoneSheet {
         let tiers = self.tiers.chunk_by(TierRow::reads_like).map(TierRow::joined);
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
-        out
+        format!("{} ({})\n{}", in_line(&self.file), self.format, sheet::text(lines))
     }
 }

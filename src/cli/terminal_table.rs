@@ -1,4 +1,4 @@
-//! Tables of scores for a terminal.
+//! Tables for a terminal: of scores, of labels with their texts, of anything in columns.
 
 use crate::batch::table::NumericColumns;
 use crate::metrics::Metric;
@@ -6,7 +6,7 @@ use crate::report::estimates::estimate_text;
 use crate::sampling::stats::Estimate;
 use crate::storage::terminal::in_line;
 use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::{CellAlignment, ColumnConstraint, Table, Width};
 
 /// Tables of up to so many rows have a line for each metric, else a line for each row.
 const MOST_COLUMNS: usize = 4;
@@ -72,12 +72,57 @@ pub fn new() -> Table {
     table
 }
 
-/// A table's lines; the first column to the left, the others as they come, none padded at its end.
+/// A table's lines; columns to the left but for cells that ask otherwise, none padded at its end.
 pub fn lines(table: &Table) -> String {
+    indented(table, 0)
+}
+
+/// As [`lines`], further in.
+///
+/// - `indent`: columns left of the table
+fn indented(table: &Table, indent: usize) -> String {
     let mut table = table.clone();
     for column in table.column_iter_mut() {
-        column.set_padding((0, 2));
+        column.set_padding((0, GAP));
         column.set_cell_alignment(CellAlignment::Left);
     }
-    table.lines().map(|line| format!("{}\n", line.trim_end())).collect()
+    table.lines().map(|line| format!("{}\n", format!("{:indent$}{line}", "").trim_end())).collect()
+}
+
+/// Columns between two cells.
+const GAP: u16 = 2;
+
+/// Labels with their texts, a line each or as many as the text has.
+///
+/// - `indent`: columns left of the labels
+/// - `least`: columns that the labels take at least, so that several lists line up
+pub fn labelled<L: Into<String>>(
+    rows: impl IntoIterator<Item = (L, String)>,
+    indent: usize,
+    least: u16,
+) -> String {
+    let mut table = new();
+    table.add_rows(rows.into_iter().map(|(label, text)| [label.into(), text]));
+    if let Some(labels) = table.column_mut(0) {
+        labels.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least + GAP)));
+    }
+    indented(&table, indent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_stand_beside_their_texts() {
+        let rows =
+            || [("a", "one\ntwo".to_owned()), ("longer", "  three ".to_owned()), ("", "four".to_owned())];
+        assert_eq!(labelled(rows(), 1, 0), " a       one\n         two\n longer    three\n         four\n");
+        let wide = labelled(rows(), 0, 9);
+        assert!(
+            wide.lines()
+                .all(|line| line.find(char::is_alphabetic) == Some(0) || line[..11].trim().is_empty())
+        );
+        assert_eq!(wide.lines().next(), Some("a          one"));
+    }
 }

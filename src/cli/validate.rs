@@ -5,6 +5,7 @@ use super::args::values;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
+use super::terminal_table;
 use crate::batch::validate;
 use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
 use crate::render::record;
@@ -122,8 +123,9 @@ fn entry(o: &FigureOutcome) -> FigureEntry<'_> {
 /// The table for people; under it what explains the figures that did not come out.
 fn text(reports: &[CheckReport]) -> String {
     let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
-    let mut lines = vec![["figure", "kind", "expected", "ours", "", "verdict", "source"].map(String::from)];
-    lines.extend(outcomes().map(|o| {
+    let mut table = terminal_table::new();
+    table.set_header(["figure", "kind", "expected", "ours", "", "verdict", "source"]);
+    table.add_rows(outcomes().map(|o| {
         let ours = o.ours.map_or("–".into(), |e| written(e, o.figure.expected.tolerance()));
         let f = &o.figure;
         [
@@ -136,15 +138,7 @@ fn text(reports: &[CheckReport]) -> String {
             f.source.name.into(),
         ]
     }));
-    let width = |c: usize| lines.iter().map(|l| l[c].chars().count()).max().unwrap_or(0);
-    let widths: [usize; 7] = std::array::from_fn(width);
-    let mut out = String::new();
-    for line in &lines {
-        let cells: Vec<String> =
-            line.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
-        out += cells.join("  ").trim_end();
-        out += "\n";
-    }
+    let mut out = terminal_table::lines(&table);
     out += "\n";
     for o in outcomes().filter(|o| o.verdict == Verdict::Failed && !o.why.is_empty()) {
         out += &format!("{}: {}\n", o.figure.name, o.why);

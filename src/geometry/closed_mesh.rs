@@ -14,7 +14,7 @@ pub struct ClosedMeshFacet {
 }
 
 /// A closed triangulated surface. What a mesh reader hands out where the mesh is not the solid of
-/// its facets' planes; see [`super::facet_recovery::RecoverError::closed_mesh`].
+/// its facets' planes; see [`super::facet_recovery::Recovered::take_mesh`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedMesh {
     /// Corners in use, each once, in the mesh's own unit.

@@ -36,15 +36,39 @@ pub enum Dispersion {
     Constant(f64),
     /// n² = 1 + c₀ + Σ B λ² / (λ² − C²), pairs (B, C with C in µm). Formula 1 of
     /// refractiveindex.info.
-    Sellmeier { c0: f64, terms: Arc<[(f64, f64)]> },
+    Sellmeier {
+        /// c₀.
+        c0: f64,
+        /// B and C, C in µm.
+        terms: Arc<[(f64, f64)]>,
+    },
     /// n² = 1 + c₀ + Σ B λ² / (λ² − C), pairs (B, C with C in µm²). Formula 2.
-    SellmeierSquared { c0: f64, terms: Arc<[(f64, f64)]> },
+    SellmeierSquared {
+        /// c₀.
+        c0: f64,
+        /// B and C, C in µm².
+        terms: Arc<[(f64, f64)]>,
+    },
     /// n = A + B/λ², B in µm².
-    Cauchy { a: f64, b: f64 },
+    Cauchy {
+        /// A.
+        a: f64,
+        /// B, µm².
+        b: f64,
+    },
     /// n = A + B/λ² + C/λ⁴ + …, with any number of coefficients.
     CauchySeries(Arc<[f64]>),
     /// n² = A + B/(λ² − C) + D λ².
-    Resonance { a: f64, b: f64, c: f64, d: f64 },
+    Resonance {
+        /// A.
+        a: f64,
+        /// B, µm².
+        b: f64,
+        /// C, µm².
+        c: f64,
+        /// D, 1/µm².
+        d: f64,
+    },
     /// A step function: pairs (greatest wavelength in nm, n) in rising order, the last for all longer
     /// wavelengths. The dispersion of renderers of three colours.
     Steps(Arc<[(f64, f64)]>),

@@ -74,7 +74,7 @@ pub fn behind(command: &str) -> String {
 /// Text within markup, which has no control characters.
 fn escaped(text: &str) -> String {
     let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    maud::html! { (text) }.into_string()
 }
 
 /// Whether the picture, drawing or page at `path` was made by `command`.

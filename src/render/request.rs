@@ -21,8 +21,8 @@ use std::time::Duration;
 /// Fields that are none are as the scene has them. As JSON every field may be left out.
 ///
 /// ```no_run
-/// use cutlab::render::RenderRequest;
-/// use cutlab::stone::Stone;
+/// use cutlab::advanced::render::RenderRequest;
+/// use cutlab::advanced::stone::Stone;
 ///
 /// let stone = Stone::parse("round-brilliant")?;
 /// RenderRequest::scene("table")?.stone(&stone).run()?.save("brilliant.png")?;

@@ -1,9 +1,9 @@
 //! Comparison page: scores, differences, pictures and tilt curves beside each other.
 
 use super::diagram::projection::{self, DiagramView};
-use super::estimates::{estimate_html, estimate_text};
-use super::html::{data_uri, escaped};
-use super::page::{head, scope_figure, tilt_section};
+use super::estimates::{difference_html, estimate_html};
+use super::html::{HtmlPage, data_uri};
+use super::page::{scope_figure, tilt_section};
 use super::request::ReportRequest;
 use super::stone_report::{ReportError, table_picture};
 use super::{tilt_curves, viewer_images};
@@ -12,14 +12,14 @@ use crate::scoring::comparison::Comparison;
 use crate::scoring::score::{ScoreRequest, ScoreRow};
 use crate::storage::terminal::in_line;
 use crate::trace::ConvexStone;
-use std::fmt::Write;
+use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("comparison_page.css");
 
 /// Pixels across a picture through a scope.
 const SCOPE_SIDE: u32 = 400;
 
-/// Steps that [`html`] reports, for each stone.
+/// Steps that [`html()`] reports, for each stone.
 pub const STEPS: usize = 3;
 
 /// Names longer than this make a table too wide: a number stands for them.
@@ -62,10 +62,9 @@ pub fn html(
     let labels = labels(&names);
     let mut sub = vec![format!("compared, in {}", together(&materials))];
     sub.extend(explained(&names));
-    let mut out = head(&listed(&labels), OWN_STYLE, &sub.join(" · "));
     let solids: Vec<Polyhedron> =
         requests.iter().map(|r| r.design.solid()).collect::<Result<_, SolidError>>()?;
-    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut rows: Vec<Vec<Markup>> = Vec::new();
     for (request, solid) in requests.iter().zip(&solids) {
         let stone = ConvexStone::new(solid.clone());
         step("scopes");
@@ -74,39 +73,41 @@ pub fn html(
         seen.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
         step("picture");
         let picture = table_picture(request, &|_| ())?;
-        let mut cells =
-            vec![format!("<figure><img src=\"{}\" alt=\"on a grey table\"></figure>\n", data_uri(&picture))];
+        let mut cells = vec![html! { figure { img src=(data_uri(&picture)) alt="on a grey table"; } }];
         cells.extend(seen.iter().map(scope_figure));
-        cells.extend(
-            [DiagramView::Crown, DiagramView::Side]
-                .map(|v| format!("<figure>{}</figure>\n", projection::svg(solid, v))),
-        );
+        let views = [DiagramView::Crown, DiagramView::Side].map(|v| projection::drawing(solid, v));
+        cells.extend(views.map(|drawing| html! { figure { (drawing) } }));
         rows.push(cells);
     }
-    // one row of the page for each kind of picture, so that equals stand beside each other
-    for kind in 0..rows.first().map_or(0, Vec::len) {
-        out += "<section class=\"beside\">\n";
-        for (name, cells) in labels.iter().zip(&rows) {
-            let _ = write!(out, "<div><h2>{}</h2>\n{}</div>\n", escaped(name), cells[kind]);
-        }
-        out += "</section>\n";
-    }
-    table(&labels, comparison, plan, &mut out);
     let lines: Vec<(&ReportRequest, &str, &Polyhedron)> = requests
         .iter()
         .zip(&labels)
         .zip(&solids)
         .map(|((request, label), solid)| (request, label.as_str(), solid))
         .collect();
-    out += &tilt_section(&tilt_curves::plots(&lines, plan, &|| step("tilts")));
-    let command = requests.first().map_or("", |r| r.command.as_str());
-    let _ = write!(
-        out,
-        "<footer>\n<p>Made by cutlab {} with <code>{}</code></p>\n</footer>\n</main>\n</body>\n</html>\n",
-        env!("CARGO_PKG_VERSION"),
-        escaped(command)
-    );
-    Ok(out)
+    let tilts = tilt_curves::plots(&lines, plan, &|| step("tilts"));
+    let content = html! {
+        // one row of the page for each kind of picture, so that equals stand beside each other
+        @for kind in 0..rows.first().map_or(0, Vec::len) {
+            section class="beside" {
+                @for (name, cells) in labels.iter().zip(&rows) {
+                    div { h2 { (name) } (cells[kind]) } "\n"
+                }
+            }
+            "\n"
+        }
+        (table(&labels, comparison, plan))
+        (tilt_section(&tilts))
+    };
+    let page = HtmlPage {
+        title: &listed(&labels),
+        subtitle: &sub.join(" · "),
+        style: OWN_STYLE,
+        content,
+        footer: html! {},
+        command: requests.first().map_or("", |r| r.command.as_str()),
+    };
+    Ok(page.html())
 }
 
 /// Names in a row, each once.
@@ -125,40 +126,51 @@ fn listed(names: &[String]) -> String {
 }
 
 /// Scores and differences.
-fn table(names: &[String], comparison: &Comparison, plan: &ScoreRequest, out: &mut String) {
-    *out += "<section>\n<h2>Scores</h2>\n<div class=\"wide\"><table class=\"versus\">\n<thead><tr><th></th>";
-    names.iter().for_each(|name| *out += &format!("<th>{}</th>", escaped(name)));
-    names[1..]
-        .iter()
-        .for_each(|name| *out += &format!("<th>{} less {}</th>", escaped(name), escaped(&names[0])));
-    *out += "</tr></thead>\n<tbody>\n";
-    for (m, metric) in plan.metrics.iter().enumerate() {
-        let better = match metric.better.said() {
-            "" => String::new(),
-            said => format!("<br><span class=\"se\">{said}</span>"),
-        };
-        let _ = write!(
-            out,
-            "<tr title=\"{}\"><th scope=\"row\">{}{}</th>",
-            escaped(&metric.about_and_better()),
-            metric.name,
-            better
-        );
-        let cell = |value, class: &str| format!("<td class=\"{class}\">{}</td>", estimate_html(value, ""));
-        comparison.rows.iter().for_each(|row| *out += &cell(row.scores[m], "value"));
-        for (other, differences) in comparison.differences.iter().enumerate() {
-            let d = differences[m];
-            let differs = comparison.is_significant(other, m) == Some(true);
-            let text = cell(d, if differs { "value differs" } else { "value same" });
-            let positive = d.is_some_and(|e| e.value > 0.0 && estimate_text(e).0.parse() != Ok(0.0));
-            let sign = if positive { "<b>+" } else { "<b>" };
-            *out += &text.replacen("<b>", sign, 1);
+fn table(names: &[String], comparison: &Comparison, plan: &ScoreRequest) -> Markup {
+    html! {
+        section {
+            h2 { "Scores" }
+            div class="wide" {
+                table class="versus" {
+                    thead {
+                        tr {
+                            th {}
+                            @for name in names { th { (name) } }
+                            @for name in &names[1..] { th { (name) " less " (names[0]) } }
+                        }
+                    }
+                    "\n"
+                    tbody { @for m in 0..plan.metrics.len() { (table_row(comparison, plan, m)) } }
+                }
+            }
+            p class="note" {
+                "After ± stands one standard error. Differences are of paired runs with the same random numbers; \
+                 bold ones are beyond three of their errors, and more than 1e-6 of the metric’s scale (1, or 100 \
+                 for percentages), or 1e-4 where photons are traced."
+                @for line in left_out(comparison) { " " (line) "." }
+            }
         }
-        *out += "</tr>\n";
+        "\n"
     }
-    *out += "</tbody></table></div>\n<p class=\"note\">After ± stands one standard error. Differences are of \
-             paired runs with the same random numbers; bold ones are beyond three of their errors, and more \
-             than 1e-6 of the metric’s scale (1, or 100 for percentages), or 1e-4 where photons are traced.";
-    left_out(comparison).iter().for_each(|line| *out += &format!(" {}.", escaped(line)));
-    *out += "</p>\n</section>\n";
+}
+
+/// The scores of one metric, and their differences from the first.
+fn table_row(comparison: &Comparison, plan: &ScoreRequest, metric: usize) -> Markup {
+    let better = plan.metrics[metric].better.said();
+    html! {
+        tr title=(plan.metrics[metric].about_and_better()) {
+            th scope="row" {
+                (plan.metrics[metric].name)
+                @if !better.is_empty() { br; span class="se" { (better) } }
+            }
+            @for row in &comparison.rows { td class="value" { (estimate_html(row.scores[metric], "")) } }
+            @for (other, differences) in comparison.differences.iter().enumerate() {
+                @let differs = comparison.is_significant(other, metric) == Some(true);
+                td class={ "value " (if differs { "differs" } else { "same" }) } {
+                    (difference_html(differences[metric]))
+                }
+            }
+        }
+        "\n"
+    }
 }

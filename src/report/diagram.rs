@@ -5,18 +5,19 @@ mod facts;
 mod labels;
 pub mod projection;
 mod rows;
-mod svg_canvas;
+mod sheet;
 mod table;
 mod views;
 mod wheel;
 
 pub use projection::DiagramView;
-pub use svg_canvas::Paper;
+pub use sheet::Paper;
 
 use crate::design::{Design, proportions};
 use crate::geometry::SolidError;
+use crate::report::svg_canvas::Anchor;
 use glam::DVec2;
-use svg_canvas::{Anchor, SvgCanvas};
+use sheet::Sheet;
 use table::TypesetTable;
 use views::StoneViews;
 
@@ -75,7 +76,7 @@ pub fn draw_on(design: &Design, index: Option<f64>, paper: Paper) -> Result<Stri
     let layout = CHOICES.iter().find_map(|&(side, most, least)| set(side, most, least));
     let layout = layout.or_else(|| set(last.0, last.1, 0.0));
 
-    let mut pen = SvgCanvas::new(&design.name, paper);
+    let mut pen = Sheet::new(&design.name, paper);
     above.draw(&mut pen, DVec2::new(MARGIN, MARGIN));
     pen.rule(DVec2::new(MARGIN, top - 0.5 * SPACE), wide);
     if let Some(layout) = layout {
@@ -106,7 +107,7 @@ fn side_view(stone: &StoneViews, side: f64, most: f64) -> (f64, f64) {
 }
 
 impl PageLayout {
-    fn draw(&self, pen: &mut SvgCanvas, stone: &StoneViews, top: f64, page: DVec2) {
+    fn draw(&self, pen: &mut Sheet, stone: &StoneViews, top: f64, page: DVec2) {
         let middles = [0.27 * page.x, 0.73 * page.x];
         let zero = wheel::index_name(stone.gear.offset, stone.gear);
         let quarter = wheel::index_name(stone.gear.offset + 0.25 * stone.gear.teeth, stone.gear);
@@ -131,7 +132,7 @@ impl PageLayout {
             } else {
                 format!("; too small: {}", nowhere.join(", "))
             };
-            let said = svg_canvas::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * page.x - MARGIN);
+            let said = sheet::fitted(&format!("{said}{small}"), CAPTION, false, 0.5 * page.x - MARGIN);
             pen.text(DVec2::new(middle, caption), CAPTION, Anchor::Middle, false, &said);
         }
         let sides = caption + 1.0 + SPACE;

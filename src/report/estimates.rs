@@ -1,23 +1,41 @@
 //! Estimates as text and as HTML.
 
 use crate::sampling::stats::Estimate;
+use maud::{Markup, html};
 
 /// An estimate as text: [`Estimate::text`].
 pub fn estimate_text(e: Estimate) -> (String, Option<String>) {
     e.text()
 }
 
+/// The sign that a difference has before its text: `+` if it is shown as more than zero; the text of a
+/// negative one has its own.
+pub fn plus(e: Estimate) -> &'static str {
+    if e.value > 0.0 && estimate_text(e).0.parse() != Ok(0.0) { "+" } else { "" }
+}
+
 /// An estimate with its error as HTML, or a dash if there is none.
 ///
-/// - `unit`: put behind the value
-pub(super) fn estimate_html(value: Option<Estimate>, unit: &str) -> String {
+/// - `unit`: stands behind the value, if it is not empty
+pub(super) fn estimate_html(value: Option<Estimate>, unit: &str) -> Markup {
+    shown(value, "", unit)
+}
+
+/// As [`estimate_html`], with its sign.
+pub(super) fn difference_html(value: Option<Estimate>) -> Markup {
+    shown(value, value.map_or("", plus), "")
+}
+
+fn shown(value: Option<Estimate>, sign: &str, unit: &str) -> Markup {
     let minus = |text: String| text.replace('-', "−");
-    match value.map(estimate_text).map(|(value, error)| (minus(value), error.map(minus))) {
-        Some((value, Some(error))) => {
-            format!("<b>{value}</b>{unit} <span class=\"se\">± {error}</span>")
+    html! {
+        @if let Some((value, error)) = value.map(estimate_text) {
+            b { (sign) (minus(value)) }
+            @if !unit.is_empty() { " " (unit) }
+            @if let Some(error) = error { " " span class="se" { "± " (minus(error)) } }
+        } @else {
+            "–"
         }
-        Some((value, None)) => format!("<b>{value}</b>{unit}"),
-        None => "–".into(),
     }
 }
 

@@ -13,7 +13,6 @@ use axes::{BAND, ReferenceMark};
 pub use curve::{Curves, Dot, PlotCurve};
 pub use style::{ColourScale, Style};
 
-use super::page::escaped;
 use crate::batch::table::NumericColumns;
 use crate::design::library;
 use crate::stone::grammar;

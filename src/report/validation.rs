@@ -1,14 +1,14 @@
 //! The page of a validation: what was expected, what came out, where the two are apart.
 
 use super::estimates::estimate_text;
-use super::html::escaped;
+use super::html::HtmlPage;
 use super::plot::{Curves, Dot, PlotCurve};
+use super::svg_canvas::{Element, PathData};
 use crate::batch::validate::{Axes, CheckReport, ERRORS, Expected, Figure, FigureOutcome, Verdict};
 use crate::sampling::stats::Estimate;
-use std::fmt::Write;
+use maud::{Markup, html};
 
-const STYLE: &str = include_str!("page.css");
-const OWN_STYLE: &str = include_str!("validation.css");
+const STYLE: &str = include_str!("validation.css");
 
 /// The rule by which a figure passes, in words.
 pub fn rule() -> String {
@@ -71,68 +71,64 @@ pub fn count(reports: &[CheckReport], verdict: Verdict) -> usize {
 ///
 /// Looked at in `reports/validation.html`.
 pub fn html(reports: &[CheckReport], seed: u64, command: &str) -> String {
-    let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>Validation · cutlab</title>\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <header>\n<h1>Validation</h1>\n<p class=\"sub\">Published and derivable figures about cut stones, \
-         beside what cutlab computes</p>\n</header>\n<section class=\"verdicts\">\n"
-    );
-    for verdict in [Verdict::Passed, Verdict::Failed, Verdict::Skipped] {
-        let _ = writeln!(
-            out,
-            "<div class=\"tile\"><dl><dt>{verdict}</dt><dd><b>{}</b></dd></dl></div>",
-            count(reports, verdict)
-        );
-    }
-    let _ = writeln!(
-        out,
-        "</section>\n<p>{}</p>\n<p class=\"note\">published: stands in a publication; derived: follows from a \
-         definition; cross-checked: computed by a tracer that has nothing in common with this program, and no \
-         literature. Light is unpolarised at every facet, as in the tracers that the figures are from. After ± \
-         stands the tolerance of an expectation, one standard error of ours. The bars show ours between the \
-         limits within which it passes. Not here: photon-mapped pictures, whose energy and convergence the \
-         tests check.</p>",
-        rule()
-    );
-    let failed = reports.iter().flat_map(|r| &r.outcomes).filter(|o| o.verdict == Verdict::Failed);
-    let failed: Vec<&FigureOutcome> = failed.collect();
-    if !failed.is_empty() {
-        table("What did not come out", &failed, &mut out);
-    }
-    plots(reports, &mut out);
+    let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
+    let failed: Vec<&FigureOutcome> = outcomes().filter(|o| o.verdict == Verdict::Failed).collect();
     let mut subjects: Vec<&str> = Vec::new();
-    for outcome in reports.iter().flat_map(|r| &r.outcomes) {
+    for outcome in outcomes() {
         if !subjects.contains(&outcome.subject) {
             subjects.push(outcome.subject);
         }
     }
-    for subject in subjects {
-        let of = reports.iter().flat_map(|r| &r.outcomes).filter(|o| o.subject == subject);
-        table(subject, &of.collect::<Vec<_>>(), &mut out);
-    }
-    let _ = writeln!(
-        out,
-        "<footer>\n<p>Seed {seed}. The same in numbers: <a href=\"validation.csv\">validation.csv</a></p>\n\
-         <p>Made by cutlab {} with <code>{}</code></p>\n</footer>\n</main>\n</body>\n</html>",
-        env!("CARGO_PKG_VERSION"),
-        escaped(command)
-    );
-    out
+    let content = html! {
+        section class="verdicts" {
+            @for verdict in [Verdict::Passed, Verdict::Failed, Verdict::Skipped] {
+                div class="tile" { dl { dt { (verdict.to_string()) } dd { b { (count(reports, verdict)) } } } }
+            }
+        }
+        "\n"
+        p { (rule()) }
+        p class="note" {
+            "published: stands in a publication; derived: follows from a definition; cross-checked: computed by a \
+             tracer that has nothing in common with this program, and no literature. Light is unpolarised at \
+             every facet, as in the tracers that the figures are from. After ± stands the tolerance of an \
+             expectation, one standard error of ours. The bars show ours between the limits within which it \
+             passes. Not here: photon-mapped pictures, whose energy and convergence the tests check."
+        }
+        "\n"
+        @if !failed.is_empty() { (table("What did not come out", &failed)) }
+        (plots(reports))
+        @for subject in subjects {
+            (table(subject, &outcomes().filter(|o| o.subject == subject).collect::<Vec<_>>()))
+        }
+    };
+    let footer = html! {
+        p { "Seed " (seed) ". The same in numbers: " a href="validation.csv" { "validation.csv" } }
+        "\n"
+    };
+    let page = HtmlPage {
+        title: "Validation",
+        subtitle: "Published and derivable figures about cut stones, beside what cutlab computes",
+        style: STYLE,
+        content,
+        footer,
+        command,
+    };
+    page.html()
 }
 
-fn plots(reports: &[CheckReport], out: &mut String) {
-    *out += "<section class=\"curves\">\n";
-    let drawn = reports.iter().filter(|r| !r.line.is_empty());
-    for (i, (report, axes)) in drawn.filter_map(|r| Some((r, r.plot?))).enumerate() {
-        // several drawings share one page: each needs a clip of its own name
-        let svg = plot(report, axes).replace("id=\"plot\"", &format!("id=\"plot{i}\""));
-        let _ = writeln!(out, "<figure>{}</figure>", svg.replace("url(#plot)", &format!("url(#plot{i})")));
+fn plots(reports: &[CheckReport]) -> Markup {
+    let drawn = reports.iter().filter(|r| !r.line.is_empty()).filter_map(|r| Some((r, r.plot?)));
+    html! {
+        section class="curves" {
+            @for (i, (report, axes)) in drawn.enumerate() {
+                figure { (plot(report, axes).drawing(&format!("plot{i}"))) } "\n"
+            }
+        }
+        "\n"
     }
-    *out += "</section>\n";
 }
 
-fn plot(report: &CheckReport, axes: Axes) -> String {
+fn plot(report: &CheckReport, axes: Axes) -> Curves {
     let dot = |o: &FigureOutcome| match o.figure.expected {
         Expected::Near(value, tolerance) => {
             Some(Dot { x: o.figure.at?, value, tolerance, hollow: o.verdict == Verdict::Failed })
@@ -151,42 +147,52 @@ fn plot(report: &CheckReport, axes: Axes) -> String {
         dots: report.outcomes.iter().filter_map(dot).collect(),
         ..Curves::default()
     }
-    .svg()
 }
 
-fn table(subject: &str, outcomes: &[&FigureOutcome], out: &mut String) {
-    let _ = writeln!(
-        out,
-        "<section>\n<h2>{}</h2>\n<div class=\"wide\"><table class=\"figures\"><thead><tr><th>figure</th>\
-         <th>source</th><th>expected</th><th>ours</th><th></th><th>verdict</th></tr></thead><tbody>",
-        escaped(subject)
-    );
-    for o in outcomes {
-        let f = &o.figure;
-        let ours = o.ours.map_or("–".into(), |e| with_unit(&written(e, f.expected.tolerance()), f.unit));
-        let has_why = if o.why.is_empty() { "" } else { " class=\"has-why\"" };
-        let _ = writeln!(
-            out,
-            "<tr{has_why}><th scope=\"row\">{}</th><td class=\"source\">{}: {}</td><td class=\"value\">{}</td>\
-             <td class=\"value\">{}</td><td>{}</td><td class=\"{verdict}\">{verdict}</td></tr>",
-            escaped(&f.name),
-            f.source.kind,
-            escaped(f.source.name),
-            escaped(&with_unit(&expectation(f), f.unit)),
-            escaped(&ours),
-            o.ours.map_or(String::new(), |e| bar(f.expected, e)),
-            verdict = o.verdict
-        );
-        if !o.why.is_empty() {
-            let _ = writeln!(out, "<tr class=\"why\"><td colspan=\"6\">{}</td></tr>", escaped(&o.why));
+fn table(subject: &str, outcomes: &[&FigureOutcome]) -> Markup {
+    html! {
+        section {
+            h2 { (subject) }
+            div class="wide" {
+                table class="figures" {
+                    thead {
+                        tr {
+                            th { "figure" } th { "source" } th { "expected" } th { "ours" } th {}
+                            th { "verdict" }
+                        }
+                    }
+                    "\n"
+                    tbody { @for outcome in outcomes { (table_row(outcome)) } }
+                }
+            }
+        }
+        "\n"
+    }
+}
+
+fn table_row(o: &FigureOutcome) -> Markup {
+    let f = &o.figure;
+    let ours = o.ours.map_or("–".into(), |e| with_unit(&written(e, f.expected.tolerance()), f.unit));
+    html! {
+        tr class=[(!o.why.is_empty()).then_some("has-why")] {
+            th scope="row" { (f.name) }
+            td class="source" { (f.source.kind.to_string()) ": " (f.source.name) }
+            td class="value" { (with_unit(&expectation(f), f.unit)) }
+            td class="value" { (ours) }
+            td { @if let Some(bar) = o.ours.and_then(|e| bar(f.expected, e)) { (bar) } }
+            td class=(o.verdict.to_string()) { (o.verdict.to_string()) }
+        }
+        "\n"
+        @if !o.why.is_empty() {
+            tr class="why" { td colspan="6" { (o.why) } } "\n"
         }
     }
-    *out += "</tbody></table></div>\n</section>\n";
 }
 
-/// Where ours lies between the limits: a strip for what passes, a dot with two standard errors.
-fn bar(expected: Expected, ours: Estimate) -> String {
-    let Some(tolerance) = expected.tolerance() else { return String::new() };
+/// Where ours lies between the limits: a strip for what passes, a dot with two standard errors. None of an
+/// expectation without a tolerance.
+fn bar(expected: Expected, ours: Estimate) -> Option<Element> {
+    let tolerance = expected.tolerance()?;
     /// The strip reaches so far to either side of the middle, the drawing half as far again.
     const REACH: f64 = 44.0;
     let limit = (tolerance + ERRORS * ours.error).max(f64::MIN_POSITIVE);
@@ -194,10 +200,13 @@ fn bar(expected: Expected, ours: Estimate) -> String {
     let off = ours.value - expected.value();
     let (x, low, high) = (along(off), along(off - 2.0 * ours.error), along(off + 2.0 * ours.error));
     let colour = if expected.is_met(ours) { "#0072b2" } else { "#d55e00" };
-    format!(
-        "<svg viewBox=\"0 0 136 18\"><rect x=\"24\" y=\"4\" width=\"88\" height=\"10\" fill=\"#e6ecf1\"/>\
-         <path d=\"M68 3v12\" stroke=\"#9aa5af\"/><path d=\"M{low:.1} 9H{high:.1}\" stroke=\"{colour}\" \
-         stroke-width=\"1.5\"/><circle cx=\"{x:.1}\" cy=\"9\" r=\"3.2\" fill=\"{colour}\"/></svg>"
+    let path = || PathData::new(1);
+    Some(
+        Element::drawing((0.0, 0.0), (136.0, 18.0))
+            .with(Element::rect((24.0, 4.0), (2.0 * REACH, 10.0)).fill("#e6ecf1"))
+            .with(Element::path(path().down((68.0, 3.0), 12.0)).stroke("#9aa5af", 1.0))
+            .with(Element::path(path().line([(low, 9.0), (high, 9.0)])).stroke(colour, 1.5))
+            .with(Element::circle((x, 9.0), 3.2).fill(colour)),
     )
 }
 

@@ -7,12 +7,12 @@
 
 use crate::estimators::beam_view::StrongestPath;
 use crate::estimators::view::{AsetBand, band};
+use crate::report::svg_canvas::{Element, PathData};
 use crate::trace::ConvexStone;
 use crate::trace::beams::{
     BeamExit, BeamVisitor, Beams, IncidentBeam, ResidualBeam, StopCriteria, UnpolarisedLight,
 };
 use glam::{DVec2, DVec3};
-use std::fmt::Write;
 
 /// Half the drawing's width in its own units, and the space around it.
 const HALF: f64 = 400.0;
@@ -46,10 +46,13 @@ pub struct VirtualFacets {
 /// the tones.
 const FINE: f64 = 1e-4;
 
+/// Decimals of corners.
+const DECIMALS: usize = 2;
+
 /// Polygons of each tone as path data.
 struct VirtualFacetVisitor {
     /// Large ones, and fine ones.
-    paths: [[String; 5]; 2],
+    paths: [[PathData; 5]; 2],
     shares: [f64; 5],
     polygons: usize,
     middle: DVec2,
@@ -61,13 +64,6 @@ impl VirtualFacetVisitor {
     fn place(&self, p: DVec3) -> DVec2 {
         (p.truncate() - self.middle) * DVec2::new(self.scale, -self.scale)
     }
-
-    fn polygon(path: &mut String, corners: impl Iterator<Item = DVec2>) {
-        for (i, p) in corners.enumerate() {
-            let _ = write!(path, "{}{:.2} {:.2}", if i == 0 { "M" } else { "L" }, p.x, p.y);
-        }
-        path.push('Z');
-    }
 }
 
 impl BeamVisitor<StrongestPath, 1> for VirtualFacetVisitor {
@@ -77,10 +73,9 @@ impl BeamVisitor<StrongestPath, 1> for VirtualFacetVisitor {
         let StrongestPath { best, towards, .. } = rest.light;
         let tone = if best > 0.0 { band(towards.z as f32) as usize } else { AsetBand::Below as usize + 1 };
         let fine = usize::from(rest.share < FINE);
-        let mut path = std::mem::take(&mut self.paths[fine][tone]);
+        let path = std::mem::take(&mut self.paths[fine][tone]);
         let corners = rest.footprint.iter().map(|c| self.place(rest.entry.point(*c)));
-        Self::polygon(&mut path, corners);
-        self.paths[fine][tone] = path;
+        self.paths[fine][tone] = path.polygon(corners);
         self.shares[tone] += rest.share;
         self.polygons += 1;
     }
@@ -98,7 +93,7 @@ pub fn draw(stone: &ConvexStone, index: f64, stop_power: f64) -> VirtualFacets {
     let (lo, hi) = stone.solid.bounds();
     let (lo, hi) = (stone.point_from_design(lo).truncate(), stone.point_from_design(hi).truncate());
     let mut drawing = VirtualFacetVisitor {
-        paths: Default::default(),
+        paths: std::array::from_fn(|_| std::array::from_fn(|_| PathData::new(DECIMALS))),
         shares: [0.0; 5],
         polygons: 0,
         middle: 0.5 * (lo + hi),
@@ -110,57 +105,54 @@ pub fn draw(stone: &ConvexStone, index: f64, stop_power: f64) -> VirtualFacets {
         StopCriteria::at_power(stop_power),
         &mut drawing,
     );
-    let mut facets = String::new();
-    for facet in (0..beams.facets().count()).filter(|f| beams.facets().planes[*f].normal.z > 1e-9) {
-        VirtualFacetVisitor::polygon(
-            &mut facets,
-            beams.facets().ring(facet).iter().map(|p| drawing.place(*p)),
-        );
-    }
-    VirtualFacets { svg: drawing.svg(&facets), polygons: drawing.polygons, shares: drawing.shares }
+    let upper = (0..beams.facets().count()).filter(|f| beams.facets().planes[*f].normal.z > 1e-9);
+    let facets = upper.fold(PathData::new(DECIMALS), |path, facet| {
+        path.polygon(beams.facets().ring(facet).iter().map(|p| drawing.place(*p)))
+    });
+    let (polygons, shares) = (drawing.polygons, drawing.shares);
+    VirtualFacets { svg: drawing.drawing(facets).document(), polygons, shares }
 }
 
 impl VirtualFacetVisitor {
-    fn svg(&self, facets: &str) -> String {
+    /// The drawing, with the legend below it.
+    ///
+    /// - `facets`: edges of the facets
+    fn drawing(self, facets: PathData) -> Element {
+        const TITLE: &str = "Virtual facets, face-up, by the strongest light of each point";
+        const LINES: &str = "#333";
         let shown: Vec<usize> = (0..TONES.len()).filter(|t| self.shares[*t] > 5e-4).collect();
-        let (left, width) = (-HALF - MARGIN, 2.0 * (HALF + MARGIN));
-        let height = width + LINE * shown.len() as f64;
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left} {left} {width} {height}\">\n\
-             <title>Virtual facets, face-up, by the strongest light of each point</title>\n\
-             <pattern id=\"h\" width=\"5\" height=\"5\" patternUnits=\"userSpaceOnUse\" \
-             patternTransform=\"rotate(45)\"><rect width=\"5\" height=\"5\" fill=\"#fff\"/>\
-             <rect width=\"1\" height=\"5\" fill=\"#777\"/></pattern>\n\
-             <rect x=\"{left}\" y=\"{left}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n\
-             <g stroke=\"#333\" stroke-linejoin=\"round\">\n"
-        );
-        for (size, paths, line) in [("large", &self.paths[0], 0.35), ("fine", &self.paths[1], 0.06)] {
+        let (corner, width) = (DVec2::splat(-HALF - MARGIN), 2.0 * (HALF + MARGIN));
+        let size = DVec2::new(width, width + LINE * shown.len() as f64);
+        let mut polygons = Element::group().attribute("stroke", LINES).round_joins();
+        for ((size, line), paths) in [("large", 0.35), ("fine", 0.06)].into_iter().zip(self.paths) {
             for ((name, fill, _), path) in TONES.iter().zip(paths).filter(|(_, path)| !path.is_empty()) {
-                let _ = writeln!(
-                    svg,
-                    "<path id=\"{name}-{size}\" fill=\"{fill}\" stroke-width=\"{line}\" d=\"{path}\"/>"
-                );
+                let path = Element::path(path).id(&format!("{name}-{size}"));
+                polygons.push(path.fill(*fill).number("stroke-width", line));
             }
         }
-        let _ = writeln!(
-            svg,
-            "<path id=\"facets\" fill=\"none\" stroke=\"#000\" stroke-width=\"1.6\" d=\"{facets}\"/>\n</g>\n\
-             <g font-family=\"sans-serif\" font-size=\"17\">"
-        );
+        polygons.push(Element::path(facets).id("facets").fill("none").stroke("#000", 1.6));
+        let mut legend = Element::group().attribute("font-family", "sans-serif").font_size(17.0);
         for (line, tone) in shown.into_iter().enumerate() {
             let (_, fill, meaning) = TONES[tone];
             let y = HALF + MARGIN + LINE * line as f64;
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{}\" y=\"{y}\" width=\"34\" height=\"20\" fill=\"{fill}\" stroke=\"#333\"/>\
-                 <text x=\"{}\" y=\"{}\">{:.1} % of the outline: {meaning}</text>",
-                -HALF,
-                46.0 - HALF,
-                y + 16.0,
-                100.0 * self.shares[tone],
-            );
+            legend.push(Element::rect((-HALF, y), (34.0, 20.0)).fill(fill).stroke(LINES, 1.0));
+            let said = format!("{:.1} % of the outline: {meaning}", 100.0 * self.shares[tone]);
+            legend.push(Element::text((46.0 - HALF, y + 16.0), &said));
         }
-        svg + "</g>\n</svg>\n"
+        let hatching = Element::new("pattern")
+            .id("h")
+            .length("width", 5.0)
+            .length("height", 5.0)
+            .attribute("patternUnits", "userSpaceOnUse")
+            .attribute("patternTransform", "rotate(45)")
+            .with(Element::rect((0.0, 0.0), (5.0, 5.0)).fill("#fff"))
+            .with(Element::rect((0.0, 0.0), (1.0, 5.0)).fill("#777"));
+        Element::drawing(corner, size)
+            .with(Element::title(TITLE))
+            .with(hatching)
+            .with(Element::rect(corner, size).fill("#fff"))
+            .with(polygons)
+            .with(legend)
     }
 }
 

@@ -26,7 +26,7 @@ impl Column {
 /// Declares the columns of an estimator as constants, and `COLUMNS`, the list of them all.
 ///
 /// ```
-/// use cutlab::sampling::tally::Tally;
+/// use cutlab::advanced::sampling::tally::Tally;
 ///
 /// cutlab::columns! {
 ///     /// Rays.
@@ -48,12 +48,12 @@ macro_rules! columns {
         enum ColumnNumber { $($name),* }
         $(
             $(#[$about])*
-            pub const $name: $crate::sampling::tally::Column =
-                $crate::sampling::tally::Column::new(ColumnNumber::$name as usize, stringify!($name));
+            pub const $name: $crate::advanced::sampling::tally::Column =
+                $crate::advanced::sampling::tally::Column::new(ColumnNumber::$name as usize, stringify!($name));
         )*
         /// Every column of the tally.
         #[allow(dead_code)] // an estimator that is in no catalogue lists none
-        pub const COLUMNS: [$crate::sampling::tally::Column; [$(stringify!($name)),*].len()] = [$($name),*];
+        pub const COLUMNS: [$crate::advanced::sampling::tally::Column; [$(stringify!($name)),*].len()] = [$($name),*];
     };
 }
 

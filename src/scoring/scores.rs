@@ -33,8 +33,8 @@ pub enum ScoreError {
 /// The scores of one stone, with their errors.
 ///
 /// ```
-/// use cutlab::scoring::{ScoreRequest, Scores};
-/// use cutlab::stone::Stone;
+/// use cutlab::advanced::scoring::{ScoreRequest, Scores};
+/// use cutlab::advanced::stone::Stone;
 ///
 /// let scores: Scores = ScoreRequest::new(["wlr", "iso"]).samples(1 << 12).run(&Stone::parse("tolkowsky")?)?;
 /// assert!((scores["wlr"].value - 0.28).abs() < 0.02);

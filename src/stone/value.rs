@@ -31,12 +31,12 @@ enum Shape {
 /// how large it is.
 ///
 /// ```
-/// use cutlab::stone::Stone;
+/// use cutlab::advanced::stone::Stone;
 ///
 /// let stone = Stone::parse("round-brilliant:crown-angle=35,material=quartz")?.with_width(8.0)?;
 /// assert_eq!(stone.facets(), 73);
 /// assert_eq!(stone.material().name, "quartz");
-/// # Ok::<(), cutlab::stone::StoneError>(())
+/// # Ok::<(), cutlab::advanced::stone::StoneError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Stone {

@@ -212,7 +212,7 @@ fn nearest_in_block<const FUSED: bool>(flats: &PlaneBlock16, p: &Packet, lane: u
     (if distance >= 0.0 { distance } else { f32::INFINITY }, which)
 }
 
-/// The least key with its companion value; of equal keys the one with the least companion.
+/// The least key with the value paired with it; of equal keys the one with the least such value.
 ///
 /// Non-negative floats sort as their bits do, and a minimum of integers can be taken in any order, so that
 /// it vectorises.

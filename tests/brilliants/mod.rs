@@ -2,14 +2,14 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use cutlab::batch::validate::stones;
-use cutlab::batch::validate::stones::STONES;
-use cutlab::design::Design;
-use cutlab::materials::Material;
-use cutlab::metrics::Metric;
-use cutlab::sampling::stats::Estimate;
-use cutlab::scoring::score::{ScoreInput, ScoreRequest, Target, score};
-use cutlab::trace::ConvexStone;
+use cutlab::advanced::batch::validate::stones;
+use cutlab::advanced::batch::validate::stones::STONES;
+use cutlab::advanced::design::Design;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::metrics::Metric;
+use cutlab::advanced::sampling::stats::Estimate;
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, score};
+use cutlab::advanced::trace::ConvexStone;
 
 /// The only seed of these tests.
 pub const SEED: u64 = 1;

@@ -1,7 +1,7 @@
 //! Designs: GemCad's text and binary, Gem Cut Studio, and how all text is encoded.
 
 use super::{encoded, read, refused, warned};
-use cutlab::formats::{self, Loaded};
+use cutlab::advanced::formats::{self, Loaded};
 use std::fmt::Write;
 
 const GEMCAD: &str = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.54\nH Square\na -42 0.5 96 n P 24 48 72 G Meet\n\
@@ -37,7 +37,7 @@ fn gemcad_text_is_words_and_not_lines() {
     ] {
         assert!(GEMCAD.contains(from), "{what}");
         let other = read(what, "x.asc", GEMCAD.replacen(from, to, 1).as_bytes());
-        let off = |(p, q): (cutlab::geometry::Plane, cutlab::geometry::Plane)| {
+        let off = |(p, q): (cutlab::advanced::geometry::Plane, cutlab::advanced::geometry::Plane)| {
             p.normal.distance(q.normal) + (p.distance - q.distance).abs()
         };
         let (mine, its) = (plain.design.planes(), other.design.planes());

@@ -96,9 +96,9 @@ fn a_gltf_is_read_by_what_a_stone_is_made_of() {
 fn a_gltf_is_in_metres() {
     let node = ",\"scale\":[0.002,0.002,0.002]";
     let small = read("4 mm", "x", gltf("", node, "").as_bytes());
-    assert_eq!(small.design.unit, cutlab::design::LengthUnit::Millimetre);
+    assert_eq!(small.design.unit, cutlab::advanced::design::LengthUnit::Millimetre);
     is_octahedron("4 mm", &small, 4.0 / 3.0 * 8.0);
     let large = read("2 m", "x", gltf("", "", "").as_bytes());
-    assert_eq!(large.design.unit, cutlab::design::LengthUnit::Free);
+    assert_eq!(large.design.unit, cutlab::advanced::design::LengthUnit::Free);
     warned("2 m", &large, "2.000 m wide, as no stone is");
 }

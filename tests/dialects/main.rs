@@ -7,8 +7,8 @@ mod gltf;
 mod meshes;
 mod strangers;
 
-use cutlab::formats::{self, Loaded};
-use cutlab::stone::Stone;
+use cutlab::advanced::formats::{self, Loaded};
+use cutlab::advanced::stone::Stone;
 
 fn read(what: &str, name: &str, bytes: &[u8]) -> Loaded {
     formats::read_bytes(name, bytes, None).unwrap_or_else(|e| panic!("{what}: {e}"))

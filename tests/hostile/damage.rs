@@ -3,9 +3,9 @@
 
 use super::targets::{self, FOUND, READ_ONLY};
 use super::{SAMPLES, cutlab};
-use cutlab::formats::{self, FORMATS};
-use cutlab::integrators::animation;
-use cutlab::storage::journal::Journal;
+use cutlab::advanced::formats::{self, FORMATS};
+use cutlab::advanced::integrators::animation;
+use cutlab::advanced::storage::journal::Journal;
 use rayon::prelude::*;
 use std::fs;
 use std::io::Cursor;
@@ -21,7 +21,7 @@ struct Sample {
 }
 
 /// Stones in every format, found by content and as the format that they are; a scene, a photon map with
-/// its checksum put right after the damage and without, tables and their companion.
+/// its checksum put right after the damage and without, tables and their sidecar.
 fn samples() -> Vec<Sample> {
     let mut all = Vec::new();
     let mut add = |what: &str, target: fn(&[u8]), how: Option<u8>, bytes: &[u8]| {
@@ -48,7 +48,7 @@ fn samples() -> Vec<Sample> {
         good(&format!("score -q octahedron cube --metrics weight_ratio -o t.{extension}"));
         add(extension, targets::tables, Some(how as u8), &read(&format!("t.{extension}")));
     }
-    add("companion", targets::tables, Some(3), &read("t.csv.meta.json"));
+    add("sidecar", targets::tables, Some(3), &read("t.csv.meta.json"));
     let sky = image::Rgb32FImage::from_fn(8, 4, |x, y| image::Rgb([x as f32, y as f32 / 9.0, 1.0]));
     for extension in ["hdr", "exr"] {
         let path = folder.path().join(format!("sky.{extension}"));

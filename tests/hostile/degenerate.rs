@@ -1,9 +1,9 @@
 //! Planes that meet too well, hardly, or not at all: a correct solid of the known volume, however they
 //! are shuffled and turned, or an error that says what is wrong.
 
-use cutlab::design::library;
-use cutlab::geometry::polyhedron::PlaneStatus;
-use cutlab::geometry::{Plane, Polyhedron, SolidError};
+use cutlab::advanced::design::library;
+use cutlab::advanced::geometry::polyhedron::PlaneStatus;
+use cutlab::advanced::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DVec3, EulerRot};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap};

@@ -2,7 +2,7 @@
 //! entities that would expand. The program runs with a gigabyte of address space and says one line.
 
 use super::cutlab;
-use cutlab::{formats, limits};
+use cutlab::advanced::{formats, limits};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -303,7 +303,7 @@ fn tables_that_are_read_back_are_limited() {
             );
             assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
         }
-        // a row without end, with the checksum in the companion put right
+        // a row without end, with the checksum in the sidecar put right
         let row = if extension == "csv" { "\"" } else { "{" };
         let table = [
             fs::read(at(&format!("1-2.{extension}"))).expect("is there"),

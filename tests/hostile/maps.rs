@@ -3,7 +3,7 @@
 
 use super::cutlab;
 use super::limits::refused;
-use cutlab::photons::map_file::VERSION;
+use cutlab::advanced::photons::map_file::VERSION;
 use std::fs;
 
 const RENDER: &str =

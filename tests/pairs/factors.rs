@@ -2,7 +2,7 @@
 
 use crate::samples;
 use clap::{Arg, Command};
-use cutlab::design::families::FAMILIES;
+use cutlab::advanced::design::families::FAMILIES;
 
 /// An option, or the arguments without a name.
 #[derive(Debug, Clone)]

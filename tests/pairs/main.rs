@@ -35,7 +35,7 @@ use search::Search;
 fn commands() -> Vec<clap::Command> {
     let asked = std::env::var("PAIRS").ok();
     let is_asked = |name: &str| asked.as_ref().is_none_or(|all| all.split(',').any(|n| n.trim() == name));
-    let mut command = cutlab::cli::command();
+    let mut command = cutlab::advanced::cli::command();
     command.build();
     command.get_subcommands().filter(|c| c.get_name() != "help" && is_asked(c.get_name())).cloned().collect()
 }

@@ -50,7 +50,7 @@ fn table(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
         faults.push(fault("exit code 0 or 2", "1 without an error in any row"));
     }
     if let Some(name) = name {
-        faults.extend(companion(name, bytes, &rows, ran));
+        faults.extend(sidecar(name, bytes, &rows, ran));
     }
     if case.command == "merge" {
         faults.extend(whole(case, &rows, inputs));
@@ -90,9 +90,9 @@ fn table(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     faults
 }
 
-/// What the companion of a table says of it, against what it is.
-fn companion(table: &Path, bytes: &[u8], rows: &[Row], ran: &Ran) -> Option<Fault> {
-    let wrong = |found: String| Some(fault("the companion is of its table", found));
+/// What the sidecar of a table says of it, against what it is.
+fn sidecar(table: &Path, bytes: &[u8], rows: &[Row], ran: &Ran) -> Option<Fault> {
+    let wrong = |found: String| Some(fault("the sidecar is of its table", found));
     let name = format!("{}.meta.json", table.display());
     let Some(meta) = ran.files.get(Path::new(&name)) else { return wrong(format!("no {name}")) };
     let meta: Value = match serde_json::from_slice(meta) {

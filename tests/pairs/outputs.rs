@@ -62,17 +62,17 @@ fn standard_output(case: &Case, ran: &Ran, inputs: &Inputs) -> Option<Fault> {
     (answers && ran.stdout.is_empty()).then(|| fault("what is asked is answered", "standard output is empty"))
 }
 
-/// Whether `path` was written for the name asked for: itself, its companion, in it, numbered, or one for
+/// Whether `path` was written for the name asked for: itself, its sidecar, in it, numbered, or one for
 /// each metric or pass.
 fn is_of(name: &Path, path: &Path) -> bool {
     let stem = name.file_stem().unwrap_or_default().to_string_lossy();
     let stem = stem.split('%').next().unwrap_or_default();
     let like = path.extension() == name.extension()
         && path.file_name().is_some_and(|n| n.to_string_lossy().starts_with(stem));
-    path.starts_with(name) || like || path.as_os_str() == companion(name).as_os_str()
+    path.starts_with(name) || like || path.as_os_str() == sidecar(name).as_os_str()
 }
 
-fn companion(table: &Path) -> PathBuf {
+fn sidecar(table: &Path) -> PathBuf {
     let mut name = table.as_os_str().to_owned();
     name.push(".meta.json");
     name.into()

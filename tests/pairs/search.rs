@@ -40,7 +40,7 @@ pub struct Search<'a> {
 impl<'a> Search<'a> {
     /// Nothing is known yet.
     pub fn new(command: &'a str, factors: Vec<Factor>, inputs: &'a Inputs) -> Search<'a> {
-        let mut parser = cutlab::cli::command();
+        let mut parser = cutlab::advanced::cli::command();
         parser.build();
         Search {
             command,

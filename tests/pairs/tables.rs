@@ -1,6 +1,6 @@
 //! Tables read back, and what must hold of their cells.
 
-use cutlab::metrics::{METRICS, Metric, MetricSource};
+use cutlab::advanced::metrics::{METRICS, Metric, MetricSource};
 use serde_json::Value;
 use std::collections::BTreeMap;
 

@@ -2,9 +2,9 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use cutlab::integrators::{self, PhotonMaps, Tone, ToneCurve};
-use cutlab::photons::{self, PhotonSets};
-use cutlab::scene::{Scene, SceneFile, SceneOverrides};
+use cutlab::advanced::integrators::{self, PhotonMaps, Tone, ToneCurve};
+use cutlab::advanced::photons::{self, PhotonSets};
+use cutlab::advanced::scene::{Scene, SceneFile, SceneOverrides};
 use std::path::Path;
 
 pub const SMALL: [&str; 8] = ["--width", "16", "--spp", "1", "--photons", "200", "--nearest", "10"];

@@ -1,10 +1,10 @@
 //! Energy: what enters leaves or is counted as lost, in lanes and in the twin.
 
 use crate::stones::*;
-use cutlab::design::library;
-use cutlab::materials;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::{ConvexStone, LANES, Packet, reference};
+use cutlab::advanced::design::library;
+use cutlab::advanced::materials;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::{ConvexStone, LANES, Packet, reference};
 use std::collections::BTreeMap;
 
 /// Entered = left + given up, lane by lane, and the tracer's own total of what it gave up; with

@@ -3,13 +3,13 @@
 
 use crate::energy::assert_energy;
 use crate::stones::*;
-use cutlab::design::library;
-use cutlab::optics::fresnel::FresnelCoefficients;
-use cutlab::sampling::{
+use cutlab::advanced::design::library;
+use cutlab::advanced::optics::fresnel::FresnelCoefficients;
+use cutlab::advanced::sampling::{
     random::{Purpose, Stream},
     warps,
 };
-use cutlab::trace::{ConvexStone, Isa, LANES, Packet, reference};
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 

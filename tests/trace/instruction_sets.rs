@@ -1,9 +1,11 @@
 //! Scalar, portable, AVX2 and AVX-512 traces of the same rays.
 
 use crate::stones::*;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::beams::{BeamExit, BeamVisitor, Beams, IncidentBeam, StopCriteria, UnpolarisedLight};
-use cutlab::trace::{ConvexStone, Isa, LANES, reference};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::beams::{
+    BeamExit, BeamVisitor, Beams, IncidentBeam, StopCriteria, UnpolarisedLight,
+};
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, reference};
 use glam::{DVec3, Vec3};
 
 const PACKETS: usize = 400;

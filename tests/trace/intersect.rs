@@ -1,9 +1,9 @@
 //! The next facet and the first one against brute force in `f64`, on random convex stones.
 
 use crate::stones::*;
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::{ConvexStone, Isa, LANES, NO_FACET, Packet, reference};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::{ConvexStone, Isa, LANES, NO_FACET, Packet, reference};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -1,12 +1,12 @@
 //! Stones with concavities: convex ones as the twin traces them, energy, and chance without bias.
 
 use crate::stones::*;
-use cutlab::geometry::triangulation::TriangleMesh;
-use cutlab::optics::fresnel::FresnelCoefficients;
-use cutlab::optics::stokes::Stokes;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::nonconvex::{MeshError, MeshStone, Side};
-use cutlab::trace::{ConvexStone, LANES, reference};
+use cutlab::advanced::geometry::triangulation::TriangleMesh;
+use cutlab::advanced::optics::fresnel::FresnelCoefficients;
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::nonconvex::{MeshError, MeshStone, Side};
+use cutlab::advanced::trace::{ConvexStone, LANES, reference};
 use glam::DVec3;
 
 pub const N: f64 = 2.417;

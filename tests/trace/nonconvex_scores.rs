@@ -2,16 +2,18 @@
 
 use crate::nonconvex::{N, dented_cube, notched_prism, tree, triangles_of};
 use crate::stones::*;
-use cutlab::estimators::nonconvex::{NonconvexHemisphere, NonconvexView};
-use cutlab::estimators::view::{ObserverDome, ViewerLighting};
-use cutlab::estimators::{BatchedEstimate, Hemisphere, TraceOptics, View, ViewFrame, hemisphere, view};
-use cutlab::materials::Material;
-use cutlab::sampling::kronecker::KroneckerPoints;
-use cutlab::sampling::random::Purpose;
-use cutlab::sampling::tally::Tally;
-use cutlab::trace::ConvexStone;
-use cutlab::trace::nonconvex::MeshStone;
-use cutlab::trace::reference;
+use cutlab::advanced::estimators::nonconvex::{NonconvexHemisphere, NonconvexView};
+use cutlab::advanced::estimators::view::{ObserverDome, ViewerLighting};
+use cutlab::advanced::estimators::{
+    BatchedEstimate, Hemisphere, TraceOptics, View, ViewFrame, hemisphere, view,
+};
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::sampling::kronecker::KroneckerPoints;
+use cutlab::advanced::sampling::random::Purpose;
+use cutlab::advanced::sampling::tally::Tally;
+use cutlab::advanced::trace::ConvexStone;
+use cutlab::advanced::trace::nonconvex::MeshStone;
+use cutlab::advanced::trace::reference;
 use glam::DVec3;
 
 /// Sums of the dome that scores read, per power that arrives.
@@ -61,8 +63,8 @@ fn a_convex_mesh_scores_as_the_stone_does_in_lanes() {
             b.extend_to(1 << 14);
             let close = |what: &str,
                          number: usize,
-                         a: cutlab::sampling::stats::Estimate,
-                         b: cutlab::sampling::stats::Estimate| {
+                         a: cutlab::advanced::sampling::stats::Estimate,
+                         b: cutlab::advanced::sampling::stats::Estimate| {
                 let within = 4.5 * a.error.hypot(b.error) + 2e-5 * width;
                 assert!(
                     (a.value - b.value).abs() < within,
@@ -159,7 +161,8 @@ fn luminance_of_a_nonconvex_stone_is_that_of_a_tree_of_rays() {
         for [a, b] in KroneckerPoints::<2>::new(SEED, Purpose::TEST, 930, 0..SIGHTS) {
             let point = DVec3::new(2.0 * a - 1.0, 2.0 * b - 1.0, 3.0);
             let ray = crate::nonconvex::falling(point, -DVec3::Z, polarised);
-            if stone.next_facet(point, -DVec3::Z, cutlab::trace::nonconvex::Side::Outside).is_some() {
+            if stone.next_facet(point, -DVec3::Z, cutlab::advanced::trace::nonconvex::Side::Outside).is_some()
+            {
                 let [up, cut] = tree(&triangles, reference::ScalarRay { index: N, ..ray }, 1e-5);
                 ups.push(up);
                 open += cut;

@@ -2,12 +2,12 @@
 //! the square of the index for a direction inside.
 
 use crate::stones::*;
-use cutlab::optics::stokes::Stokes;
-use cutlab::sampling::{
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::sampling::{
     random::{Purpose, Stream},
     warps,
 };
-use cutlab::trace::{ConvexStone, LANES, Packet, reference};
+use cutlab::advanced::trace::{ConvexStone, LANES, Packet, reference};
 use glam::{DVec3, Vec3};
 
 /// A way through the stone: where it starts and ends outside, and the share of power that takes it.
@@ -24,7 +24,7 @@ fn ways_of_twin(stone: &ConvexStone, point: DVec3, toward: DVec3, facet: usize, 
     let n = f64::from(DIAMOND);
     let normal = stone.planes[facet].normal;
     let cos = -toward.dot(normal);
-    let facing = cutlab::optics::fresnel::FresnelCoefficients::new(cos, n);
+    let facing = cutlab::advanced::optics::fresnel::FresnelCoefficients::new(cos, n);
     let inside = (toward / n + normal * (cos / n - facing.cos_t)).normalize();
     let power = 1.0 - facing.unpolarised_reflectance();
     let light = Stokes::unpolarised(1.0, toward.any_orthonormal_vector());

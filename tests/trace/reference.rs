@@ -1,9 +1,9 @@
 //! Lanes against the `f64` twin over whole traces.
 
 use crate::stones::*;
-use cutlab::geometry::Plane;
-use cutlab::sampling::random::{Purpose, Stream};
-use cutlab::trace::{ConvexStone, LANES, reference};
+use cutlab::advanced::geometry::Plane;
+use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::trace::{ConvexStone, LANES, reference};
 
 /// A facet may win over the nearest one if it is nearer than this behind it (trace units: the
 /// stone's radius is 1): distances are good to 1e-7 over the cosine of incidence.

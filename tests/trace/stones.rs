@@ -1,13 +1,13 @@
 //! Stones and rays that the tests of the tracer share.
 
-use cutlab::design::families;
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::optics::stokes::Stokes;
-use cutlab::sampling::{
+use cutlab::advanced::design::families;
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::optics::stokes::Stokes;
+use cutlab::advanced::sampling::{
     random::{Purpose, Stream},
     warps,
 };
-use cutlab::trace::{ConvexStone, LANES, Packet, reference};
+use cutlab::advanced::trace::{ConvexStone, LANES, Packet, reference};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 

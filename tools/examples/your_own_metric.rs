@@ -3,8 +3,8 @@
 //! `cargo run --release --example your_own_metric`. `tests/extending.rs` has one on a sum of its own, and an
 //! estimator.
 
-use cutlab::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};
-use cutlab::metrics::{MetricSource, Statistic};
+use cutlab::advanced::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};
+use cutlab::advanced::metrics::{MetricSource, Statistic};
 use cutlab::prelude::*;
 
 static GLARE_PER_RETURN: Metric = Metric {

@@ -5,20 +5,20 @@
 
 #![allow(dead_code)] // every binary uses one of them
 
-use cutlab::batch::sidecar::TableMeta;
-use cutlab::batch::table::{NumericColumns, RowReader, TableFormat};
-use cutlab::color::Illuminant;
-use cutlab::design::Design;
-use cutlab::design::families::{self, FAMILIES};
-use cutlab::formats::{self, FORMATS, FormatError, Input, ParsedShape, triangle_mesh};
-use cutlab::geometry::{Plane, Polyhedron};
-use cutlab::limits::Limits;
-use cutlab::materials::Material;
-use cutlab::photons::map_file;
-use cutlab::scene::panorama::Panorama;
-use cutlab::scene::scene_mesh::SceneMesh;
-use cutlab::scene::surface::SurfaceHit;
-use cutlab::scene::{SceneFile, SceneOverrides};
+use cutlab::advanced::batch::sidecar::TableMeta;
+use cutlab::advanced::batch::table::{NumericColumns, RowReader, TableFormat};
+use cutlab::advanced::color::Illuminant;
+use cutlab::advanced::design::Design;
+use cutlab::advanced::design::families::{self, FAMILIES};
+use cutlab::advanced::formats::{self, FORMATS, FormatError, Input, ParsedShape, triangle_mesh};
+use cutlab::advanced::geometry::{Plane, Polyhedron};
+use cutlab::advanced::limits::Limits;
+use cutlab::advanced::materials::Material;
+use cutlab::advanced::photons::map_file;
+use cutlab::advanced::scene::panorama::Panorama;
+use cutlab::advanced::scene::scene_mesh::SceneMesh;
+use cutlab::advanced::scene::surface::SurfaceHit;
+use cutlab::advanced::scene::{SceneFile, SceneOverrides};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -302,7 +302,7 @@ fn photon_map(rest: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// What tables of scores and their companions are read back from.
+/// What tables of scores and their sidecars are read back from.
 pub fn tables(data: &[u8]) {
     let Some((how, bytes)) = data.split_first() else { return };
     if how % 4 == 3 {

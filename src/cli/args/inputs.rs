@@ -72,7 +72,7 @@ pub fn expanded(arguments: &[OsString]) -> Result<Vec<OsString>, CliError> {
     Ok(all)
 }
 
-/// The tables that `merge` joins: of what a pattern matches, neither companions nor whole tables.
+/// The tables that `merge` joins: of what a pattern matches, neither sidecars nor whole tables.
 pub fn parts(arguments: &[OsString]) -> Result<Vec<PathBuf>, CliError> {
     let is_whole = |table: &Path| {
         TableMeta::read(&TableMeta::find_for(table), limits()).is_ok_and(|meta| meta.shard.is_none())
@@ -81,7 +81,7 @@ pub fn parts(arguments: &[OsString]) -> Result<Vec<PathBuf>, CliError> {
     for argument in arguments {
         if is_pattern(argument) {
             let mut found = matching(argument)?;
-            found.retain(|table| !TableMeta::is_companion(table) && !is_whole(table));
+            found.retain(|table| !TableMeta::is_sidecar(table) && !is_whole(table));
             if found.is_empty() {
                 let pattern = stone::display_name(argument);
                 return Err(CliError::input(format!("no part of a table matches {pattern}")));
@@ -158,10 +158,10 @@ fn match_below(
 }
 
 /// Whether a file that a folder holds is to be read as a stone: not what cutlab itself writes beside
-/// one, nor a table that has its companion.
+/// one, nor a table that has its sidecar.
 pub fn is_meant_as_stone(file: &Path) -> bool {
     file.is_dir()
-        || (!TableMeta::is_companion(file)
+        || (!TableMeta::is_sidecar(file)
             && formats::is_meant_as_stone(file, limits())
             && !TableMeta::exists_for(file))
 }

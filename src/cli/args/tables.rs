@@ -228,7 +228,7 @@ impl TableCommand<'_> {
         (table.shard != Shard::WHOLE).then_some(table.shard)
     }
 
-    /// Takes the places of the table and its companion.
+    /// Takes the places of the table and its sidecar.
     ///
     /// - `begun`: whether an earlier start of the same command left its progress there
     fn claim(&self, table: &TableArgs, begun: bool, outputs: &mut Outputs) -> Result<(), CliError> {
@@ -267,9 +267,9 @@ impl Write for Tee {
     }
 }
 
-/// Takes the places of a table and of its companion.
+/// Takes the places of a table and of its sidecar.
 ///
-/// - `is_of`: whether a companion that is there is one of this table
+/// - `is_of`: whether a sidecar that is there is one of this table
 /// - `begun`: whether an earlier start of the same command left its progress there
 pub fn claim_table(
     output: &Path,
@@ -278,8 +278,8 @@ pub fn claim_table(
     begun: bool,
     outputs: &mut Outputs,
 ) -> Result<(), CliError> {
-    // a kill may have come between the new companion and the new table
-    let says_so = |companion: &Path| TableMeta::read(companion, limits()).is_ok_and(|meta| is_of(&meta));
+    // a kill may have come between the new sidecar and the new table
+    let says_so = |sidecar: &Path| TableMeta::read(sidecar, limits()).is_ok_and(|meta| is_of(&meta));
     let is_own = |there: &Path| {
         TableMeta::belongs_to(there, is_of, shard, limits())
             || (begun && says_so(&TableMeta::find_for(there)))

@@ -5,7 +5,7 @@ use crate::cli::terminal_table;
 use crate::design::proportions;
 use crate::materials::weight::Weight;
 use crate::metrics::Better;
-use crate::report::estimates::estimate_text;
+use crate::report::estimates::plus;
 use crate::report::{ReportRequest, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::Comparison;
@@ -113,9 +113,7 @@ impl Compared<'_> {
             line.extend((1..stones).map(|s| {
                 let d = self.difference(s, m);
                 let shown = d.map_or_else(|| terminal_table::NONE.into(), terminal_table::format_estimate);
-                let is_zero = d.is_none_or(|e| estimate_text(e).0.parse() == Ok(0.0));
-                let sign = if d.is_some_and(|e| e.value > 0.0) && !is_zero { "+" } else { "" };
-                format!("{sign}{shown}{}", self.mark(s, m))
+                format!("{}{shown}{}", d.map_or("", plus), self.mark(s, m))
             }));
             line.extend([metric.unit, metric.better.word()].map(String::from));
             lines.push(line);

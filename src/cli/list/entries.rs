@@ -1,7 +1,7 @@
 //! The entries of each catalogue.
 
 use super::CatalogueEntry;
-use crate::cli::wrap;
+use crate::cli::{terminal_table, wrap};
 use crate::color::illuminants::ILLUMINANTS;
 use crate::color::{Illuminant, cie};
 use crate::design::design_file::DesignFile;
@@ -22,14 +22,10 @@ const WIDTH: usize = 84;
 
 /// A name and lines with labels.
 fn block(head: &str, lines: &[(&str, String)]) -> String {
-    let label = lines.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
-    let mut out = format!("{head}\n");
-    for (name, text) in lines.iter().filter(|(_, text)| !text.is_empty()) {
-        for (i, line) in wrap::lines(text, WIDTH).iter().enumerate() {
-            out += &format!("    {:label$}  {line}\n", if i == 0 { name } else { "" });
-        }
-    }
-    out
+    let rows = lines.iter().filter(|(_, text)| !text.is_empty());
+    let rows = rows.map(|(label, text)| (*label, wrap::lines(text, WIDTH).join("\n")));
+    let least = lines.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
+    format!("{head}\n{}", terminal_table::labelled(rows, 4, u16::try_from(least).unwrap_or(0)))
 }
 
 /// Scores.

@@ -1,5 +1,6 @@
 //! A mesh that is no convex stone, as `cutlab show` tells of it.
 
+use super::sheet;
 use crate::design::LengthUnit;
 use crate::stone::Stone;
 use crate::storage::terminal::in_line;
@@ -52,19 +53,15 @@ impl MeshSheet {
         let side = |a: usize| format!("{:.6}", high[a] - low[a]);
         let (unit, of_volume) =
             if self.unit == "file" { ("", " in the file's own unit") } else { (" mm", " mm³") };
-        format!(
-            "{} ({})\n  facets          {} in {} triangles, {}\n  box             {} × {} × {}{unit}\n  volume          \
-             {:.6}{of_volume}\n  closed          yes\n  convex          no\n  note            {}\n",
-            in_line(&self.file),
-            self.format,
-            self.facets,
-            self.triangles,
-            if self.parts == 1 { "one part".into() } else { format!("{} parts", self.parts) },
-            side(0),
-            side(1),
-            side(2),
-            self.volume,
-            self.reason
-        )
+        let parts = if self.parts == 1 { "one part".into() } else { format!("{} parts", self.parts) };
+        let lines = vec![
+            ("facets", format!("{} in {} triangles, {parts}", self.facets, self.triangles)),
+            ("box", format!("{} × {} × {}{unit}", side(0), side(1), side(2))),
+            ("volume", format!("{:.6}{of_volume}", self.volume)),
+            ("closed", "yes".into()),
+            ("convex", "no".into()),
+            ("note", self.reason.clone()),
+        ];
+        format!("{} ({})\n{}", in_line(&self.file), self.format, sheet::text(lines))
     }
 }

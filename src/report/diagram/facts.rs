@@ -1,9 +1,10 @@
 //! What stands above and below the drawings: title, the design file's own lines, the figures.
 
 use super::rows::{self, DiagramRow};
-use super::svg_canvas::{Anchor, SvgCanvas, fitted, wrapped};
+use super::sheet::{Sheet, fitted, wrapped};
 use crate::design::proportions::Proportions;
 use crate::design::{Design, LengthUnit};
+use crate::report::svg_canvas::Anchor;
 use glam::DVec2;
 
 /// Font sizes in mm.
@@ -32,7 +33,7 @@ impl TextLines {
     }
 
     /// Draws them with their upper left corner at `corner`.
-    pub fn draw(&self, pen: &mut SvgCanvas, corner: DVec2) {
+    pub fn draw(&self, pen: &mut Sheet, corner: DVec2) {
         let mut y = corner.y;
         for (size, bold, text) in &self.lines {
             y += size * LEAD;

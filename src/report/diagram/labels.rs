@@ -1,6 +1,6 @@
 //! Names inside facets: the largest that fits, in the middle of the room there is for it.
 
-use super::svg_canvas::CAPITAL;
+use super::sheet::CAPITAL;
 use crate::report::raster::text_width;
 use glam::DVec2;
 

@@ -2,8 +2,8 @@
 
 use crate::design::Zone;
 use crate::geometry::Polyhedron;
+use crate::report::svg_canvas::{Element, PathData};
 use glam::{DVec2, DVec3};
-use std::fmt::Write;
 
 /// A direction to look from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,20 +75,13 @@ impl DiagramView {
 }
 
 /// Closed polygons as path data, to a hundredth of the unit.
-pub fn path<'a>(polygons: impl IntoIterator<Item = &'a [DVec2]>) -> String {
-    let mut data = String::new();
-    for polygon in polygons {
-        for (i, p) in polygon.iter().enumerate() {
-            let _ = write!(data, "{}{:.2} {:.2}", if i == 0 { "M" } else { "L" }, p.x, p.y);
-        }
-        data.push('Z');
-    }
-    data
+pub fn path<'a>(polygons: impl IntoIterator<Item = &'a [DVec2]>) -> PathData {
+    polygons.into_iter().fold(PathData::new(2), |path, corners| path.polygon(corners.iter().copied()))
 }
 
-/// One view as a self-contained `<svg>` element in the page's own colour, without names. All views
-/// of a stone share one scale: 200 units are its greatest extent in plan.
-pub fn svg(solid: &Polyhedron, view: DiagramView) -> String {
+/// One view as a drawing in the colour of the page that it stands in, without names. All views of a stone
+/// share one scale: 200 units are its greatest extent in plan.
+pub fn drawing(solid: &Polyhedron, view: DiagramView) -> Element {
     const WIDTH: f64 = 200.0;
     const MARGIN: f64 = 4.0;
     let (lo, hi) = solid.bounds();
@@ -98,14 +91,9 @@ pub fn svg(solid: &Polyhedron, view: DiagramView) -> String {
     let extent = place(view.project(lo)).abs() + MARGIN;
     let placed: Vec<Vec<DVec2>> =
         view.facets(solid).iter().map(|f| f.corners.iter().map(|p| place(*p)).collect()).collect();
-    format!(
-        "<svg viewBox=\"{:.1} {:.1} {:.1} {:.1}\" role=\"img\" aria-label=\"{}\">\
-         <path d=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\".7\" stroke-linejoin=\"round\"/></svg>",
-        -extent.x,
-        -extent.y,
-        2.0 * extent.x,
-        2.0 * extent.y,
-        view.name(),
-        path(placed.iter().map(Vec::as_slice)),
-    )
+    let lines = Element::path(path(placed.iter().map(Vec::as_slice)));
+    Element::drawing(-extent, 2.0 * extent)
+        .attribute("role", "img")
+        .attribute("aria-label", view.name())
+        .with(lines.fill("none").stroke("currentColor", 0.7).round_joins())
 }

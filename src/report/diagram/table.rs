@@ -2,8 +2,9 @@
 //! with a word on what is missing if even the smallest print is too large.
 
 use super::rows::DiagramRow;
-use super::svg_canvas::{Anchor, SvgCanvas, fitted, width, wrapped};
+use super::sheet::{Sheet, fitted, width, wrapped};
 use crate::design::{Gear, Zone};
+use crate::report::svg_canvas::Anchor;
 use glam::DVec2;
 
 /// Font sizes from the largest to the smallest that a cutter still reads, in mm (9.1 to 5.1 points).
@@ -167,7 +168,7 @@ fn distribute(blocks: Vec<TableBlock>, halves: usize, most: usize) -> (Vec<Vec<T
 
 impl TypesetTable {
     /// Draws it with its upper left corner at `corner`.
-    pub fn draw(&self, pen: &mut SvgCanvas, corner: DVec2) {
+    pub fn draw(&self, pen: &mut Sheet, corner: DVec2) {
         let (size, lead) = (self.size, self.size * LEAD);
         let mut lowest = corner.y;
         for (half, blocks) in self.halves.iter().filter(|b| !b.is_empty()).enumerate() {
@@ -203,7 +204,7 @@ impl TypesetTable {
         }
     }
 
-    fn cell(&self, pen: &mut SvgCanvas, left: f64, y: f64, column: usize, bold: bool, text: &str) {
+    fn cell(&self, pen: &mut Sheet, left: f64, y: f64, column: usize, bold: bool, text: &str) {
         // angle and number stand to the right
         let right = matches!(column, 1 | 2);
         let x = if right { self.lefts[column + 1] - GAP * self.size } else { self.lefts[column] };

@@ -3,11 +3,12 @@
 use super::labels;
 use super::projection::{self, DiagramView, VisibleFacet};
 use super::rows::{DiagramRow, LISTED};
-use super::svg_canvas::{FACET, OUTLINE, SvgCanvas};
+use super::sheet::{self, FACET, OUTLINE, Sheet};
 use super::wheel;
 use crate::design::{Gear, Zone};
 use crate::geometry::Polyhedron;
 use crate::geometry::measure::convex_hull;
+use crate::report::svg_canvas::Element;
 use glam::{DVec2, DVec3};
 
 /// Size of names on the girdle in mm, and how many of a tier are named there.
@@ -75,7 +76,7 @@ impl<'a> StoneViews<'a> {
 
     /// A plan with its wheel, `side` mm wide, its middle at `at`; the codes of tiers that are too
     /// small for a name there are given back.
-    pub fn plan(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, side: f64) -> Vec<&'a str> {
+    pub fn plan(&self, pen: &mut Sheet, view: DiagramView, at: DVec2, side: f64) -> Vec<&'a str> {
         let placed = self.placed(view, at, self.scale(side));
         let side_of = |zone| match view {
             DiagramView::Pavilion => matches!(zone, Zone::Pavilion | Zone::Culet | Zone::Girdle),
@@ -93,23 +94,23 @@ impl<'a> StoneViews<'a> {
     }
 
     /// A side view, its middle at `at`.
-    pub fn side(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, scale: f64) {
+    pub fn side(&self, pen: &mut Sheet, view: DiagramView, at: DVec2, scale: f64) {
         let placed = self.placed(view, at, scale);
         self.lines(pen, &placed);
         self.names(pen, &placed);
     }
 
-    fn lines(&self, pen: &mut SvgCanvas, placed: &PlacedView) {
+    fn lines(&self, pen: &mut Sheet, placed: &PlacedView) {
         let name = placed.view.name();
         let facets = projection::path(placed.facets.iter().map(|f| f.corners.as_slice()));
-        pen.named_lines(&format!("{name}-facets"), &facets, FACET);
-        pen.named_lines(&format!("{name}-outline"), &projection::path([placed.outline.as_slice()]), OUTLINE);
+        pen.named_lines(&format!("{name}-facets"), facets, FACET);
+        pen.named_lines(&format!("{name}-outline"), projection::path([placed.outline.as_slice()]), OUTLINE);
     }
 
     /// The codes of the tiers inside their facets; those that found no room are given back.
-    fn names(&self, pen: &mut SvgCanvas, placed: &PlacedView) -> Vec<&'a str> {
+    fn names(&self, pen: &mut Sheet, placed: &PlacedView) -> Vec<&'a str> {
         let mut nowhere = Vec::new();
-        pen.group(&format!("{}-names", placed.view.name()));
+        let mut names = Element::group().id(&format!("{}-names", placed.view.name()));
         for (number, row) in self.rows.iter().enumerate() {
             let own = placed.facets.iter().filter(|f| self.row_of[f.face] == Some(number));
             let polygons: Vec<&[DVec2]> = own.map(|f| f.corners.as_slice()).collect();
@@ -122,15 +123,15 @@ impl<'a> StoneViews<'a> {
             if labels.is_empty() && !polygons.is_empty() {
                 nowhere.push(row.code.as_str());
             }
-            labels.iter().for_each(|l| pen.name(l.at, l.size, l.along, &row.code));
+            labels.iter().for_each(|l| names.push(sheet::name(l.at, l.size, l.along, &row.code)));
         }
-        pen.end();
+        pen.push(names);
         nowhere
     }
 
     /// The codes of girdle facets outside the edges that they are in a plan. Where a name would run
     /// into another it is left out, but every tier has its first.
-    fn girdle_names(&self, pen: &mut SvgCanvas, view: DiagramView, at: DVec2, scale: f64) {
+    fn girdle_names(&self, pen: &mut Sheet, view: DiagramView, at: DVec2, scale: f64) {
         let mut boxes: Vec<(DVec2, DVec2)> = Vec::new();
         let rows = self.rows.iter().filter(|r| r.zone == Zone::Girdle);
         let most = rows.clone().map(|r| r.faces.len()).max().unwrap_or_default();
@@ -150,7 +151,7 @@ impl<'a> StoneViews<'a> {
                     gap.max_element() > 0.5
                 };
                 if boxes.iter().all(apart) {
-                    pen.name(middle, GIRDLE, DVec2::X, &row.code);
+                    pen.push(sheet::name(middle, GIRDLE, DVec2::X, &row.code));
                     boxes.push((middle, half));
                 }
             }

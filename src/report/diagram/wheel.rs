@@ -1,11 +1,11 @@
 //! The index wheel around a plan: ticks, numbers, and a longer tick at every index that is cut.
 
 use super::projection::DiagramView;
-use super::svg_canvas::{Anchor, CAPITAL, HAIR, SvgCanvas, width};
+use super::sheet::{CAPITAL, DECIMALS, HAIR, Sheet, width};
 use crate::design::Gear;
+use crate::report::svg_canvas::{Anchor, PathData};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 /// Font size of the numbers, in mm.
 const NUMBER: f64 = 2.2;
@@ -53,7 +53,7 @@ fn step(teeth: usize, radius: f64) -> usize {
 ///
 /// - `radius`: of the ring, in mm
 /// - `cut`: the indices of the tiers in this view
-pub fn draw(pen: &mut SvgCanvas, gear: Gear, view: DiagramView, centre: DVec2, radius: f64, cut: &[f64]) {
+pub fn draw(pen: &mut Sheet, gear: Gear, view: DiagramView, centre: DVec2, radius: f64, cut: &[f64]) {
     let teeth = gear.teeth.abs().round() as usize;
     if !(1..=10_000).contains(&teeth) {
         return;
@@ -61,25 +61,17 @@ pub fn draw(pen: &mut SvgCanvas, gear: Gear, view: DiagramView, centre: DVec2, r
     let step = step(teeth, radius);
     // a tick for every tooth, unless they would run into one another
     let every = if TAU * radius / teeth as f64 >= 0.8 { 1 } else { step };
-    let mut ticks = format!(
-        "M{:.2} {:.2}a{radius:.2} {radius:.2} 0 1 0 {:.2} 0a{radius:.2} {radius:.2} 0 1 0 {:.2} 0Z",
-        centre.x - radius,
-        centre.y,
-        2.0 * radius,
-        -2.0 * radius
-    );
-    let tick = |index: f64, from: f64, to: f64| {
+    let tick = |path: PathData, index: f64, from: f64, to: f64| {
         let d = towards(index, gear, view);
-        let (a, b) = (centre + d * (radius + from), centre + d * (radius + to));
-        format!("M{:.2} {:.2}L{:.2} {:.2}", a.x, a.y, b.x, b.y)
+        path.line([from, to].map(|out| centre + d * (radius + out)))
     };
-    for tooth in (0..teeth).step_by(every) {
-        let long = tooth.is_multiple_of(step);
-        let _ = write!(ticks, "{}", tick(tooth as f64, 0.0, if long { 1.5 } else { 0.8 }));
-    }
-    let used: String = cut.iter().map(|i| tick(*i, -INSIDE, 0.0)).collect();
-    pen.lines(&ticks, HAIR);
-    pen.named_lines(&format!("{}-indices", view.name()), &used, CUT);
+    let ticks =
+        (0..teeth).step_by(every).fold(PathData::new(DECIMALS).circle(centre, radius), |path, tooth| {
+            tick(path, tooth as f64, 0.0, if tooth.is_multiple_of(step) { 1.5 } else { 0.8 })
+        });
+    let used = cut.iter().fold(PathData::new(DECIMALS), |path, index| tick(path, *index, -INSIDE, 0.0));
+    pen.lines(ticks, HAIR);
+    pen.named_lines(&format!("{}-indices", view.name()), used, CUT);
     for tooth in (0..teeth).step_by(step) {
         let name = index_name(tooth as f64, gear);
         let half = DVec2::new(0.5 * width(&name, NUMBER, false), 0.5 * CAPITAL * NUMBER);

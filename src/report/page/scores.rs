@@ -2,10 +2,9 @@
 
 use crate::metrics::Better;
 use crate::report::estimates::estimate_html;
-use crate::report::html::escaped;
 use crate::report::references::STONES;
 use crate::sampling::stats::Estimate;
-use std::fmt::Write;
+use maud::{Markup, html};
 
 /// One score on the page.
 #[derive(Debug, Clone)]
@@ -58,34 +57,30 @@ impl Section {
 
 impl PageScore {
     /// The score's row beside the reference stones.
-    pub(super) fn row(&self) -> String {
-        let mut out = format!(
-            "<tr><th scope=\"row\"><code>{}</code><span>{}{}</span></th><td class=\"value\">{}</td>",
-            escaped(&self.name),
-            escaped(&self.about),
-            self.better_html(),
-            self.value_html()
-        );
-        for ((name, ..), value) in STONES.iter().zip(self.references) {
-            let _ =
-                write!(out, "<td class=\"other\" data-stone=\"{name}\">{}</td>", estimate_html(value, ""));
-        }
-        out + "</tr>\n"
-    }
-
-    /// `; more is better`, or nothing.
-    fn better_html(&self) -> String {
-        match self.better.said() {
-            "" => String::new(),
-            said => format!("; <em>{said}</em>"),
+    pub(super) fn row(&self) -> Markup {
+        html! {
+            tr {
+                th scope="row" {
+                    code { (self.name) }
+                    span {
+                        (self.about)
+                        @if !self.better.said().is_empty() { "; " em { (self.better.said()) } }
+                    }
+                }
+                td class="value" { (self.value_html()) }
+                @for ((name, ..), value) in STONES.iter().zip(self.references) {
+                    td class="other" data-stone=(name) { (estimate_html(value, "")) }
+                }
+            }
+            "\n"
         }
     }
 
-    pub(super) fn value_html(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", escaped(&self.unit)) };
+    /// The value with its unit and error; a dash if there is none, with the reason.
+    pub(super) fn value_html(&self) -> Markup {
         match &self.left_out {
-            Some(why) => format!("<span title=\"{}\">–</span>", escaped(why)),
-            None => estimate_html(self.value, &unit),
+            Some(why) => html! { span title=(why) { "–" } },
+            None => estimate_html(self.value, &self.unit),
         }
     }
 }
@@ -108,7 +103,7 @@ mod tests {
         let scores = vec![score("a", Some("no x")), score("b", None), score("c", Some("no x"))];
         let section = Section { head: "", about: "", large: 1, scores };
         assert_eq!(section.omissions().as_deref(), Some("a, c left out: no x"));
-        assert_eq!(section.scores[0].value_html(), "<span title=\"no x\">–</span>");
+        assert_eq!(section.scores[0].value_html().into_string(), "<span title=\"no x\">–</span>");
         let whole = Section { scores: vec![score("b", None)], ..section };
         assert_eq!(whole.omissions(), None);
     }

@@ -1,9 +1,9 @@
 //! Scores along one parameter: lines with their error bands.
 
-use super::frame::{HEIGHT, PlotFrame, SMALL, WIDTH};
-use super::{BAND, escaped};
+use super::BAND;
+use super::frame::{DECIMALS, HEIGHT, PlotFrame, SMALL, WIDTH};
 use crate::report::raster::text_width;
-use std::fmt::Write;
+use crate::report::svg_canvas::{Anchor, Element, PathData};
 
 /// One line.
 #[derive(Debug, Clone)]
@@ -57,8 +57,15 @@ pub struct Curves {
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 impl Curves {
-    /// The drawing.
+    /// The drawing as a document.
     pub fn svg(&self) -> String {
+        self.drawing("plot").document()
+    }
+
+    /// The drawing.
+    ///
+    /// - `clip`: name of the region of the plot, another for each drawing of one page
+    pub fn drawing(&self, clip: &str) -> Element {
         let points = || self.curves.iter().flat_map(|c| &c.points);
         let reach = |values: &mut dyn Iterator<Item = f64>| {
             let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
@@ -77,31 +84,23 @@ impl Curves {
         let names = self.curves.iter().filter(|c| self.small && !c.name.is_empty()).count() as f64;
         let above = 0.09 * names / (1.0 - 0.09 * names).max(0.5) * (hi - lo);
         let ys = self.ends[1].unwrap_or((lo - room, hi + room + above));
-        let frame = PlotFrame::new(size, self.ends[0].unwrap_or(xs), ys, 28.0);
+        let frame = PlotFrame::new(size, self.ends[0].unwrap_or(xs), ys, 28.0, clip);
         let mut out = frame.open(&self.title, &self.note);
         let (left, top, _, h) = frame.rectangle();
-        let mut named_span = String::new();
+        let mut named_span = None;
         if let Some((name, (from, to))) = self.spans.first() {
             let (from, to) = (from.max(frame.x.from), to.min(frame.x.to));
             if from < to {
                 let (a, b) = (frame.x.position(from), frame.x.position(to));
-                let _ = writeln!(
-                    out,
-                    "<rect x=\"{a:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{h:.1}\" fill=\"#f3eddc\"/>",
-                    b - a
-                );
-                named_span = format!(
-                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\" fill=\"#7a6a3a\" \
-                     stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">envelope of {}</text>\n",
-                    (a + b) / 2.0,
-                    top + 16.0,
-                    escaped(name)
-                );
+                out.push(Element::rect((a, top), (b - a, h)).fill("#f3eddc"));
+                let name = Element::text(((a + b) / 2.0, top + 16.0), &format!("envelope of {name}"));
+                named_span =
+                    Some(name.font_size(11.0).anchor(Anchor::Middle).fill("#7a6a3a").halo("#fff", 3.0));
             }
         }
         frame.axes(&mut out, &self.x, &self.y, true);
         self.marks(&frame, &mut out);
-        out += &named_span;
+        named_span.into_iter().for_each(|name| out.push(name));
         for (curve, colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
             for run in curve.points.split(|p| p.1.is_none()) {
                 let run: Vec<(f64, f64, f64)> =
@@ -114,21 +113,15 @@ impl Curves {
             self.curves.iter().zip(COLOURS.iter().cycle()).filter(|(c, _)| !c.name.is_empty()).collect();
         for (i, (curve, colour)) in named.iter().enumerate() {
             let y = top + 18.0 + 18.0 * i as f64;
-            let _ = writeln!(
-                out,
-                "<path d=\"M{:.1} {:.1}h22\" stroke=\"{colour}\" stroke-width=\"2.5\"/>\
-                 <text x=\"{:.1}\" y=\"{y:.1}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
-                left + 12.0,
-                y - 4.5,
-                left + 40.0,
-                escaped(&curve.name)
-            );
+            let sample = PathData::new(DECIMALS).across((left + 12.0, y - 4.5), 22.0);
+            out.push(Element::path(sample).stroke(colour, 2.5));
+            out.push(Element::text((left + 40.0, y), &curve.name).halo("#fff", 3.0));
         }
-        out + "</svg>\n"
+        out
     }
 
     /// Places on x that have names; those that stand at one place share it.
-    fn marks(&self, frame: &PlotFrame, out: &mut String) {
+    fn marks(&self, frame: &PlotFrame, out: &mut Element) {
         let (_, top, _, h) = frame.rectangle();
         let mut places: Vec<(f64, String)> = Vec::new();
         let mut sorted: Vec<_> = self.marks.iter().filter(|(_, x)| frame.x.contains(*x)).collect();
@@ -145,54 +138,47 @@ impl Curves {
             let near = written.iter().filter(|(other, _)| x - other < 13.0).map(|(_, end)| *end);
             let start = near.fold(8.0, f64::max);
             written.push((x, start + 11.0 * text_width(&names, false) + 10.0));
-            let _ = writeln!(
-                out,
-                "<path d=\"M{x:.1} {top}v{h:.1}\" stroke=\"#999\" stroke-dasharray=\"3 4\"/>\
-                 <text transform=\"translate({:.1} {:.1})rotate(-90)\" font-size=\"11\" fill=\"#555\" \
-                 stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
-                x - 4.0,
-                top + h - start,
-                escaped(&names)
-            );
+            let line = Element::path(PathData::new(DECIMALS).down((x, top), h));
+            out.push(line.stroke("#999", 1.0).attribute("stroke-dasharray", "3 4"));
+            let name = Element::turned_text((x - 4.0, top + h - start), -90.0, &names);
+            out.push(name.font_size(11.0).fill("#555").halo("#fff", 3.0));
         }
     }
 }
 
+/// Decimals of coordinates of curves and their points.
+const FINE: usize = DECIMALS + 1;
+
 /// An expected value with its bar.
-fn dot(frame: &PlotFrame, d: Dot, out: &mut String) {
+fn dot(frame: &PlotFrame, d: Dot, out: &mut Element) {
     let (x, y) = (frame.x.position(d.x), frame.y.position(d.value));
     let [low, high] = [d.value - d.tolerance, d.value + d.tolerance].map(|v| frame.y.position(v));
-    let fill = if d.hollow { "#fff" } else { COLOURS[1] };
-    let _ = writeln!(
-        out,
-        "<path d=\"M{:.2} {low:.2}h10m-5 0V{high:.2}m-5 0h10\" fill=\"none\" stroke=\"{1}\" stroke-width=\"1.4\"/>\
-         <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"{fill}\" stroke=\"{1}\" stroke-width=\"1.6\"/>",
-        x - 5.0,
-        COLOURS[1]
-    );
+    let colour = COLOURS[1];
+    let bar = PathData::new(FINE).across((x - 5.0, low), 10.0).line([(x, low), (x, high)]);
+    out.push(Element::path(bar.across((x - 5.0, high), 10.0)).fill("none").stroke(colour, 1.4));
+    let fill = if d.hollow { "#fff" } else { colour };
+    out.push(Element::circle((x, y), 4.0).decimals(FINE).fill(fill).stroke(colour, 1.6));
 }
 
 /// One unbroken line with its band, and dots if there are few.
-fn line(frame: &PlotFrame, run: &[(f64, f64, f64)], colour: &str, out: &mut String) {
-    let at = |x: f64, y: f64| format!("{:.2} {:.2}", frame.x.position(x), frame.y.position(y));
-    let joined = |points: Vec<String>| points.join("L");
+fn line(frame: &PlotFrame, run: &[(f64, f64, f64)], colour: &str, out: &mut Element) {
+    if run.is_empty() {
+        return;
+    }
+    let at = |x: f64, y: f64| (frame.x.position(x), frame.y.position(y));
     let upper = run.iter().map(|(x, v, e)| at(*x, v + BAND * e));
     let lower = run.iter().rev().map(|(x, v, e)| at(*x, v - BAND * e));
-    let band = joined(upper.chain(lower).collect());
-    let middle = joined(run.iter().map(|(x, v, _)| at(*x, *v)).collect());
-    let _ = writeln!(
-        out,
-        "<g clip-path=\"url(#plot)\"><path d=\"M{band}Z\" fill=\"{colour}\" fill-opacity=\"0.22\"/>\
-         <path d=\"M{middle}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" stroke-linejoin=\"round\"/></g>"
+    let band = Element::path(PathData::new(FINE).polygon(upper.chain(lower)));
+    let middle = Element::path(PathData::new(FINE).line(run.iter().map(|(x, v, _)| at(*x, *v))));
+    out.push(
+        Element::group()
+            .clip(&frame.clip)
+            .with(band.fill(colour).number("fill-opacity", 0.22))
+            .with(middle.fill("none").stroke(colour, 2.0).round_joins()),
     );
     if run.len() <= 60 {
         for (x, v, _) in run.iter().filter(|(x, v, _)| frame.x.contains(*x) && frame.y.contains(*v)) {
-            let _ = writeln!(
-                out,
-                "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"2.6\" fill=\"{colour}\"/>",
-                frame.x.position(*x),
-                frame.y.position(*v)
-            );
+            out.push(Element::circle(at(*x, *v), 2.6).decimals(FINE).fill(colour));
         }
     }
 }

@@ -1,8 +1,7 @@
 //! The frame of a plot: scales, ticks, titles.
 
-use super::escaped;
 use crate::report::raster::{FONTS, text_width};
-use std::fmt::Write;
+use crate::report::svg_canvas::{Anchor, Element, PathData};
 
 /// The whole drawing, in its own units.
 pub const WIDTH: f64 = 800.0;
@@ -41,8 +40,16 @@ impl Scale {
     }
 }
 
+/// Colour of borders and ticks.
+pub const INK: &str = "#222";
+/// Colour of lines across the plot.
+const GRID: &str = "#e4e4e4";
+
+/// Decimals of coordinates in a plot; its curves have one more.
+pub const DECIMALS: usize = 1;
+
 /// The plot's rectangle with its scales.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct PlotFrame {
     /// Across.
     pub x: Scale,
@@ -50,6 +57,8 @@ pub struct PlotFrame {
     pub y: Scale,
     /// Width and height of the whole drawing.
     size: (f64, f64),
+    /// Name of the region that what is plotted is cut to.
+    pub clip: String,
 }
 
 /// A range that is not empty.
@@ -66,13 +75,15 @@ impl PlotFrame {
     /// A frame for these ranges.
     ///
     /// - `size`: width and height of the drawing; `right`: room beside the plot
-    pub fn new(size: (f64, f64), x: (f64, f64), y: (f64, f64), right: f64) -> PlotFrame {
+    /// - `clip`: [`PlotFrame::clip`]
+    pub fn new(size: (f64, f64), x: (f64, f64), y: (f64, f64), right: f64, clip: &str) -> PlotFrame {
         let bottom = size.1 - BELOW;
         let ((x0, x1), (y0, y1)) = (widened(x), widened(y));
         PlotFrame {
             x: Scale { from: x0, to: x1, start: LEFT, length: size.0 - right - LEFT },
             y: Scale { from: y0, to: y1, start: bottom, length: TOP - bottom },
             size,
+            clip: clip.into(),
         }
     }
 
@@ -81,63 +92,47 @@ impl PlotFrame {
         (LEFT, TOP, self.x.length, -self.y.length)
     }
 
-    /// Begins a drawing: title and note above, a clip called `plot`.
-    pub fn open(&self, title: &str, note: &str) -> String {
+    /// Begins a drawing: title and note above, the region of the plot.
+    pub fn open(&self, title: &str, note: &str) -> Element {
         let (x, y, w, h) = self.rectangle();
-        let (width, height) = self.size;
-        let size = ((width - x - 12.0) / text_width(note, false)).min(12.0);
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-             font-family=\"{}\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{width}\" height=\"{height}\" \
-             fill=\"#fff\"/>\n<clipPath id=\"plot\"><rect x=\"{x}\" y=\"{y}\" width=\"{w:.1}\" height=\"{h:.1}\"/>\
-             </clipPath>\n<text x=\"{x}\" y=\"26\" font-size=\"18\" font-weight=\"bold\">{}</text>\n\
-             <text x=\"{x}\" y=\"48\" font-size=\"{size:.1}\" fill=\"#555\">{}</text>\n",
-            escaped(FONTS),
-            escaped(title),
-            escaped(note),
-        )
+        let size = ((self.size.0 - x - 12.0) / text_width(note, false)).min(12.0);
+        Element::drawing((0.0, 0.0), self.size)
+            .decimals(DECIMALS)
+            .attribute("font-family", FONTS)
+            .font_size(13.0)
+            .fill("#222")
+            .with(Element::rect((0.0, 0.0), self.size).fill("#fff"))
+            .with(Element::clip_region(&self.clip, Element::rect((x, y), (w, h))))
+            .with(Element::text((x, 26.0), title).font_size(18.0).bold())
+            .with(Element::text((x, 48.0), note).font_size(size).fill("#555"))
     }
 
     /// Border, ticks and axis titles; `grid`: with lines across the plot.
-    pub fn axes(&self, out: &mut String, x_title: &str, y_title: &str, grid: bool) {
+    pub fn axes(&self, drawing: &mut Element, x_title: &str, y_title: &str, grid: bool) {
         let (left, top, w, h) = self.rectangle();
         let bottom = top + h;
+        let line = |path: PathData, colour| Element::path(path).stroke(colour, 1.0);
+        let path = || PathData::new(DECIMALS);
         for (number, text) in ticks(self.x.from, self.x.to, 9) {
             let x = self.x.position(number);
             if grid {
-                let _ = writeln!(out, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e4e4e4\"/>");
+                drawing.push(line(path().down((x, top), h), GRID));
             }
-            let _ = writeln!(
-                out,
-                "<path d=\"M{x:.1} {bottom}v5\" stroke=\"#222\"/>\
-                 <text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{text}</text>",
-                bottom + 20.0
-            );
+            drawing.push(line(path().down((x, bottom), 5.0), INK));
+            drawing.push(Element::text((x, bottom + 20.0), &text).anchor(Anchor::Middle));
         }
         for (number, text) in ticks(self.y.from, self.y.to, 9) {
             let y = self.y.position(number);
             if grid {
-                let _ = writeln!(out, "<path d=\"M{left} {y:.1}h{w:.1}\" stroke=\"#e4e4e4\"/>");
+                drawing.push(line(path().across((left, y), w), GRID));
             }
-            let _ = writeln!(
-                out,
-                "<path d=\"M{left} {y:.1}h-5\" stroke=\"#222\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
-                left - 9.0,
-                y + 4.5
-            );
+            drawing.push(line(path().across((left, y), -5.0), INK));
+            drawing.push(Element::text((left - 9.0, y + 4.5), &text).anchor(Anchor::End));
         }
-        let _ = writeln!(
-            out,
-            "<rect x=\"{left}\" y=\"{top}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#222\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"14\">{}</text>\n\
-             <text transform=\"translate(22 {:.1})rotate(-90)\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
-            left + w / 2.0,
-            bottom + 46.0,
-            escaped(x_title),
-            top + h / 2.0,
-            escaped(y_title)
-        );
+        drawing.push(Element::rect((left, top), (w, h)).fill("none").stroke(INK, 1.0));
+        let title = |text: Element| text.anchor(Anchor::Middle).font_size(14.0);
+        drawing.push(title(Element::text((left + w / 2.0, bottom + 46.0), x_title)));
+        drawing.push(title(Element::turned_text((22.0, top + h / 2.0), -90.0, y_title)));
     }
 }
 

@@ -1,12 +1,12 @@
 //! A score over two parameters: coloured bands, labelled contours, marks.
 
-use super::frame::{HEIGHT, PlotFrame, WIDTH, step, ticks};
+use super::frame::{DECIMALS, HEIGHT, INK, PlotFrame, WIDTH, step, ticks};
 use super::surface::ScoreSurface;
-use super::{Axis, ColourScale, ScorePlot, escaped};
+use super::{Axis, ColourScale, ScorePlot};
 use crate::batch::table::NumericColumns;
 use crate::report::raster::text_width;
+use crate::report::svg_canvas::{Anchor, Element, PathData};
 use contour::ContourBuilder;
-use std::fmt::Write;
 
 /// Where the plot ends and the colour scale begins.
 const RIGHT: f64 = 660.0;
@@ -17,6 +17,9 @@ const BANDS: usize = 12;
 
 /// A closed contour shorter than this has no label.
 const SHORT: f64 = 160.0;
+
+/// Name of the region of what is known, where that is not all of the plot.
+const KNOWN: &str = "known";
 
 /// A box that text takes up: middle, half width, half height.
 type TakenBox = (f64, f64, f64, f64);
@@ -37,7 +40,7 @@ pub fn svg(drawing: &ScorePlot, x: &Axis, y: &Axis, numbers: &NumericColumns, sc
     let style = drawing.style;
     let across = style.range(&x.key).unwrap_or(ends.0);
     let up = style.range(&y.key).unwrap_or(ends.1);
-    let frame = PlotFrame::new((WIDTH, HEIGHT), across, up, WIDTH - RIGHT);
+    let frame = PlotFrame::new((WIDTH, HEIGHT), across, up, WIDTH - RIGHT, "plot");
     let worst = numbers.column(&se).iter().flatten().copied().fold(0.0, f64::max);
     let how =
         if scattered { format!(", {} points by natural neighbours", points.len()) } else { String::new() };
@@ -53,8 +56,8 @@ pub fn svg(drawing: &ScorePlot, x: &Axis, y: &Axis, numbers: &NumericColumns, sc
             if scattered {
                 let seen = |x: f64, y: f64| frame.x.contains(x) && frame.y.contains(y);
                 for (x, y, _) in points.iter().filter(|p| p.2.is_some() && seen(p.0, p.1)) {
-                    let (x, y) = (frame.x.position(*x), frame.y.position(*y));
-                    let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.1\" fill=\"#0008\"/>");
+                    let at = (frame.x.position(*x), frame.y.position(*y));
+                    out.push(Element::circle(at, 1.1).fill("#0008"));
                 }
             }
             envelopes(drawing, &frame, &[x.clone(), y.clone()], &mut out);
@@ -63,10 +66,10 @@ pub fn svg(drawing: &ScorePlot, x: &Axis, y: &Axis, numbers: &NumericColumns, sc
             scale.label(&frame, &contours, &mut taken, &mut out);
             scale.bar(&frame, &drawing.score_title(), &mut out);
         }
-        None => out += "<text x=\"370\" y=\"300\" text-anchor=\"middle\">no values to draw</text>\n",
+        None => out.push(Element::text((370.0, 300.0), "no values to draw").anchor(Anchor::Middle)),
     }
     frame.axes(&mut out, &x.title, &y.title, false);
-    out + "</svg>\n"
+    out.document()
 }
 
 /// The values at which contours run.
@@ -105,26 +108,18 @@ impl Levels {
         &self,
         frame: &PlotFrame,
         surface: &ScoreSurface,
-        out: &mut String,
+        out: &mut Element,
     ) -> Vec<(usize, Vec<(f64, f64)>)> {
         let (left, top, w, h) = known(frame, surface);
+        let ground = || Element::rect((left, top), (w, h));
         let clip = match (left, top, w, h) == frame.rectangle() {
-            true => "plot",
+            true => &frame.clip,
             false => {
-                let _ = writeln!(
-                    out,
-                    "<clipPath id=\"known\"><rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/>\
-                     </clipPath>"
-                );
-                "known"
+                out.push(Element::clip_region(KNOWN, ground()));
+                KNOWN
             }
         };
-        let _ = writeln!(
-            out,
-            "<g clip-path=\"url(#{clip})\">\n<rect x=\"{left}\" y=\"{top}\" width=\"{w:.1}\" height=\"{h:.1}\" \
-             fill=\"{}\"/>",
-            self.colour(self.middle(0))
-        );
+        let mut bands = Element::group().clip(clip).with(ground().fill(self.colour(self.middle(0))));
         let (dx, dy) = surface.steps();
         let builder = ContourBuilder::new(surface.size.0, surface.size.1, true)
             .x_origin(surface.x.0 - dx / 2.0) // a value stands in the middle of its cell
@@ -135,24 +130,20 @@ impl Levels {
         let areas = builder.contours(&surface.filled(self.from), &thresholds).unwrap_or_default();
         let mut lines = Vec::new();
         for (i, area) in areas.iter().enumerate() {
-            let mut path = String::new();
+            let mut path = PathData::new(DECIMALS);
             for polygon in &area.geometry().0 {
                 for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
                     let points: Vec<(f64, f64)> =
                         ring.coords().map(|c| (frame.x.position(c.x), frame.y.position(c.y))).collect();
-                    let text: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
-                    path += &format!("M{}Z", text.join("L"));
+                    path = path.polygon(points.iter().copied());
                     lines.push((i, points));
                 }
             }
-            let _ = writeln!(
-                out,
-                "<path d=\"{path}\" fill=\"{}\" fill-rule=\"evenodd\" stroke=\"#000\" stroke-opacity=\"0.55\" \
-                 stroke-width=\"0.8\"/>",
-                self.colour(self.middle(i + 1))
-            );
+            let band = Element::path(path).fill(self.colour(self.middle(i + 1)));
+            let band = band.attribute("fill-rule", "evenodd").stroke("#000", 0.8);
+            bands.push(band.number("stroke-opacity", 0.55));
         }
-        *out += "</g>\n";
+        out.push(bands);
         lines
     }
 
@@ -162,7 +153,7 @@ impl Levels {
         frame: &PlotFrame,
         lines: &[(usize, Vec<(f64, f64)>)],
         taken: &mut Vec<TakenBox>,
-        out: &mut String,
+        out: &mut Element,
     ) {
         let (left, top, w, h) = frame.rectangle();
         for (level, points) in lines {
@@ -203,50 +194,33 @@ impl Levels {
                     angle
                 };
                 taken.push((x, y, half + 8.0, half.max(8.0)));
-                let _ = writeln!(
-                    out,
-                    "<text transform=\"translate({x:.1} {y:.1})rotate({upright:.1})\" y=\"4\" font-size=\"11\" \
-                     text-anchor=\"middle\" stroke=\"#fff\" stroke-opacity=\"0.8\" stroke-width=\"3\" \
-                     stroke-linejoin=\"round\" paint-order=\"stroke\">{text}</text>"
-                );
+                let label = Element::turned_text((x, y), upright, text).length("y", 4.0);
+                let label = label.font_size(11.0).anchor(Anchor::Middle).halo("#fff", 3.0);
+                out.push(label.number("stroke-opacity", 0.8).round_joins());
             }
         }
     }
 
     /// The colour scale beside the plot.
-    fn bar(&self, frame: &PlotFrame, title: &str, out: &mut String) {
+    fn bar(&self, frame: &PlotFrame, title: &str, out: &mut Element) {
         let (_, top, _, h) = frame.rectangle();
         let at = |value: f64| top + h * (1.0 - (value - self.from) / (self.to - self.from));
         let (x, w) = BAR;
         for i in 0..=self.at.len() {
             let low = if i == 0 { self.from } else { self.at[i - 1].0 };
             let high = self.at.get(i).map_or(self.to, |l| l.0);
-            let _ = writeln!(
-                out,
-                "<rect x=\"{x}\" y=\"{:.1}\" width=\"{w}\" height=\"{:.1}\" fill=\"{}\"/>",
-                at(high),
-                at(low) - at(high),
-                self.colour(self.middle(i))
-            );
+            let band = Element::rect((x, at(high)), (w, at(low) - at(high)));
+            out.push(band.fill(self.colour(self.middle(i))));
         }
         for (value, text) in &self.at {
             let y = at(*value);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{:.1} {y:.1}h5\" stroke=\"#222\"/><text x=\"{:.1}\" y=\"{:.1}\">{text}</text>",
-                x + w,
-                x + w + 9.0,
-                y + 4.5
-            );
+            let tick = PathData::new(DECIMALS).across((x + w, y), 5.0);
+            out.push(Element::path(tick).stroke(INK, 1.0));
+            out.push(Element::text((x + w + 9.0, y + 4.5), text));
         }
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x}\" y=\"{top}\" width=\"{w}\" height=\"{h:.1}\" fill=\"none\" stroke=\"#222\"/>\
-             <text transform=\"translate({:.1} {:.1})rotate(-90)\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
-            WIDTH - 24.0,
-            top + h / 2.0,
-            escaped(title)
-        );
+        out.push(Element::rect((x, top), (w, h)).fill("none").stroke(INK, 1.0));
+        let title = Element::turned_text((WIDTH - 24.0, top + h / 2.0), -90.0, title);
+        out.push(title.anchor(Anchor::Middle).font_size(14.0));
     }
 }
 
@@ -273,7 +247,7 @@ fn overlap(a: TakenBox, b: TakenBox) -> bool {
 }
 
 /// Greys out the cells without a value; what they take up.
-fn cover(frame: &PlotFrame, surface: &ScoreSurface, out: &mut String) -> Vec<TakenBox> {
+fn cover(frame: &PlotFrame, surface: &ScoreSurface, out: &mut Element) -> Vec<TakenBox> {
     let mut taken = Vec::new();
     let (dx, dy) = surface.steps();
     let (w, h) =
@@ -281,19 +255,14 @@ fn cover(frame: &PlotFrame, surface: &ScoreSurface, out: &mut String) -> Vec<Tak
     for (column, row) in surface.holes() {
         let x = frame.x.position(surface.x.0 + dx * column as f64);
         let y = frame.y.position(surface.y.0 + dy * (row + 1) as f64);
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#eee\"/>",
-            w + 0.3,
-            h + 0.3
-        );
+        out.push(Element::rect((x, y), (w + 0.3, h + 0.3)).fill("#eee"));
         taken.push((x + w / 2.0, y + h / 2.0, w / 2.0, h / 2.0));
     }
     taken
 }
 
 /// The cut-grade envelopes as rectangles, named in a corner.
-fn envelopes(drawing: &ScorePlot, frame: &PlotFrame, axes: &[Axis], out: &mut String) {
+fn envelopes(drawing: &ScorePlot, frame: &PlotFrame, axes: &[Axis], out: &mut Element) {
     let (left, top, w, h) = frame.rectangle();
     for (name, bounds) in drawing.envelopes(axes) {
         let [(x0, x1), (y0, y1)] = bounds[..] else { continue };
@@ -307,21 +276,15 @@ fn envelopes(drawing: &ScorePlot, frame: &PlotFrame, axes: &[Axis], out: &mut St
             continue;
         }
         let (tx, ty) = (x0.max(left) + 5.0, y0.max(top) + 14.0);
-        let _ = writeln!(
-            out,
-            "<rect clip-path=\"url(#plot)\" x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\" \
-             fill=\"none\" stroke=\"#fff\" stroke-width=\"2\" stroke-dasharray=\"7 4\"/>\
-             <text x=\"{tx:.1}\" y=\"{ty:.1}\" font-size=\"11\" fill=\"#fff\" stroke=\"#000\" stroke-opacity=\"0.6\" \
-             stroke-width=\"2.5\" paint-order=\"stroke\">envelope of {}</text>",
-            x1 - x0,
-            y1 - y0,
-            escaped(&name)
-        );
+        let border = Element::rect((x0, y0), (x1 - x0, y1 - y0)).clip(&frame.clip).fill("none");
+        out.push(border.stroke("#fff", 2.0).attribute("stroke-dasharray", "7 4"));
+        let name = Element::text((tx, ty), &format!("envelope of {name}")).font_size(11.0);
+        out.push(name.fill("#fff").halo("#000", 2.5).number("stroke-opacity", 0.6));
     }
 }
 
 /// Stones of the library; what their names take up.
-fn marks(drawing: &ScorePlot, frame: &PlotFrame, out: &mut String) -> Vec<TakenBox> {
+fn marks(drawing: &ScorePlot, frame: &PlotFrame, out: &mut Element) -> Vec<TakenBox> {
     let (left, _, w, _) = frame.rectangle();
     let mut taken = Vec::new();
     for mark in drawing.marks() {
@@ -337,23 +300,17 @@ fn marks(drawing: &ScorePlot, frame: &PlotFrame, out: &mut String) -> Vec<TakenB
         let dy = [0.0, -13.0, 13.0, -26.0, 26.0].iter().find(free).copied().unwrap_or(0.0);
         taken.push((middle, y + dy, width / 2.0 + 3.0, 8.0));
         taken.push((x, y, 6.0, 6.0));
-        let anchor = if to_left { "end" } else { "start" };
-        let _ = writeln!(
-            out,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\" fill=\"{}\" stroke=\"#000\" stroke-width=\"1.2\"/>\
-             <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" font-weight=\"bold\" text-anchor=\"{anchor}\" fill=\"#fff\" \
-             stroke=\"#000\" stroke-opacity=\"0.7\" stroke-width=\"3\" stroke-linejoin=\"round\" \
-             paint-order=\"stroke\">{}</text>",
-            if mark.own { 6.5 } else { 4.0 },
-            match (mark.own, mark.other.is_empty()) {
-                (true, _) => "#e8352e",
-                (false, true) => "#fff",
-                (false, false) => "none", // its score is not the map's at this place
-            },
-            if to_left { x - 9.0 } else { x + 9.0 },
-            y + dy + 4.0,
-            escaped(&name)
-        );
+        let fill = match (mark.own, mark.other.is_empty()) {
+            (true, _) => "#e8352e",
+            (false, true) => "#fff",
+            (false, false) => "none", // its score is not the map's at this place
+        };
+        let radius = if mark.own { 6.5 } else { 4.0 };
+        out.push(Element::circle((x, y), radius).fill(fill).stroke("#000", 1.2));
+        let (start, anchor) = if to_left { (x - 9.0, Anchor::End) } else { (x + 9.0, Anchor::Start) };
+        let name = Element::text((start, y + dy + 4.0), &name).font_size(11.0).bold().anchor(anchor);
+        let name = name.fill("#fff").halo("#000", 3.0).number("stroke-opacity", 0.7);
+        out.push(name.round_joins());
     }
     taken
 }

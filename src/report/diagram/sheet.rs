@@ -1,9 +1,8 @@
-//! SVG canvas of the diagram: lines and text on a page in millimetres, black on white.
+//! The sheet of a diagram: lines and text in millimetres, black on white, and how wide text is there.
 
-use crate::report::page::escaped;
 use crate::report::raster::{FONTS, text_width};
+use crate::report::svg_canvas::{Anchor, Element, PathData};
 use glam::DVec2;
-use std::fmt::Write;
 
 /// The sheet that a diagram is laid out for, upright.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,113 +34,80 @@ pub const HAIR: f64 = 0.12;
 /// Height of capitals and figures in the fonts of the binary, in units of the font size.
 pub const CAPITAL: f64 = 0.729;
 
-/// Which point of a text is at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Anchor {
-    /// Its start.
-    Start,
-    /// Its middle.
-    Middle,
-    /// Its end.
-    End,
-}
+/// Decimals of coordinates in mm.
+pub const DECIMALS: usize = 2;
 
-/// The page as far as it is drawn.
+/// A sheet as far as it is drawn.
 #[derive(Debug)]
-pub struct SvgCanvas {
-    svg: String,
+pub struct Sheet {
+    drawing: Element,
 }
 
-impl SvgCanvas {
-    /// An empty page.
-    pub fn new(title: &str, paper: Paper) -> SvgCanvas {
-        let DVec2 { x: w, y: h } = paper.size_mm();
-        SvgCanvas {
-            svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-                 font-family=\"{FONTS}\" fill=\"#000\">\n<title>{}</title>\n\
-                 <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n",
-                escaped(title)
-            ),
-        }
+impl Sheet {
+    /// An empty sheet.
+    pub fn new(title: &str, paper: Paper) -> Sheet {
+        let size = paper.size_mm();
+        let drawing = Element::drawing(DVec2::ZERO, size)
+            .decimals(DECIMALS)
+            .attribute("width", format!("{}mm", size.x))
+            .attribute("height", format!("{}mm", size.y))
+            .attribute("font-family", FONTS)
+            .fill("#000")
+            .with(Element::title(title))
+            .with(Element::rect(DVec2::ZERO, size).fill("#fff"));
+        Sheet { drawing }
+    }
+
+    /// Puts an element on the sheet.
+    pub fn push(&mut self, element: Element) {
+        self.drawing.push(element);
     }
 
     /// A line of text; `at` is on its base line.
     pub fn text(&mut self, at: DVec2, size: f64, anchor: Anchor, bold: bool, text: &str) {
-        if text.is_empty() {
-            return;
+        if !text.is_empty() {
+            let text = Element::text(at, text).font_size(size).anchor(anchor);
+            self.push(if bold { text.bold() } else { text });
         }
-        let anchor = match anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let weight = if bold { " font-weight=\"bold\"" } else { "" };
-        let _ = writeln!(
-            self.svg,
-            "<text x=\"{:.2}\" y=\"{:.2}\" font-size=\"{size:.2}\"{anchor}{weight}>{}</text>",
-            at.x,
-            at.y,
-            escaped(text)
-        );
-    }
-
-    /// A name with its middle at `at`, its line along `along`.
-    pub fn name(&mut self, at: DVec2, size: f64, along: DVec2, name: &str) {
-        if along.y.abs() < 1e-9 {
-            return self.text(at + DVec2::new(0.0, 0.5 * CAPITAL * size), size, Anchor::Middle, false, name);
-        }
-        let _ = writeln!(
-            self.svg,
-            "<text transform=\"translate({:.2} {:.2}) rotate({:.1})\" y=\"{:.2}\" font-size=\"{size:.2}\" \
-             text-anchor=\"middle\">{}</text>",
-            at.x,
-            at.y,
-            along.to_angle().to_degrees(),
-            0.5 * CAPITAL * size,
-            escaped(name)
-        );
-    }
-
-    /// Begins a group of that name, to be closed by [`SvgCanvas::end`].
-    pub fn group(&mut self, id: &str) {
-        let _ = writeln!(self.svg, "<g id=\"{id}\">");
-    }
-
-    /// Ends a group.
-    pub fn end(&mut self) {
-        self.svg += "</g>\n";
     }
 
     /// Path data as lines.
-    pub fn lines(&mut self, data: &str, width: f64) {
-        self.path("", data, width);
+    pub fn lines(&mut self, data: PathData, width: f64) {
+        if !data.is_empty() {
+            self.push(lines(data, width));
+        }
     }
 
     /// Path data as lines, under a name.
-    pub fn named_lines(&mut self, id: &str, data: &str, width: f64) {
-        self.path(&format!(" id=\"{id}\""), data, width);
-    }
-
-    fn path(&mut self, id: &str, data: &str, width: f64) {
+    pub fn named_lines(&mut self, id: &str, data: PathData, width: f64) {
         if !data.is_empty() {
-            let _ = writeln!(
-                self.svg,
-                "<path{id} d=\"{data}\" fill=\"none\" stroke=\"#000\" stroke-width=\"{width}\" \
-                 stroke-linejoin=\"round\"/>"
-            );
+            self.push(lines(data, width).id(id));
         }
     }
 
     /// A rule across.
     pub fn rule(&mut self, from: DVec2, width: f64) {
-        self.lines(&format!("M{:.2} {:.2}h{width:.2}", from.x, from.y), HAIR);
+        self.lines(PathData::new(DECIMALS).across(from, width), HAIR);
     }
 
     /// The finished document.
     pub fn finish(self) -> String {
-        self.svg + "</svg>\n"
+        self.drawing.document()
     }
+}
+
+fn lines(data: PathData, width: f64) -> Element {
+    Element::path(data).fill("none").stroke("#000", width).round_joins()
+}
+
+/// A name with its middle at `at`, its line along `along`.
+pub fn name(at: DVec2, size: f64, along: DVec2, name: &str) -> Element {
+    let down = 0.5 * CAPITAL * size;
+    let text = match along.y.abs() < 1e-9 {
+        true => Element::text(at + DVec2::new(0.0, down), name),
+        false => Element::turned_text(at, along.to_angle().to_degrees(), name).length("y", down),
+    };
+    text.font_size(size).anchor(Anchor::Middle)
 }
 
 /// Width of a line of text in mm.
