@@ -12,8 +12,9 @@ const MOST: usize = 10;
 const OF_FEATURES: [&str; 7] = ["clap", "indicatif", "ctrlc", "resvg", "exr", "image", "rayon"];
 
 /// The files that ask for a feature.
-const ASKING: [&str; 9] = [
+const ASKING: [&str; 10] = [
     "lib.rs",
+    "advanced.rs",
     "prelude.rs",
     "parallel.rs",
     "error.rs",
@@ -78,7 +79,10 @@ fn modules_without_features() -> Vec<String> {
     let lib = source(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs"));
     let lines: Vec<&str> = lib.lines().collect();
     let is_gated = |i: usize| i > 0 && lines[i - 1].starts_with("#[cfg(feature");
-    let module = |line: &str| Some(line.strip_prefix("pub mod ")?.strip_suffix(';')?.to_owned());
+    let module = |line: &str| {
+        let line = line.strip_prefix("pub ").unwrap_or(line);
+        Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
+    };
     (0..lines.len()).filter(|&i| !is_gated(i)).filter_map(|i| module(lines[i])).collect()
 }
 
