@@ -212,7 +212,8 @@ fn parted(argument: &OsStr) -> Option<(OsString, &str)> {
 pub fn cut_name(spec: &str) -> Option<&'static str> {
     let name = spec.split(':').next().unwrap_or_default();
     let cut = library::canonical_name(name)?;
-    (cut == name || std::fs::symlink_metadata(spec).is_err()).then_some(cut)
+    let is_file = cfg!(feature = "files") && std::fs::symlink_metadata(spec).is_ok();
+    (cut == name || !is_file).then_some(cut)
 }
 
 /// Whether STONE names a cut of the library or a family, with parameters or not.
