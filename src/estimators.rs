@@ -3,10 +3,10 @@
 //! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of the
 //! stone, traced backward; [`FaceterView`] the same by the rules of faceters; [`Contrast`] and
 //! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`PointLight`]: a
-//! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex. An
-//! estimator adds up small sums in independent batches ([`BatchedEstimate`]); a metric is a function of
-//! such sums, and the spread of the batches is its error. The viewer, and the light with him, stands in a
-//! [`ViewFrame`].
+//! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex;
+//! [`picture`] traces a view pixel by pixel. An estimator adds up small sums in independent batches
+//! ([`BatchedEstimate`]); a metric is a function of such sums, and the spread of the batches is its error.
+//! The viewer, and the light with him, stands in a [`ViewFrame`].
 
 pub mod batches;
 pub mod beam_tallies;
@@ -19,6 +19,7 @@ pub mod fire;
 pub mod hemisphere;
 pub mod horizon;
 pub mod nonconvex;
+pub mod picture;
 pub mod pixel_cells;
 pub mod point_light;
 pub mod quadrature;

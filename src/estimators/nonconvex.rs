@@ -20,7 +20,7 @@ use crate::sampling::random::{Purpose, Stream};
 use crate::sampling::warps;
 use crate::trace::nonconvex::{MeshStone, Side};
 use crate::trace::reference::{ScalarInteraction, ScalarRay};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// A ray of a stone that absorbs is given up below this share of its light: of a dark stone little
@@ -32,11 +32,11 @@ const FAR_AWAY: f64 = 2.5;
 
 /// A stone that is not convex, and how it is lit.
 #[derive(Clone)]
-struct NonconvexTracer<'a> {
-    stone: &'a MeshStone,
-    view_frame: ViewFrame,
+pub(super) struct NonconvexTracer<'a> {
+    pub(super) stone: &'a MeshStone,
+    pub(super) view_frame: ViewFrame,
     polarised: bool,
-    light: Wavelengths,
+    pub(super) light: Wavelengths,
     stop_power: f64,
 }
 
@@ -86,7 +86,7 @@ impl<'a> NonconvexTracer<'a> {
 }
 
 /// Random numbers for a point of a batch.
-fn chance(seed: u64, batch: u64, point: u64) -> Stream {
+pub(super) fn chance(seed: u64, batch: u64, point: u64) -> Stream {
     Stream::new(seed, Purpose::Nonconvex, (batch << 48) | point)
 }
 
@@ -159,7 +159,7 @@ impl Estimator for NonconvexHemisphere<'_> {
 /// The view of a stone that is not convex: [`view::View`].
 #[derive(Clone)]
 pub struct NonconvexView<'a> {
-    lit: NonconvexTracer<'a>,
+    pub(super) lit: NonconvexTracer<'a>,
     surroundings: ViewerLighting,
 }
 
@@ -185,32 +185,41 @@ impl Estimator for NonconvexView<'_> {
     type Tally = view::ViewTally;
 
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Self::Tally) {
-        let ViewFrame { axis, right, top } = self.lit.view_frame;
-        let ViewerLighting { scope, dome } = self.surroundings;
         let hues = KroneckerPoints::<1>::new(seed, Purpose::ScoreHue, batch, points.clone());
         let numbers = points.clone().zip(hues);
         for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, Purpose::View, batch, points))
         {
             // the stone lies within the unit sphere
-            let from = axis * FAR_AWAY + right * (2.0 * a - 1.0) + top * (2.0 * b - 1.0);
-            if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
-                continue;
-            }
-            tally.rays += 1.0;
-            tally.lost += self.lit.trace(from, -axis, hue, chance(seed, batch, number), |m, entered| {
-                let z = m.direction.dot(axis);
-                let bright = |sky: view::ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
-                tally.absorbed += m.absorbed;
-                tally.luminance += bright(dome);
-                if entered {
-                    tally.bands[band(z as f32) as usize] += m.power;
-                    tally.up_cos2 += m.power * z.max(0.0).powi(2);
-                    tally.scope_bright += bright(scope);
-                    tally.scope_dark += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
-                } else {
-                    tally.reflected += m.power;
-                }
-            });
+            let place = DVec2::new(2.0 * a - 1.0, 2.0 * b - 1.0);
+            self.trace_sight(place, hue, chance(seed, batch, number), tally);
         }
+    }
+}
+
+impl NonconvexView<'_> {
+    /// Traces the line of sight through a place of the picture, if it meets the stone, and adds up what is
+    /// seen along it.
+    pub(super) fn trace_sight(&self, place: DVec2, hue: f64, stream: Stream, tally: &mut view::ViewTally) {
+        let ViewFrame { axis, right, top } = self.lit.view_frame;
+        let ViewerLighting { scope, dome } = self.surroundings;
+        let from = axis * FAR_AWAY + right * place.x + top * place.y;
+        if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
+            return;
+        }
+        tally.rays += 1.0;
+        tally.lost += self.lit.trace(from, -axis, hue, stream, |m, entered| {
+            let z = m.direction.dot(axis);
+            let bright = |sky: view::ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
+            tally.absorbed += m.absorbed;
+            tally.luminance += bright(dome);
+            if entered {
+                tally.bands[band(z as f32) as usize] += m.power;
+                tally.up_cos2 += m.power * z.max(0.0).powi(2);
+                tally.scope_bright += bright(scope);
+                tally.scope_dark += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
+            } else {
+                tally.reflected += m.power;
+            }
+        });
     }
 }

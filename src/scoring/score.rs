@@ -5,6 +5,7 @@ pub use super::settings::{
     DEFAULT_SAMPLES, MAX_SAMPLES, ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt,
 };
 use crate::design::Zone;
+use crate::estimators::nonconvex::NonconvexView;
 use crate::estimators::point_light::PointLightNeeds;
 use crate::estimators::view::{ObserverDome, ViewerLighting};
 use crate::estimators::{
@@ -108,10 +109,7 @@ fn fill(
     sheet.fill("hemisphere", hemisphere_statistic, false, 1, || {
         Ok(Hemisphere::in_frame(stone, &medium, view_frame)?.with_stop_power(stop))
     })?;
-    let surroundings = plan.surroundings();
-    sheet.fill("view", view_statistic, false, wavelengths, || {
-        Ok(View::in_frame(stone, &medium, view_frame, surroundings)?.with_stop_power(stop))
-    })?;
+    sheet.fill("view", view_statistic, false, wavelengths, || subject.view(stone, plan))?;
     let iso = |r| if let MetricSource::FaceterView(f) = r { Some(f) } else { None };
     let head = sky(faceter_view::GEMRAY_OBSERVER_DEG);
     sheet.fill("iso", iso, false, 1, || FaceterView::in_frame(stone, &medium, view_frame, head))?;
@@ -156,7 +154,7 @@ fn fill(
             |m: &&Metric| view_statistic(m.read_from).is_some_and(|s| beam_tallies::needs_strongest_path(&s));
         let strongest = plan.metrics.iter().any(reads_strongest);
         sheet.finish("view by beams", view_statistic, true, |w| {
-            beam_tallies::view(&beams, &medium, view_frame, surroundings, strongest, w)
+            beam_tallies::view(&beams, &medium, view_frame, plan.surroundings(), strongest, w)
         })?;
         sheet.finish("iso by beams", iso, true, |_| {
             Ok(vec![beam_tallies::iso(&beams, &medium, view_frame, head)?])
@@ -168,9 +166,7 @@ fn fill(
         }
         sheet.unfinished = true;
         let finished = sheet.row.samples.len();
-        sheet.fill("view", view_statistic, false, 1, || {
-            Ok(View::in_frame(stone, &medium, view_frame, surroundings)?.with_stop_power(stop))
-        })?;
+        sheet.fill("view", view_statistic, false, 1, || subject.view(stone, plan))?;
         if row.samples.len() > finished {
             // what beams did not give photons have
             let scored = |name: &str| {
@@ -209,10 +205,7 @@ fn fill_nonconvex(
         Ok(nonconvex::NonconvexHemisphere::new(stone, &medium, view_frame)?
             .with_stop_power(plan.stop_power()))
     })?;
-    sheet.fill("view", view_statistic, false, NONCONVEX_COST, || {
-        let estimator = nonconvex::NonconvexView::new(stone, &medium, view_frame, plan.surroundings())?;
-        Ok(estimator.with_stop_power(plan.stop_power()))
-    })
+    sheet.fill("view", view_statistic, false, NONCONVEX_COST, || subject.nonconvex_view(stone, plan))
 }
 
 fn hemisphere_statistic(reading: MetricSource) -> Option<Statistic<hemisphere::HemisphereTally>> {
@@ -250,8 +243,25 @@ impl ScoreRequest {
 }
 
 impl ScoreInput {
-    fn medium(&self, plan: &ScoreRequest) -> TraceOptics<'_> {
+    /// The optics that the stone is scored with.
+    pub fn medium(&self, plan: &ScoreRequest) -> TraceOptics<'_> {
         TraceOptics { material: &self.material, polarised: plan.polarised }
+    }
+
+    /// The view that the stone is scored by.
+    pub fn view<'a>(&self, stone: &'a ConvexStone, plan: &ScoreRequest) -> Result<View<'a>, EstimatorError> {
+        let view = View::in_frame(stone, &self.medium(plan), self.view_frame(), plan.surroundings())?;
+        Ok(view.with_stop_power(plan.stop_power()))
+    }
+
+    /// The same of a stone that is not convex.
+    pub fn nonconvex_view<'a>(
+        &self,
+        stone: &'a MeshStone,
+        plan: &ScoreRequest,
+    ) -> Result<NonconvexView<'a>, EstimatorError> {
+        let view = NonconvexView::new(stone, &self.medium(plan), self.view_frame(), plan.surroundings())?;
+        Ok(view.with_stop_power(plan.stop_power()))
     }
 
     fn view_frame(&self) -> ViewFrame {
