@@ -2,6 +2,7 @@
 
 use super::cie;
 use super::illuminants::Illuminant;
+use crate::sampling::discrete_cdf::DiscreteCdf;
 use std::sync::LazyLock;
 
 /// A tristimulus value of the CIE 1931 observer.
@@ -15,11 +16,10 @@ pub enum Tristimulus {
     Z = 2,
 }
 
-/// A matching function × D65 at the wavelengths of the table, and its integral up to each as a share of the
-/// whole.
+/// A matching function × D65 at the wavelengths of the table, and the steps between them by its integral.
 struct WavelengthDensity {
     density: Vec<f64>,
-    upto: Vec<f64>,
+    steps: DiscreteCdf,
 }
 
 /// In the order of [`Tristimulus`].
@@ -28,13 +28,8 @@ static DAYLIGHT: LazyLock<[WavelengthDensity; 3]> = LazyLock::new(|| {
     [0, 1, 2].map(|value| {
         let density: Vec<f64> =
             cie::nodes().map(|nm| f64::from(cie::matching(nm)[value]) * f64::from(light.power(nm))).collect();
-        let mut upto = vec![0.0];
-        for pair in density.windows(2) {
-            upto.push(upto[upto.len() - 1] + 0.5 * (pair[0] + pair[1]));
-        }
-        let total = upto[upto.len() - 1];
-        upto.iter_mut().for_each(|share| *share /= total);
-        WavelengthDensity { density, upto }
+        let steps = DiscreteCdf::new(density.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]))).normalised();
+        WavelengthDensity { density, steps }
     })
 });
 
@@ -51,10 +46,8 @@ pub fn wavelength_nm(share: f64) -> f64 {
 
 /// [`wavelength_nm`] with the matching function of any tristimulus value in place of ȳ.
 pub fn wavelength_by(value: Tristimulus, share: f64) -> f64 {
-    let WavelengthDensity { density, upto } = &DAYLIGHT[value as usize];
-    let i = upto.partition_point(|s| *s <= share).clamp(1, upto.len() - 1) - 1;
-    // z̄ is 0 at the red end: its last steps hold nothing
-    let within = ((share - upto[i]) / (upto[i + 1] - upto[i]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let WavelengthDensity { density, steps } = &DAYLIGHT[value as usize];
+    let (i, within) = steps.sample(share);
     // the root of the integral of a linear density
     let (a, b) = (density[i], density[i + 1]);
     let root = (a * a + within * (b * b - a * a)).max(0.0).sqrt();
