@@ -68,10 +68,8 @@ pub(super) fn head(title: &str, style: &str, sub: &str) -> String {
 /// A picture through a scope, with its legend and shares.
 pub(super) fn scope_figure(picture: &ViewerPicture) -> String {
     let scope = picture.scope;
-    let colour =
-        if picture.without_colour { "; without the colour of the stone, which the scores have" } else { "" };
     let mut out = format!(
-        "<figure><img src=\"{}\" alt=\"{name}, seen from above\"><figcaption><b>{name}</b>: {}{colour}\
+        "<figure><img src=\"{}\" alt=\"{name}, seen from above\"><figcaption><b>{name}</b>: {}\
          <ul class=\"legend\">",
         data_uri(&picture.png),
         escaped(scope.about),
@@ -251,25 +249,6 @@ impl Page<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A stone that absorbs is drawn without its colour, and its pictures say so.
-    #[test]
-    fn captions_tell_of_a_colour_that_is_not_shown() {
-        let octahedron = crate::design::library::design("octahedron", &Default::default()).expect("a cut");
-        let solid = octahedron.expect("can be made").solid().expect("closed");
-        let scopes = &super::super::viewer_images::VIEWER_IMAGES;
-        let pictures =
-            super::super::viewer_images::pictures(&crate::trace::ConvexStone::new(solid), 1.77, scopes, 16)
-                .expect("drawn");
-        assert_eq!(pictures.len(), 3);
-        for picture in pictures {
-            let clear = scope_figure(&picture);
-            let coloured = scope_figure(&ViewerPicture { without_colour: true, ..picture });
-            let said = "; without the colour of the stone, which the scores have";
-            assert!(!clear.contains("without the colour") && coloured.contains(said), "{coloured}");
-            assert_eq!(coloured.replace(said, ""), clear);
-        }
-    }
 
     #[test]
     fn names_cannot_break_the_page() {
