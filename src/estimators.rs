@@ -3,11 +3,11 @@
 //! [`Hemisphere`]: a dome of light, everything that comes out. [`View`]: a parallel eye in front of the
 //! stone, traced backward; [`FaceterView`] the same by the rules of faceters; [`Contrast`] and
 //! [`Scintillation`] what a picture of it shows in cells that an eye can tell apart. [`PointLight`]: a
-//! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex. An
-//! estimator adds up the columns of its tally in independent batches ([`BatchedEstimate`]); a [`Metric`] is a
-//! function of such sums, a row of its estimator's table, and the spread of the batches is its error. A kind
-//! of estimator says what it is an [`EstimatorKind`] of; [`ESTIMATORS`] lists them all. The viewer, and the
-//! light with him, stands in a [`ViewFrame`].
+//! point light at infinity, in colours. [`nonconvex`] has the first two for stones that are not convex;
+//! [`picture`] traces a view pixel by pixel. An estimator adds up the columns of its tally in independent
+//! batches ([`BatchedEstimate`]); a [`Metric`] is a function of such sums, a row of its estimator's table, and
+//! the spread of the batches is its error. A kind of estimator says what it is an [`EstimatorKind`] of;
+//! [`ESTIMATORS`] lists them all. The viewer, and the light with him, stands in a [`ViewFrame`].
 
 pub mod batches;
 pub mod beam_tallies;
@@ -22,6 +22,7 @@ pub mod hemisphere;
 pub mod horizon;
 pub mod kind;
 pub mod nonconvex;
+pub mod picture;
 pub mod pixel_cells;
 pub mod point_light;
 pub mod quadrature;

@@ -10,6 +10,7 @@ pub mod polygon;
 pub mod polyhedron;
 pub mod triangulation;
 mod welded_surface;
+pub mod welding;
 
 pub use closed_mesh::ClosedMesh;
 pub use plane::Plane;

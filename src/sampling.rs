@@ -1,5 +1,6 @@
-//! Sampling: random streams, quasi-random sequences, warps, statistics with their errors.
+//! Sampling: random streams, quasi-random sequences, warps, discrete distributions, statistics with their errors.
 
+pub mod discrete_cdf;
 pub mod histogram;
 pub mod kronecker;
 pub mod random;

@@ -296,7 +296,7 @@ fn report_leaves_everything_about_a_stone() {
         assert!(bench.path("out").join(name).exists(), "{name}");
     }
     let page = std::fs::read_to_string(bench.path("out/index.html")).expect("written");
-    assert_eq!(page.matches("data:image/png;base64,").count(), 4);
+    assert_eq!(page.matches("data:image/png;base64,").count(), 5);
     assert!(!page.contains("http://") && !page.contains("https://"), "the page needs no network");
     for metric in cutlab::advanced::metrics::METRICS.iter() {
         assert!(page.contains(metric.name), "{}", metric.name);

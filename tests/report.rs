@@ -4,21 +4,42 @@ mod bench;
 mod brilliants;
 
 use bench::Bench;
-use brilliants::{SEED, design, diamond, named, plan, stone, subject};
+use brilliants::{SEED, design, diamond, named, plan, subject};
+use cutlab::advanced::color::cie;
 use cutlab::advanced::design::library;
+use cutlab::advanced::geometry::ClosedMesh;
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::METRICS;
 use cutlab::advanced::report::references::{References, STONES};
-use cutlab::advanced::report::viewer_images::{self, ASET, IDEAL_SCOPE, VIEWER_IMAGES, WINDOWS};
-use cutlab::advanced::scoring::score::{ScoreRequest, Target, score};
+use cutlab::advanced::report::viewer_images::{self, ViewerPicture};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, StoneShape, Target, score};
+use cutlab::advanced::stone::Stone;
 
-/// Shares of the strongest path from the project's sources (reference tracer): green 6.0, red 66.7,
-/// blue 22.8, leakage 4.5, ±.5 % of the face-up area.
+/// Pixels across a picture of these tests.
+const SIDE: u32 = 160;
+
+/// Pixels on a grid see the mean of the outline with this error at that size, at most.
+const GRID_ERROR: f64 = 0.004;
+
+fn taken(subject: &ScoreInput, plan: &ScoreRequest) -> Vec<ViewerPicture> {
+    viewer_images::pictures(subject, plan, SIDE).expect("can be drawn")
+}
+
+/// The mean colour of a picture within the outline, in linear light.
+fn mean_colour(picture: &ViewerPicture) -> [f64; 3] {
+    let pixels = image::load_from_memory(&picture.png).expect("a PNG").into_rgb8();
+    let background = *pixels.get_pixel(0, 0);
+    let stone: Vec<_> = pixels.pixels().filter(|p| **p != background).collect();
+    assert!(stone.len() > 1000, "{}: a stone is seen", picture.scope.name);
+    let linear = |byte: u8| f64::from(cie::srgb_decode(f32::from(byte) / 255.0));
+    [0, 1, 2].map(|c| stone.iter().map(|p| linear(p[c])).sum::<f64>() / stone.len() as f64)
+}
+
+/// Shares of the strongest path from the project's sources (reference tracer, scalar Fresnel): green 6.0,
+/// red 66.7, blue 22.8, leakage 4.5, ±.5 % of the face-up area.
 #[test]
 fn the_aset_picture_has_the_reference_shares() {
-    let index = diamond().index_d() as f32;
-    let pictures =
-        viewer_images::pictures(&stone(&named("reference")), index, &[&ASET], 160).expect("can be encoded");
+    let pictures = taken(&subject("", &named("reference"), diamond()), &plan(&[], 1));
     let shares = &pictures[0].shares;
     for (share, expected) in shares.iter().zip([0.060, 0.667, 0.228, 0.045]) {
         assert!((share - expected).abs() < 0.005, "{shares:?}");
@@ -26,36 +47,90 @@ fn the_aset_picture_has_the_reference_shares() {
     assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
 }
 
-/// Pixels on a grid and random points see the same leakage, windows and extinction: in diamond, and
-/// in a shallow stone of glass, which has a window.
+/// Every key of every picture has the mean that is scored beside it: of a diamond, of a shallow glass with a
+/// window, of a ruby and of a diamond with a dent, with and without polarisation, under any observer. And the
+/// pixels have the colours that the keys say.
 #[test]
-fn the_other_pictures_have_the_shares_that_are_scored() {
-    let glass = Material::from_index(1.5);
-    for (material, pavilion) in [(diamond(), 40.5), (glass, 38.0)] {
-        let design = design(&[("pavilion-angle", pavilion)]);
-        let index = material.index_d() as f32;
-        let pictures = viewer_images::pictures(&stone(&design), index, &[&IDEAL_SCOPE, &WINDOWS], 160)
-            .expect("can be encoded");
-        let metrics = ["leakage_strongest", "windowing", "extinction"];
-        let scored = score(&subject("", &design, material), &plan(&metrics, 1 << 16)).scores;
-        let seen = [pictures[0].shares[2], pictures[1].shares[0], pictures[1].shares[1]];
-        for ((metric, seen), scored) in metrics.iter().zip(seen).zip(scored) {
-            let scored = scored.expect("applies");
-            // the grid's own error: .002 for the ASET's shares at this size
-            let off = (seen - scored.value).abs();
-            assert!(off < 0.005 + 4.0 * scored.error, "{metric}: {seen}, {scored:?}");
+fn pictures_have_the_means_that_are_scored() {
+    let (ruby, glass) = (Material::by_name("ruby").expect("in the catalogue"), Material::from_index(1.5));
+    let wide = named("reference").sized(8.0).expect("can be sized");
+    let shallow = design(&[("pavilion-angle", 38.0)]);
+    let polarised = |metrics: &[&str]| ScoreRequest { polarised: true, ..plan(metrics, 1 << 16) };
+    let observed = |metrics: &[&str]| ScoreRequest { observer: Some(30.0), ..polarised(metrics) };
+    let strongest =
+        ["aset_green_strongest", "aset_red_strongest", "aset_blue_strongest", "aset_leak_strongest"];
+    let bands = ["aset_green", "aset_red", "aset_blue", "aset_leak"];
+    let scope = ["ideal_scope_red", "ideal_scope_black", "ideal_scope_white"];
+    let (windows, brightness) = (["windowing", "extinction"], ["brightness"]);
+    let convex: [&[&str]; 4] = [&strongest, &scope, &windows, &brightness];
+    let dented: [&[&str]; 3] = [&bands, &scope, &brightness];
+    let with_a_dent = |material: Material| {
+        let shape = Ok(StoneShape::Nonconvex(Box::new(dented_cube())));
+        ScoreInput { stone: "dented".into(), material, shape, tilt: None }
+    };
+    type Plan<'a> = &'a dyn Fn(&[&str]) -> ScoreRequest;
+    let cases: [(ScoreInput, Plan, &[&[&str]]); 7] = [
+        (subject("diamond", &named("reference"), diamond()), &polarised, &convex),
+        (subject("scalar diamond", &named("reference"), diamond()), &|m| plan(m, 1 << 16), &convex),
+        (subject("glass", &shallow, glass), &polarised, &convex),
+        (subject("ruby", &wide, ruby.clone()), &polarised, &convex),
+        (subject("ruby, observed", &wide, ruby.clone()), &observed, &convex),
+        (with_a_dent(diamond()), &polarised, &dented),
+        (with_a_dent(ruby.clone()), &polarised, &dented),
+    ];
+    for (subject, plan, metrics) in cases {
+        let plan = plan(&metrics.concat());
+        let scored = score(&subject, &plan);
+        assert_eq!(scored.error, None);
+        let pictures = taken(&subject, &plan);
+        let keys = pictures.iter().zip(metrics).flat_map(|(p, metrics)| p.shares.iter().zip(*metrics));
+        for ((seen, metric), score) in keys.zip(&scored.scores) {
+            let score = score.expect("applies");
+            let off = (seen - score.value).abs();
+            let which = format!("{metric} of {}: {seen}, {score:?}", subject.stone);
+            assert!(off < GRID_ERROR + 4.0 * score.error, "{which}");
+        }
+        let scope = pictures.iter().find(|p| p.scope.name == "Ideal-Scope").expect("taken");
+        let mixed = |c: usize| {
+            let keys = scope.scope.legend.iter().zip(&scope.shares);
+            let linear = |byte: u8| f64::from(cie::srgb_decode(f32::from(byte) / 255.0));
+            keys.map(|(key, share)| share * linear(key.colour[c])).sum::<f64>()
+        };
+        let pixels = mean_colour(scope);
+        // pixels at the outline are part background
+        (0..3).for_each(|c| assert!((pixels[c] - mixed(c)).abs() < 0.02, "{} {pixels:?}", subject.stone));
+        let bright = pictures.last().expect("taken");
+        let [red, green, blue] = mean_colour(bright);
+        let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+        assert!((luminance - bright.shares[0]).abs() < 0.02, "{}: {luminance}", subject.stone);
+        if subject.material == *ruby {
+            assert!(red > 3.0 * green && red > 3.0 * blue, "{}: {red} {green} {blue}", subject.stone);
+        } else {
+            assert!((red - green).abs() < 0.01 && (green - blue).abs() < 0.01, "{red} {green} {blue}");
         }
     }
 }
 
+/// A cube of 6 mm whose top is a pyramid pressed in to half its depth.
+fn dented_cube() -> ClosedMesh {
+    let corners =
+        [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]];
+    let faces = ["4 3 2 1", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8", "5 6 9", "6 7 9", "7 8 9", "8 5 9"];
+    let mesh = corners.map(|[x, y, z]| format!("v {x} {y} {z}\n")).concat()
+        + "v 0.1 -0.05 0\n"
+        + &faces.map(|f| format!("f {f}\n")).concat();
+    let stone = Stone::from_bytes("dented.obj", mesh.as_bytes(), None).expect("it is closed");
+    stone.mesh().expect("has a dent").clone().scaled(3.0)
+}
+
 #[test]
 fn the_pictures_are_the_same_on_any_number_of_threads() {
-    let stone = stone(&named("reference"));
+    let ruby = Material::by_name("ruby").expect("in the catalogue");
+    let subject = subject("", &named("reference"), ruby.clone());
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        let pictures = pool
-            .install(|| viewer_images::pictures(&stone, 2.417, &VIEWER_IMAGES, 48).expect("can be encoded"));
-        pictures.into_iter().map(|p| p.png).collect::<Vec<_>>()
+        let pictures = pool.install(|| viewer_images::pictures(&subject, &ScoreRequest::default(), 48));
+        pictures.expect("can be drawn").into_iter().map(|p| p.png).collect::<Vec<_>>()
     };
     let one = on(1);
     assert_eq!(one, on(2));
@@ -148,8 +223,8 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
         let closed = ["absorbed", "windowing", "spread", "weight_ratio"].contains(&metric.name);
         assert!(closed || row.matches('±').count() == 1 + STONES.len(), "{row}");
     }
-    // the table, three scopes; the diagram, three tilts, the map
-    assert_eq!(page.matches("data:image/png;base64,").count(), 4);
+    // the table, four views from above; the diagram, three tilts, the map
+    assert_eq!(page.matches("data:image/png;base64,").count(), 5);
     assert_eq!(page.matches("data:image/svg+xml;base64,").count(), 5);
     assert!(page.contains("this stone lies outside of it"), "43° is below the map");
     assert!(page.contains("(table/crown/pavilion) in diamond.") && page.contains("<em>less is better</em>"));

@@ -2,25 +2,35 @@
 
 use super::cie;
 use super::illuminants::Illuminant;
+use crate::sampling::discrete_cdf::DiscreteCdf;
 use std::sync::LazyLock;
 
-/// ȳ × D65 at the wavelengths of the table, and its integral up to each as a share of the whole.
-struct LuminanceDensity {
-    density: Vec<f64>,
-    upto: Vec<f64>,
+/// A tristimulus value of the CIE 1931 observer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tristimulus {
+    /// By x̄.
+    X = 0,
+    /// By ȳ: luminance.
+    Y = 1,
+    /// By z̄.
+    Z = 2,
 }
 
-static DAYLIGHT: LazyLock<LuminanceDensity> = LazyLock::new(|| {
+/// A matching function × D65 at the wavelengths of the table, and the steps between them by its integral.
+struct WavelengthDensity {
+    density: Vec<f64>,
+    steps: DiscreteCdf,
+}
+
+/// In the order of [`Tristimulus`].
+static DAYLIGHT: LazyLock<[WavelengthDensity; 3]> = LazyLock::new(|| {
     let light = Illuminant::daylight();
-    let density: Vec<f64> =
-        cie::nodes().map(|nm| f64::from(cie::matching(nm).y) * f64::from(light.power(nm))).collect();
-    let mut upto = vec![0.0];
-    for pair in density.windows(2) {
-        upto.push(upto[upto.len() - 1] + 0.5 * (pair[0] + pair[1]));
-    }
-    let total = upto[upto.len() - 1];
-    upto.iter_mut().for_each(|share| *share /= total);
-    LuminanceDensity { density, upto }
+    [0, 1, 2].map(|value| {
+        let density: Vec<f64> =
+            cie::nodes().map(|nm| f64::from(cie::matching(nm)[value]) * f64::from(light.power(nm))).collect();
+        let steps = DiscreteCdf::new(density.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]))).normalised();
+        WavelengthDensity { density, steps }
+    })
 });
 
 /// The wavelength in nm below which daylight has a share of its luminance: with uniform shares,
@@ -31,9 +41,13 @@ static DAYLIGHT: LazyLock<LuminanceDensity> = LazyLock::new(|| {
 /// The product is linear between 380, 385 … 730 nm; light beyond is left out (1e-4 of it). Checked
 /// below.
 pub fn wavelength_nm(share: f64) -> f64 {
-    let LuminanceDensity { density, upto } = &*DAYLIGHT;
-    let i = upto.partition_point(|s| *s <= share).clamp(1, upto.len() - 1) - 1;
-    let within = ((share - upto[i]) / (upto[i + 1] - upto[i])).clamp(0.0, 1.0);
+    wavelength_by(Tristimulus::Y, share)
+}
+
+/// [`wavelength_nm`] with the matching function of any tristimulus value in place of ȳ.
+pub fn wavelength_by(value: Tristimulus, share: f64) -> f64 {
+    let WavelengthDensity { density, steps } = &DAYLIGHT[value as usize];
+    let (i, within) = steps.sample(share);
     // the root of the integral of a linear density
     let (a, b) = (density[i], density[i + 1]);
     let root = (a * a + within * (b * b - a * a)).max(0.0).sqrt();
@@ -49,18 +63,23 @@ mod tests {
 
     /// Light through a red filter (above 600 nm) and a green one, against sums over the table.
     #[test]
-    fn wavelengths_drawn_by_luminance_give_the_luminance_behind_a_filter() {
+    fn wavelengths_drawn_by_a_tristimulus_value_give_that_behind_a_filter() {
         let light = Illuminant::daylight();
+        let white = light.xyz(|_| 1.0);
         for pass in [
             |nm: f64| 1.0 / (1.0 + (-(nm - 600.0) / 10.0).exp()),
             |nm: f64| (-((nm - 530.0) / 30.0).powi(2)).exp(),
         ] {
             let n = 20_000;
-            let drawn = (0..n).map(|i| pass(wavelength_nm((f64::from(i) + 0.5) / f64::from(n)))).sum::<f64>()
-                / f64::from(n);
-            let table = f64::from(light.xyz(|nm| pass(f64::from(nm)) as f32).y);
-            assert!((drawn / table - 1.0).abs() < 2e-3, "{drawn} {table}");
+            for value in [Tristimulus::X, Tristimulus::Y, Tristimulus::Z] {
+                let wavelength = |i: u32| wavelength_by(value, (f64::from(i) + 0.5) / f64::from(n));
+                let drawn = (0..n).map(|i| pass(wavelength(i))).sum::<f64>() / f64::from(n);
+                let table = f64::from((light.xyz(|nm| pass(f64::from(nm)) as f32) / white)[value as usize]);
+                // of blue light next to nothing passes the red filter: both its ends count
+                assert!((drawn - table).abs() < 2e-3 * table + 1e-5, "{value:?}: {drawn} {table}");
+            }
         }
+        assert!(wavelength_by(Tristimulus::Z, 1.0).is_finite());
         assert!((wavelength_nm(0.0) - 380.0).abs() < 1e-9 && (wavelength_nm(1.0) - 730.0).abs() < 1e-9);
         assert!(
             (0..1000)

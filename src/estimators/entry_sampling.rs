@@ -3,6 +3,7 @@
 use super::{EstimatorError, ViewFrame};
 use crate::design::Zone;
 use crate::geometry::measure::convex_hull;
+use crate::sampling::discrete_cdf::DiscreteCdf;
 use crate::trace::ConvexStone;
 use crate::trace::nonconvex::MeshStone;
 use glam::{DVec2, DVec3, Vec3};
@@ -35,37 +36,6 @@ pub(super) fn table_flags(stone: &ConvexStone) -> Vec<f32> {
 /// For each facet 1 if its unit normal is of a kind, else 0.
 pub(super) fn flags(stone: &ConvexStone, is_flagged: impl Fn(DVec3) -> bool) -> Vec<f32> {
     stone.planes.iter().map(|p| if is_flagged(p.normal) { 1.0 } else { 0.0 }).collect()
-}
-
-/// Picks a piece by weight from a uniform number and hands back the rest of that number, again
-/// uniform in [0, 1).
-#[derive(Debug, Clone)]
-struct DiscreteCdf {
-    /// Running sums of the weights; the last is the total.
-    upto: Vec<f64>,
-}
-
-impl DiscreteCdf {
-    fn new(weights: impl Iterator<Item = f64>) -> Self {
-        let upto = weights
-            .scan(0.0, |sum, w| {
-                *sum += w;
-                Some(*sum)
-            })
-            .collect();
-        Self { upto }
-    }
-
-    fn total(&self) -> f64 {
-        self.upto.last().copied().unwrap_or(0.0)
-    }
-
-    fn sample(&self, u: f64) -> (usize, f64) {
-        let x = u * self.total();
-        let i = self.upto.partition_point(|s| *s <= x).min(self.upto.len().saturating_sub(1));
-        let from = if i == 0 { 0.0 } else { self.upto[i - 1] };
-        (i, ((x - from) / (self.upto[i] - from)).clamp(0.0, 1.0))
-    }
 }
 
 /// The crown of a stone as triangles, trace frame.

@@ -22,7 +22,7 @@ use crate::sampling::tally::Tally;
 use crate::sampling::warps;
 use crate::trace::nonconvex::{MeshStone, Side};
 use crate::trace::reference::{ScalarInteraction, ScalarRay};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 
 /// Which way light goes on in a concavity, one stream a ray.
@@ -48,20 +48,16 @@ pub(super) fn hemisphere_methods<'a>(stone: &'a MeshStone, setup: Setup<'a>) -> 
 
 /// The same of the view's metrics.
 pub(super) fn view_methods<'a>(stone: &'a MeshStone, setup: Setup<'a>) -> Vec<Method<'a>> {
-    let Setup { medium, view_frame, stop_power, .. } = setup;
-    let lighting = view_metrics::lighting(&setup);
-    vec![Method::samples("view", COST, move || {
-        Ok(NonconvexView::new(stone, &medium, view_frame, lighting)?.with_stop_power(stop_power))
-    })]
+    vec![Method::samples("view", COST, move || NonconvexView::in_setup(stone, &setup))]
 }
 
 /// A stone that is not convex, and how it is lit.
 #[derive(Clone)]
-struct NonconvexTracer<'a> {
-    stone: &'a MeshStone,
-    view_frame: ViewFrame,
+pub(super) struct NonconvexTracer<'a> {
+    pub(super) stone: &'a MeshStone,
+    pub(super) view_frame: ViewFrame,
     polarised: bool,
-    light: Wavelengths,
+    pub(super) light: Wavelengths,
     stop_power: f64,
 }
 
@@ -111,7 +107,7 @@ impl<'a> NonconvexTracer<'a> {
 }
 
 /// Random numbers for a point of a batch.
-fn chance(seed: u64, batch: u64, point: u64) -> Stream {
+pub(super) fn chance(seed: u64, batch: u64, point: u64) -> Stream {
     Stream::new(seed, STREAM, (batch << 48) | point)
 }
 
@@ -187,11 +183,18 @@ impl Estimator for NonconvexHemisphere<'_> {
 /// The view of a stone that is not convex: [`view::View`].
 #[derive(Clone)]
 pub struct NonconvexView<'a> {
-    lit: NonconvexTracer<'a>,
+    pub(super) lit: NonconvexTracer<'a>,
     surroundings: ViewerLighting,
 }
 
 impl<'a> NonconvexView<'a> {
+    /// Looks at a stone as the view's metrics do.
+    pub fn in_setup(stone: &'a MeshStone, setup: &Setup) -> Result<Self, EstimatorError> {
+        let lighting = view_metrics::lighting(setup);
+        let view = Self::new(stone, &setup.medium, setup.view_frame, lighting)?;
+        Ok(view.with_stop_power(setup.stop_power))
+    }
+
     /// Looks at a stone.
     pub fn new(
         stone: &'a MeshStone,
@@ -211,37 +214,45 @@ impl<'a> NonconvexView<'a> {
 
 impl Estimator for NonconvexView<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        let ViewFrame { axis, right, top } = self.lit.view_frame;
-        let ViewerLighting { scope, dome } = self.surroundings;
         let hues = KroneckerPoints::<1>::new(seed, HUE_STREAM, batch, points.clone());
         let numbers = points.clone().zip(hues);
         for ((number, [hue]), [a, b]) in numbers.zip(KroneckerPoints::new(seed, view::STREAM, batch, points))
         {
             // the stone lies within the unit sphere
-            let from = axis * FAR_AWAY + right * (2.0 * a - 1.0) + top * (2.0 * b - 1.0);
-            if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
-                continue;
-            }
-            tally[view::RAYS] += 1.0;
-            tally[view::LOST] +=
-                self.lit.trace(from, -axis, hue, chance(seed, batch, number), |m, entered| {
-                    let z = m.direction.dot(axis);
-                    let bright = |sky: ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
-                    tally[view::ABSORBED] += m.absorbed;
-                    tally[view::LUMINANCE] += bright(dome);
-                    if entered {
-                        tally[view::BANDS[band(z as f32) as usize]] += m.power;
-                        tally[view::UP_COS2] += m.power * z.max(0.0).powi(2);
-                        tally[view::SCOPE_BRIGHT] += bright(scope);
-                        tally[view::SCOPE_DARK] += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
-                    } else {
-                        tally[view::REFLECTED] += m.power;
-                    }
-                });
+            let place = DVec2::new(2.0 * a - 1.0, 2.0 * b - 1.0);
+            self.trace_sight(place, hue, chance(seed, batch, number), tally);
         }
     }
 
     fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
         view::bounds_of_untraced(sums)
+    }
+}
+
+impl NonconvexView<'_> {
+    /// Traces the line of sight through a place of the picture, if it meets the stone, and adds up what is
+    /// seen along it.
+    pub(super) fn trace_sight(&self, place: DVec2, hue: f64, stream: Stream, tally: &mut Tally) {
+        let ViewFrame { axis, right, top } = self.lit.view_frame;
+        let ViewerLighting { scope, dome } = self.surroundings;
+        let from = axis * FAR_AWAY + right * place.x + top * place.y;
+        if self.lit.stone.next_facet(from, -axis, Side::Outside).is_none() {
+            return;
+        }
+        tally[view::RAYS] += 1.0;
+        tally[view::LOST] += self.lit.trace(from, -axis, hue, stream, |m, entered| {
+            let z = m.direction.dot(axis);
+            let bright = |sky: ObserverDome| if sky.is_bright(z as f32) { m.power } else { 0.0 };
+            tally[view::ABSORBED] += m.absorbed;
+            tally[view::LUMINANCE] += bright(dome);
+            if entered {
+                tally[view::BANDS[band(z as f32) as usize]] += m.power;
+                tally[view::UP_COS2] += m.power * z.max(0.0).powi(2);
+                tally[view::SCOPE_BRIGHT] += bright(scope);
+                tally[view::SCOPE_DARK] += if scope.is_hidden(z as f32) { m.power } else { 0.0 };
+            } else {
+                tally[view::REFLECTED] += m.power;
+            }
+        });
     }
 }

@@ -12,6 +12,7 @@ use crate::sampling::random::Purpose;
 use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
+use glam::Vec3;
 use std::ops::Range;
 
 /// Points of the outline, one stream a batch.
@@ -24,13 +25,13 @@ pub const DARK: f32 = 0.1;
 /// the viewer. D line, or daylight for a stone that absorbs; unpolarised outside.
 #[derive(Debug, Clone)]
 pub struct View<'a> {
-    stone: &'a ConvexStone,
+    pub(super) stone: &'a ConvexStone,
     polarised: bool,
-    light: Wavelengths,
+    pub(super) light: Wavelengths,
     stop_power: f32,
-    view_frame: ViewFrame,
+    pub(super) view_frame: ViewFrame,
     lighting: ViewerLighting,
-    outline: Silhouette,
+    pub(super) outline: Silhouette,
     pavilion: Vec<f32>,
 }
 
@@ -125,11 +126,13 @@ impl<'a> View<'a> {
     }
 }
 
-/// The rays of a run of points, `K` wavelengths each; sums of a ray are kept in its first lane.
-struct ViewClient<'a, const K: usize> {
+/// A line of sight: facet and point that it meets, and the place of its wavelengths in their strata, 0..1.
+pub(super) type SightLine = ((usize, Vec3), f64);
+
+/// The rays of lines of sight, `K` wavelengths each; sums of a ray are kept in its first lane.
+struct ViewClient<'a, S, const K: usize> {
     estimator: &'a View<'a>,
-    points: KroneckerPoints<2>,
-    hues: KroneckerPoints<1>,
+    sights: S,
     tally: &'a mut Tally,
     bands: [Lanes; 4],
     up_cos2: Lanes,
@@ -145,7 +148,7 @@ struct ViewClient<'a, const K: usize> {
     windowed: Lanes,
 }
 
-impl<const K: usize> RayClient for ViewClient<'_, K> {
+impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_, S, K> {
     const WIDTH: usize = K;
 
     fn polarised(&self) -> bool {
@@ -161,9 +164,9 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
     }
 
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
-        let View { stone, light, view_frame, outline, lighting: surroundings, .. } = self.estimator;
-        let ((facet, point), toward) = (outline.sample(u), -view_frame.axis.as_vec3());
+        let Some(((facet, point), hue)) = self.sights.next() else { return false };
+        let View { stone, light, view_frame, lighting: surroundings, .. } = self.estimator;
+        let toward = -view_frame.axis.as_vec3();
         self.tally[RAYS] += 1.0;
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
             let entry = optics.enter(packet, lane, stone, facet, point, toward);
@@ -236,13 +239,21 @@ impl<const K: usize> RayClient for ViewClient<'_, K> {
 }
 
 impl View<'_> {
-    /// Traces points in `K` wavelengths each.
-    fn trace_in<const K: usize>(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
+    /// Traces lines of sight and adds up what is seen along them.
+    pub(super) fn trace_sights(&self, sights: impl Iterator<Item = SightLine>, tally: &mut Tally) {
+        if self.light.absorb() {
+            self.trace_in::<LINES_PER_RAY>(sights, tally);
+        } else {
+            self.trace_in::<1>(sights, tally);
+        }
+    }
+
+    /// Traces lines of sight in `K` wavelengths each.
+    fn trace_in<const K: usize>(&self, sights: impl Iterator<Item = SightLine>, tally: &mut Tally) {
         let zero = [0.0; LANES];
-        let mut client = ViewClient::<K> {
+        let mut client = ViewClient::<_, K> {
             estimator: self,
-            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
-            points: KroneckerPoints::new(seed, STREAM, batch, points),
+            sights,
             tally,
             bands: [zero; 4],
             up_cos2: zero,
@@ -262,11 +273,9 @@ impl View<'_> {
 
 impl Estimator for View<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        if self.light.absorb() {
-            self.trace_in::<LINES_PER_RAY>(seed, batch, points, tally);
-        } else {
-            self.trace_in::<1>(seed, batch, points, tally);
-        }
+        let hues = KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone());
+        let places = KroneckerPoints::new(seed, STREAM, batch, points);
+        self.trace_sights(places.zip(hues).map(|(u, [hue])| (self.outline.sample(u), hue)), tally);
     }
 
     fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {

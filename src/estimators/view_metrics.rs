@@ -1,5 +1,6 @@
 //! The view as scores have it, and its metrics.
 
+use super::EstimatorError;
 use super::kind::{Better, EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
 use super::view::{
     self, BELOW, BLUE, COLUMNS, DARK_RAYS, GREEN, LUMINANCE, RAYS, RED, SCOPE_BRIGHT, SCOPE_DARK,
@@ -28,15 +29,21 @@ impl EstimatorKind for ViewKind {
     }
 
     fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
-        let Setup { medium, view_frame, stop_power, .. } = setup;
-        let lighting = lighting(&setup);
-        vec![Method::samples("view", medium.wavelengths_per_point(), move || {
-            Ok(View::in_frame(stone, &medium, view_frame, lighting)?.with_stop_power(stop_power))
+        vec![Method::samples("view", setup.medium.wavelengths_per_point(), move || {
+            View::in_setup(stone, &setup)
         })]
     }
 
     fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
         view::bounds_of_untraced(sums)
+    }
+}
+
+impl<'a> View<'a> {
+    /// Looks at a stone as its metrics do.
+    pub fn in_setup(stone: &'a ConvexStone, setup: &Setup) -> Result<Self, EstimatorError> {
+        let view = Self::in_frame(stone, &setup.medium, setup.view_frame, lighting(setup))?;
+        Ok(view.with_stop_power(setup.stop_power))
     }
 }
 

@@ -2,7 +2,7 @@
 
 pub(super) use super::trace_optics::LINES_PER_RAY;
 use super::{EstimatorError, LineOptics, TraceOptics};
-use crate::color::luminance;
+use crate::color::luminance::{self, Tristimulus};
 use crate::optics::dispersion::lines;
 use crate::sampling::random::Purpose;
 
@@ -27,11 +27,21 @@ pub(super) struct Wavelengths {
 impl Wavelengths {
     /// The optics of a stone with a trace unit of `unit`.
     pub(super) fn new(medium: &TraceOptics, unit: f64) -> Result<Self, EstimatorError> {
+        Self::weighted(medium, unit, Tristimulus::Y)
+    }
+
+    /// The same with wavelengths drawn in proportion to any tristimulus value under D65: power is then
+    /// that value as a share of white's, and the three of them are a colour.
+    pub(super) fn weighted(
+        medium: &TraceOptics,
+        unit: f64,
+        value: Tristimulus,
+    ) -> Result<Self, EstimatorError> {
         let optics = if medium.material.is_clear() {
             vec![medium.optics(unit, lines::D)?]
         } else {
             let middle = |class: usize| (class as f64 + 0.5) / CLASSES as f64;
-            let each = |class| medium.optics(unit, luminance::wavelength_nm(middle(class)));
+            let each = |class| medium.optics(unit, luminance::wavelength_by(value, middle(class)));
             (0..CLASSES).map(each).collect::<Result<_, _>>()?
         };
         Ok(Self { optics })

@@ -8,7 +8,8 @@ use super::closed_mesh::ClosedMesh;
 use super::plane::Plane;
 pub use super::polygon::{Polygon, Stored};
 use super::polyhedron::{Polyhedron, SolidError};
-use super::welded_surface::{WeldedSurface, welded};
+use super::welded_surface::WeldedSurface;
+use super::welding::weld;
 use crate::limits::{self, Exceeded, Limits};
 use glam::DVec3;
 
@@ -155,8 +156,12 @@ pub fn facets_of_polygons(
     }
     let rounding = ROUNDINGS * stored.corner / size;
     let mut surface = WeldedSurface::default();
-    for weld in steps(WELD[0].max(rounding), WELD_STEP, WELD[1]) {
-        surface = WeldedSurface::new(vertices, polygons, &welded(vertices, lo, hi, weld * size));
+    for within in steps(WELD[0].max(rounding), WELD_STEP, WELD[1]) {
+        surface = WeldedSurface::new(
+            vertices,
+            polygons,
+            &weld(vertices, 0..vertices.len(), (lo, hi), within * size),
+        );
         if surface.open_edges > 0 {
             surface = surface.with_corners_on_edges(polygons, COPLANAR[0].max(rounding) * size);
         }

@@ -1,7 +1,7 @@
 //! Triangles of a solid's facets, by constrained Delaunay triangulation.
 
 use super::polyhedron::{Face, PlaneStatus, Polyhedron};
-use super::welded_surface::{welded, without_repeats};
+use super::welding::{weld, without_repeats};
 use crate::sampling::warps;
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -22,8 +22,7 @@ impl Polyhedron {
     /// The solid with corners nearer than `distance` to each other made one. Faces that shrink to an
     /// edge or a point go, and count as redundant.
     pub fn welded(&self, distance: f64) -> Polyhedron {
-        let (low, high) = self.bounds();
-        let first = welded(&self.vertices, low, high, distance);
+        let first = weld(&self.vertices, 0..self.vertices.len(), self.bounds(), distance);
         if first.iter().enumerate().all(|(i, &f)| i == f) {
             return self.clone();
         }

@@ -5,6 +5,7 @@ mod junctions;
 
 use super::facet_recovery::Polygon;
 use super::plane::Plane;
+use super::welding::without_repeats;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet, VecDeque};
 
@@ -34,66 +35,6 @@ pub(super) struct WeldedSurface {
     pub open_edges: usize,
     /// Connected parts.
     pub shells: usize,
-}
-
-/// For each corner the number of the first corner within `distance` of it.
-///
-/// - `low`, `high`: the box of the corners that matter; those outside stay as they are
-pub(super) fn welded(vertices: &[DVec3], low: DVec3, high: DVec3, distance: f64) -> Vec<usize> {
-    let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-    let mut first = Vec::with_capacity(vertices.len());
-    for (i, v) in vertices.iter().enumerate() {
-        // all far ones would share the last cell
-        if !(v.cmpge(low) & v.cmple(high)).all() {
-            first.push(i);
-            continue;
-        }
-        let cell = ((*v - low) / distance).floor().to_array().map(|c| c as i64);
-        let around = (0..27i64).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]);
-        let twin = around
-            .filter_map(|d| cells.get(&[0, 1, 2].map(|a| cell[a].saturating_add(d[a]))))
-            .flatten()
-            .copied()
-            .find(|&j| vertices[j].distance(*v) <= distance);
-        first.push(twin.unwrap_or(i));
-        if twin.is_none() {
-            cells.entry(cell).or_default().push(i);
-        }
-    }
-    first
-}
-
-/// The ring without repeated corners and without spikes (`a b a`).
-pub(super) fn without_repeats(corners: impl Iterator<Item = usize>) -> Vec<usize> {
-    let mut ring: Vec<usize> = Vec::new();
-    for c in corners {
-        ring.push(c);
-        loop {
-            let n = ring.len();
-            if n >= 2 && ring[n - 1] == ring[n - 2] {
-                ring.pop();
-            } else if n >= 3 && ring[n - 1] == ring[n - 3] {
-                ring.truncate(n - 2);
-            } else {
-                break;
-            }
-        }
-    }
-    let mut start = 0;
-    loop {
-        let n = ring.len();
-        if n - start >= 2 && ring[start] == ring[n - 1] {
-            ring.pop();
-        } else if n - start >= 3 && ring[start] == ring[n - 2] {
-            ring.truncate(n - 2);
-        } else if n - start >= 3 && ring[start + 1] == ring[n - 1] {
-            start += 1;
-            ring.pop();
-        } else {
-            ring.drain(..start);
-            return ring;
-        }
-    }
 }
 
 fn area_vector(vertices: &[DVec3], corners: &[usize]) -> DVec3 {

@@ -10,6 +10,7 @@ use super::{Class, PhotonSet, PhotonSettings, StoredPhoton};
 use crate::parallel;
 use crate::photons::stone_scattering;
 use crate::photons::stone_scattering::IncidentPhoton;
+use crate::sampling::discrete_cdf::DiscreteCdf;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Stream;
 use crate::scene::intersection::{Intersection, Past};
@@ -44,8 +45,8 @@ struct EmissionContext<'a> {
     class: Class,
     seed: u64,
     aim: PhotonGuide,
-    /// For each light the probability that a photon starts there, summed up.
-    cumulative: Vec<f32>,
+    /// Lights by the probability that a photon starts there.
+    lights: DiscreteCdf,
 }
 
 impl EmissionContext<'_> {
@@ -55,15 +56,13 @@ impl EmissionContext<'_> {
         let reaches: Vec<f32> = scene.lights.iter().map(reach).collect();
         let floor = LEAST * reaches.iter().sum::<f32>() / reaches.len().max(1) as f32;
         let total: f32 = reaches.iter().map(|r| r + floor).sum();
-        let mut sum = 0.0;
-        let cumulative = reaches
-            .iter()
-            .map(|r| {
-                sum += (r + floor) / total;
-                sum
-            })
-            .collect();
-        EmissionContext { scene, class, seed, aim, cumulative }
+        let mut sum = 0.0f32;
+        let add = |r: &f32| {
+            sum += (r + floor) / total;
+            f64::from(sum)
+        };
+        let lights = DiscreteCdf::from_cumulative(reaches.iter().map(add).collect());
+        EmissionContext { scene, class, seed, aim, lights }
     }
 }
 
@@ -171,13 +170,12 @@ fn batch(room: &EmissionContext, from: u64, count: u64) -> Vec<(u64, StoredPhoto
 /// - `place`: its point of the cube of light, wavelength, place and direction
 fn start_path(room: &EmissionContext, number: u64, place: EmissionUniforms) -> Option<PhotonPath> {
     let [which, hue, s, t, pick, u, v] = place.map(|x| x as f32);
-    let lights = &room.scene.lights;
-    let i = room.cumulative.partition_point(|c| *c <= which).min(lights.len().checked_sub(1)?);
-    let before = if i == 0 { 0.0 } else { room.cumulative[i - 1] };
-    let start = lights[i].emitter.sample_le(&room.aim, [s, t, pick, u, v])?;
-    let power = start.power / (room.cumulative[i] - before);
+    let (i, _) = room.lights.sample(which.into());
+    let source = room.scene.lights.get(i)?;
+    let start = source.emitter.sample_le(&room.aim, [s, t, pick, u, v])?;
+    let power = start.power / room.lights.weight(i) as f32;
     let mut stream = Stream::new(room.seed, room.class.purpose(), number);
-    let light = PhotonLight::new(|nm| lights[i].radiance_at(power, nm), stream.unit());
+    let light = PhotonLight::new(|nm| source.radiance_at(power, nm), stream.unit());
     let (point, direction) = (start.point, start.direction);
     Some(PhotonPath { stream, number, point, direction, light, hue, last: LastEvent::Light(i) })
 }

@@ -9,9 +9,8 @@ use super::stone_report::{ReportError, table_picture};
 use super::{tilt_curves, viewer_images};
 use crate::geometry::{Polyhedron, SolidError};
 use crate::scoring::comparison::Comparison;
-use crate::scoring::score::{ScoreRequest, ScoreRow};
+use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow};
 use crate::storage::terminal::in_line;
-use crate::trace::ConvexStone;
 use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("comparison_page.css");
@@ -66,11 +65,14 @@ pub fn html(
         requests.iter().map(|r| r.design.solid()).collect::<Result<_, SolidError>>()?;
     let mut rows: Vec<Vec<Markup>> = Vec::new();
     for (request, solid) in requests.iter().zip(&solids) {
-        let stone = ConvexStone::new(solid.clone());
         step("scopes");
-        let index = request.material.index_d() as f32;
-        let mut seen = viewer_images::pictures(&stone, index, &viewer_images::VIEWER_IMAGES, SCOPE_SIDE)?;
-        seen.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
+        let subject = ScoreInput {
+            stone: request.stone.clone(),
+            material: request.material.clone(),
+            shape: Ok(solid.clone().into()),
+            tilt: None,
+        };
+        let seen = viewer_images::pictures(&subject, plan, SCOPE_SIDE)?;
         step("picture");
         let picture = table_picture(request, &|_| ())?;
         let mut cells = vec![html! { figure { img src=(data_uri(&picture)) alt="on a grey table"; } }];

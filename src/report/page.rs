@@ -59,7 +59,6 @@ pub(super) fn scope_figure(picture: &ViewerPicture) -> Markup {
             img src=(data_uri(&picture.png)) alt={ (scope.name) ", seen from above" };
             figcaption {
                 b { (scope.name) } ": " (scope.about)
-                @if picture.without_colour { "; without the colour of the stone, which the scores have" }
                 ul class="legend" {
                     @for (key, share) in keys {
                         @let [r, g, b] = key.colour;
@@ -254,30 +253,6 @@ impl Page<'_> {
                 }
                 "\n"
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A stone that absorbs is drawn without its colour, and its pictures say so.
-    #[test]
-    fn captions_tell_of_a_colour_that_is_not_shown() {
-        let octahedron = crate::design::library::design("octahedron", &Default::default()).expect("a cut");
-        let solid = octahedron.expect("can be made").solid().expect("closed");
-        let scopes = &super::super::viewer_images::VIEWER_IMAGES;
-        let pictures =
-            super::super::viewer_images::pictures(&crate::trace::ConvexStone::new(solid), 1.77, scopes, 16)
-                .expect("drawn");
-        assert_eq!(pictures.len(), 3);
-        for picture in pictures {
-            let clear = scope_figure(&picture).into_string();
-            let coloured = scope_figure(&ViewerPicture { without_colour: true, ..picture }).into_string();
-            let said = "; without the colour of the stone, which the scores have";
-            assert!(!clear.contains("without the colour") && coloured.contains(said), "{coloured}");
-            assert_eq!(coloured.replace(said, ""), clear);
         }
     }
 }

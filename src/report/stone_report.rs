@@ -3,6 +3,7 @@
 use super::page::{Page, Section};
 use super::references::References;
 use super::request::ReportRequest;
+use super::viewer_images::ViewerImageError;
 use super::{chart, diagram, sections, tilt_curves, viewer_images};
 use crate::batch::table;
 use crate::batch::table::TableError;
@@ -16,7 +17,6 @@ use crate::photons::{self, PhotonSets};
 use crate::scene::{SceneError, SceneOverrides, preset};
 use crate::scoring::score::{ScoreInput, ScoreRequest, score};
 use crate::storage::atomic_write::{self, WriteError};
-use crate::trace::ConvexStone;
 use std::path::Path;
 
 /// Pixels across and down of the picture on the table, and camera rays a pixel.
@@ -40,6 +40,9 @@ pub enum ReportError {
     /// The stone could not be put into a file format.
     #[error(transparent)]
     Format(#[from] FormatError),
+    /// The pictures through scopes could not be made.
+    #[error(transparent)]
+    Viewer(#[from] ViewerImageError),
     /// A picture could not be encoded.
     #[error(transparent)]
     Picture(#[from] image_io::EncodeError),
@@ -79,7 +82,6 @@ pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<Ston
     let solid = design.solid()?;
     let proportions = proportions::measure(&solid);
     let (made_up_of, _) = families::facet_summary(design)?;
-    let stone = ConvexStone::new(solid.clone());
 
     step("scoring");
     let plan = ScoreRequest { seed: request.seed, ..ScoreRequest::default() };
@@ -98,9 +100,7 @@ pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<Ston
     let sections = sections::sections(&plan.metrics, &row, &references);
 
     step("scopes");
-    let index = request.material.index_d() as f32;
-    let mut pictures = viewer_images::pictures(&stone, index, &viewer_images::VIEWER_IMAGES, SCOPE_SIDE)?;
-    pictures.iter_mut().for_each(|p| p.without_colour = !request.material.is_clear());
+    let pictures = viewer_images::pictures(&subject, &plan, SCOPE_SIDE)?;
 
     let tilts = tilt_curves::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
 

@@ -4,6 +4,7 @@
 
 use crate::color::rgb_upsampling;
 use crate::limits::{self, Limits};
+use crate::sampling::discrete_cdf::DiscreteCdf;
 use crate::storage::{bounded_read, text};
 use glam::Vec3;
 use image::{DynamicImage, ImageDecoder};
@@ -25,8 +26,8 @@ pub struct Panorama {
     height: usize,
     /// Colours as parts of [`rgb_upsampling::basis`].
     pixels: Vec<Vec3>,
-    /// Cumulative brightness × solid angle after each pixel, from 0 to 1.
-    cumulative: Vec<f64>,
+    /// Pixels by brightness × solid angle, adding up to 1.
+    pixels_by_power: DiscreteCdf,
     mean: f32,
     /// CRC-32 of the file.
     checksum: u32,
@@ -101,15 +102,10 @@ impl Panorama {
         let step = std::f64::consts::PI / height as f64;
         let row = |y: usize| 2.0 * (step * (y as f64 + 0.5)).sin() * (step / 2.0).sin();
         let solid_angle = |i: usize| row(i / width) * f64::from(TAU) / width as f64;
-        let mut sum = 0.0;
-        let mut cumulative: Vec<f64> = (0..pixels.len())
-            .map(|i| {
-                sum += f64::from(pixels[i].element_sum() / 3.0) * solid_angle(i);
-                sum
-            })
-            .collect();
-        cumulative.iter_mut().for_each(|c| *c /= sum);
-        Panorama { width, height, pixels, cumulative, mean: (sum / f64::from(4.0 * PI)) as f32, checksum }
+        let power = |i: usize| f64::from(pixels[i].element_sum() / 3.0) * solid_angle(i);
+        let by_power = DiscreteCdf::new((0..pixels.len()).map(power));
+        let mean = (by_power.total() / f64::from(4.0 * PI)) as f32;
+        Panorama { width, height, pixels, pixels_by_power: by_power.normalised(), mean, checksum }
     }
 
     /// How many pixels it has.
@@ -131,10 +127,8 @@ impl Panorama {
 
     /// A direction drawn by brightness, and its colour over the density per steradian.
     pub fn sample(&self, u: [f32; 2]) -> (Vec3, Vec3) {
-        let target = f64::from(u[0]);
-        let i = self.cumulative.partition_point(|c| *c <= target).min(self.pixels.len() - 1);
-        let before = if i == 0 { 0.0 } else { self.cumulative[i - 1] };
-        let within = ((target - before) / (self.cumulative[i] - before)).clamp(0.0, 1.0) as f32;
+        let (i, within) = self.pixels_by_power.sample(u[0].into());
+        let within = within as f32;
         let row = |y: usize| (PI * y as f32 / self.height as f32).cos();
         let z = row(i / self.width) + (row(i / self.width + 1) - row(i / self.width)) * u[1];
         let phi = ((i % self.width) as f32 + within) / self.width as f32 * TAU - PI;

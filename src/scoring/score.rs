@@ -180,7 +180,8 @@ impl ScoreRequest {
 }
 
 impl ScoreInput {
-    fn setup(&self, plan: &ScoreRequest) -> Setup<'_> {
+    /// The light and the eye that the stone is scored with.
+    pub fn setup(&self, plan: &ScoreRequest) -> Setup<'_> {
         Setup {
             medium: TraceOptics { material: &self.material, polarised: plan.polarised },
             view_frame: self.tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth)),

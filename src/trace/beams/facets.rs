@@ -1,6 +1,7 @@
 //! Welded facets for beams: rings of corners, each edge with its neighbouring facet.
 
 use crate::geometry::Plane;
+use crate::geometry::welding::{weld, without_repeats};
 use crate::trace::ConvexStone;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -46,7 +47,7 @@ impl WeldedFacets {
         let corners: Vec<DVec3> = stone.solid.vertices.iter().map(|v| stone.point_from_design(*v)).collect();
         let first_of = welded(&corners);
         let rings: Vec<Vec<u32>> =
-            stone.solid.faces.iter().map(|f| ring(f.corners.iter().map(|c| first_of[*c]))).collect();
+            stone.solid.faces.iter().map(|f| ring(f.corners.iter().map(|c| first_of[*c] as u32))).collect();
         let edges = |facet: usize| {
             let ring = &rings[facet];
             (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))
@@ -122,49 +123,17 @@ impl WeldedFacets {
 }
 
 /// For each corner, the number of the corner it is welded to.
-fn welded(corners: &[DVec3]) -> Vec<u32> {
+fn welded(corners: &[DVec3]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..corners.len()).collect();
     order.sort_by(|a, b| corners[*a].x.total_cmp(&corners[*b].x));
-    let mut first: Vec<u32> = (0..corners.len() as u32).collect();
-    for (i, &a) in order.iter().enumerate() {
-        if first[a] != a as u32 {
-            continue;
-        }
-        let near = order[i + 1..].iter().take_while(|b| corners[**b].x - corners[a].x <= WELD_DISTANCE);
-        for &b in near.filter(|b| corners[**b].distance(corners[a]) <= WELD_DISTANCE) {
-            first[b] = a as u32;
-        }
-    }
-    first
+    let (low, high) = corners
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), c| (low.min(*c), high.max(*c)));
+    weld(corners, order, (low, high), WELD_DISTANCE)
 }
 
-/// The ring without repeated corners and without spikes (`a b a`); empty if no surface is left.
+/// The ring without repeated corners and without spikes; empty if no surface is left.
 fn ring(corners: impl Iterator<Item = u32>) -> Vec<u32> {
-    let mut ring: Vec<u32> = corners.collect();
-    let mut i = 0;
-    while ring.len() > 2 && i < ring.len() {
-        let n = ring.len();
-        let (before, next) = (ring[(i + n - 1) % n], ring[(i + 1) % n]);
-        if ring[i] == next || before == next {
-            ring.remove(i);
-            i = 0;
-        } else {
-            i += 1;
-        }
-    }
+    let ring = without_repeats(corners);
     if ring.len() > 2 { ring } else { Vec::new() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn corners_of_one_place_become_one_and_rings_lose_their_dead_edges() {
-        let corners = [0.0, 1.0, 4e-10, 1.0 + 2e-9].map(|x| DVec3::new(x, 0.3, 0.1));
-        assert_eq!(welded(&corners), [0, 1, 0, 3]);
-        assert_eq!(ring([3, 3, 5, 7, 7, 3].into_iter()), [3, 5, 7]);
-        assert_eq!(ring([1, 2, 3, 2, 4].into_iter()), [1, 2, 4]);
-        assert!(ring([1, 1, 2].into_iter()).is_empty());
-    }
 }
