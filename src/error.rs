@@ -25,7 +25,7 @@ use std::io::ErrorKind as IoErrorKind;
 pub enum Error {
     /// Of a stone.
     #[error(transparent)]
-    Stone(#[from] StoneError),
+    Stone(Box<StoneError>),
     /// Of scores.
     #[error(transparent)]
     Score(#[from] ScoreError),
@@ -76,6 +76,12 @@ impl Error {
             #[cfg(feature = "render")]
             Error::Render(error) => of_render(error),
         }
+    }
+}
+
+impl From<StoneError> for Error {
+    fn from(error: StoneError) -> Error {
+        Error::Stone(Box::new(error))
     }
 }
 

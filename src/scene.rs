@@ -2,6 +2,7 @@
 //!
 //! World frame: right-handed, z up, lengths in millimetres (in the Cornell room, in room units).
 
+pub mod bsdfs;
 pub mod build_context;
 pub mod camera;
 mod contents;
@@ -14,24 +15,28 @@ mod named_data;
 pub mod panorama;
 pub mod photon_guide;
 pub mod pose;
+pub mod reflectance;
 pub mod scene_file;
-pub mod scene_mesh;
 pub mod schema;
+pub mod shapes;
 pub mod stone_instance;
 pub mod surface;
 pub mod surface_hit;
+mod surface_schema;
 
 use crate::parse;
 pub use contents::Scene;
 use std::path::Path;
 
+pub use bsdfs::Bsdf;
 pub use camera::{Camera, Lens};
 pub use lights::Light;
 pub use photon_guide::{BoundingSphere, PhotonGuide};
 pub use pose::Pose;
+pub use reflectance::Reflectance;
 pub use scene_file::{SceneError, SceneFile, SceneOverrides};
 pub use stone_instance::PlacedStone;
-pub use surface::{Bsdf, Reflectance, Surface};
+pub use surface::Surface;
 
 /// Every scene: its name and its file.
 pub static SCENES: &[(&str, &str)] = &[

@@ -22,7 +22,8 @@ mod your_own_scene;
 
 #[test]
 fn every_example_runs() {
-    let all: [(&str, fn() -> Result<(), cutlab::Error>); 8] = [
+    type Main = fn() -> Result<(), cutlab::Error>;
+    let all: [(&str, Main); 8] = [
         ("score_a_brilliant", score_a_brilliant::main),
         ("rank_a_folder", rank_a_folder::main),
         ("sweep_angles", sweep_angles::main),

@@ -6,14 +6,16 @@ use cutlab::advanced::color::Illuminant;
 use cutlab::advanced::integrators::{self, Film, PhotonMaps, Tone};
 use cutlab::advanced::photons::{PhotonSets, PhotonSettings};
 use cutlab::advanced::sampling::random::{Purpose, Stream};
+use cutlab::advanced::scene::bsdfs::diffuse::Diffuse;
 use cutlab::advanced::scene::intersection::SurfacePoint;
 use cutlab::advanced::scene::lights::LIGHTS;
 use cutlab::advanced::scene::lights::dome::Dome;
 use cutlab::advanced::scene::surface::Shape;
-use cutlab::advanced::scene::{Bsdf, Light, Reflectance, SCENES, Scene, SceneFile, SceneOverrides, preset};
+use cutlab::advanced::scene::{Light, Reflectance, SCENES, Scene, SceneFile, SceneOverrides, preset};
 use glam::Vec3;
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 const SEED: u64 = 20_263;
 
@@ -151,7 +153,7 @@ fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
 
 /// All of one grey, and every lamp of equal energy; the power of the lamps, none where one is at infinity.
 fn greyed(scene: &mut Scene, grey: f32) -> Option<f64> {
-    scene.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(grey)));
+    scene.surfaces.iter_mut().for_each(|s| s.finish = Arc::new(Diffuse(Reflectance::Grey(grey))));
     for light in &mut scene.lights {
         light.spectrum = Illuminant::equal_energy();
         light.radiance = Vec3::splat(light.radiance.element_sum() / 3.0);
@@ -234,7 +236,7 @@ fn no_scene_gains_light() {
             assert!(*name != "office" || absorbed > 0.85 * power, "{name} is closed: {absorbed} of {power}");
         }
         let white = if *name == "office" { 0.8 } else { 1.0 };
-        scene.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(white)));
+        scene.surfaces.iter_mut().for_each(|s| s.finish = Arc::new(Diffuse(Reflectance::Grey(white))));
         scene.lights = vec![Light::white(Dome::uniform(), 0.5)];
         scene.camera.white = Illuminant::equal_energy();
         let film = picture(&scene, PhotonSets::emit(&scene, &photons(200_000)));

@@ -9,15 +9,15 @@ use cutlab::advanced::materials::Material;
 use cutlab::advanced::photons::{PhotonSet, PhotonSets, PhotonSettings, StoredPhoton, map_file};
 use cutlab::advanced::sampling::random::{Purpose, Stream};
 use cutlab::advanced::sampling::warps;
+use cutlab::advanced::scene::bsdfs::diffuse::Diffuse;
 use cutlab::advanced::scene::intersection::{Intersection, Past, SurfacePoint};
 use cutlab::advanced::scene::lights::square::Square;
 use cutlab::advanced::scene::surface::{Quad, Shape};
-use cutlab::advanced::scene::{
-    Bsdf, Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset,
-};
+use cutlab::advanced::scene::{Lens, Light, Reflectance, Scene, SceneFile, SceneOverrides, Surface, preset};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 const SEED: u64 = 20_260;
 
@@ -50,7 +50,7 @@ fn closed_room(grey: f32) -> Scene {
     let floor = quad(&room.surfaces[0]);
     let height = Vec3::Z * floor.u.length();
     room.surfaces.push(Surface::quad(floor.corner, height, floor.u, Reflectance::Grey(grey)));
-    room.surfaces.iter_mut().for_each(|s| s.finish = Bsdf::Diffuse(Reflectance::Grey(grey)));
+    room.surfaces.iter_mut().for_each(|s| s.finish = Arc::new(Diffuse(Reflectance::Grey(grey))));
     room.lights = vec![Light::white(small_light(), 10.0)];
     room
 }

@@ -5,7 +5,7 @@ mod brilliants;
 
 use bench::Bench;
 use brilliants::{SEED, design, diamond, named, plan, subject};
-use cutlab::advanced::color::cie;
+use cutlab::advanced::color::{Illuminant, cie};
 use cutlab::advanced::design::library;
 use cutlab::advanced::geometry::ClosedMesh;
 use cutlab::advanced::materials::Material;
@@ -18,6 +18,9 @@ use cutlab::advanced::stone::Stone;
 /// Pixels across a picture of these tests.
 const SIDE: u32 = 160;
 
+/// Height of a brilliant of 8 mm at half its radius, about: 45 % of its width.
+const HALF_WAY_MM: f64 = 3.6;
+
 /// Pixels on a grid see the mean of the outline with this error at that size, at most.
 const GRID_ERROR: f64 = 0.004;
 
@@ -26,11 +29,15 @@ fn taken(subject: &ScoreInput, plan: &ScoreRequest) -> Vec<ViewerPicture> {
 }
 
 /// The mean colour of a picture within the outline, in linear light.
-fn mean_colour(picture: &ViewerPicture) -> [f64; 3] {
+///
+/// - `within`: side of the square about the middle that counts, as a share of the picture's
+fn mean_colour(picture: &ViewerPicture, within: f64) -> [f64; 3] {
     let pixels = image::load_from_memory(&picture.png).expect("a PNG").into_rgb8();
     let background = *pixels.get_pixel(0, 0);
-    let stone: Vec<_> = pixels.pixels().filter(|p| **p != background).collect();
-    assert!(stone.len() > 1000, "{}: a stone is seen", picture.scope.name);
+    let counts = |place: u32| (f64::from(2 * place + 1) / f64::from(SIDE) - 1.0).abs() < within;
+    let inside = pixels.enumerate_pixels().filter(|(x, y, p)| counts(*x) && counts(*y) && **p != background);
+    let stone: Vec<_> = inside.map(|(_, _, p)| *p).collect();
+    assert!(stone.len() > 500, "{}: a stone is seen", picture.scope.name);
     let linear = |byte: u8| f64::from(cie::srgb_decode(f32::from(byte) / 255.0));
     [0, 1, 2].map(|c| stone.iter().map(|p| linear(p[c])).sum::<f64>() / stone.len() as f64)
 }
@@ -96,15 +103,25 @@ fn pictures_have_the_means_that_are_scored() {
             let linear = |byte: u8| f64::from(cie::srgb_decode(f32::from(byte) / 255.0));
             keys.map(|(key, share)| share * linear(key.colour[c])).sum::<f64>()
         };
-        let pixels = mean_colour(scope);
+        let pixels = mean_colour(scope, 1.0);
         // pixels at the outline are part background
         (0..3).for_each(|c| assert!((pixels[c] - mixed(c)).abs() < 0.02, "{} {pixels:?}", subject.stone));
         let bright = pictures.last().expect("taken");
-        let [red, green, blue] = mean_colour(bright);
+        let [red, green, blue] = mean_colour(bright, 1.0);
         let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
         assert!((luminance - bright.shares[0]).abs() < 0.02, "{}: {luminance}", subject.stone);
         if subject.material == *ruby {
-            assert!(red > 3.0 * green && red > 3.0 * blue, "{}: {red} {green} {blue}", subject.stone);
+            assert!(red > green && red > blue, "{}: {red} {green} {blue}", subject.stone);
+            // through the table, which mirrors the dark observer, all light has gone down to the pavilion and up
+            // again: it is redder than after half of that way
+            let [red, green, blue] = mean_colour(bright, 0.2);
+            let left = |nm: f32| (-ruby.absorption_per_mm(nm.into()) * HALF_WAY_MM).exp() as f32;
+            let half_way = Illuminant::daylight().linear_srgb(left);
+            let which = format!("{}: {red} {green} {blue}, {half_way}", subject.stone);
+            println!("{which}");
+            let is_convex = matches!(subject.shape, Ok(StoneShape::Convex(_)));
+            assert!(!is_convex || red / green > f64::from(half_way.x / half_way.y), "{which}");
+            assert!(!is_convex || red / blue > f64::from(half_way.x / half_way.z), "{which}");
         } else {
             assert!((red - green).abs() < 0.01 && (green - blue).abs() < 0.01, "{red} {green} {blue}");
         }

@@ -188,7 +188,7 @@ fn shape_of(error: &FormatError) -> Option<MeshFacts> {
 impl From<StoneError> for CliError {
     fn from(error: StoneError) -> CliError {
         match error {
-            StoneError::Format(error) => error.into(),
+            StoneError::Format(error) => (*error).into(),
             StoneError::NotConvex(ref cause) => {
                 let shape = if let StoneError::Format(cause) = &**cause { shape_of(cause) } else { None };
                 CliError { shape: shape.map(Box::new), ..CliError::input(error.to_string()) }
@@ -201,7 +201,7 @@ impl From<StoneError> for CliError {
 impl From<RenderError> for CliError {
     fn from(error: RenderError) -> CliError {
         match error {
-            RenderError::Stone(error) => error.into(),
+            RenderError::Stone(error) => (*error).into(),
             RenderError::Scene(error) => error.into(),
             RenderError::PhotonMap(error) => error.into(),
             RenderError::Write(error) => error.into(),

@@ -56,7 +56,8 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
     }
     let made = Provenances { command: &command, identity: &identity };
     let progress = PictureProgress::new(console);
-    let files = render::to_files(&request, &scene, &target, (photon_map, args.passes), made, &progress)?;
+    let files =
+        render::to_files(&request, (&scene, size), &target, (photon_map, args.passes), made, &progress)?;
     if atomic_write::is_stdout(&output) {
         return Ok(ExitStatus::Done); // the picture is the whole of what standard output gets
     }

@@ -11,8 +11,9 @@ use crate::parallel;
 use crate::photons::BandSpectrum;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::{Purpose, Stream};
+use crate::scene::bsdfs::MIDDLE;
 use crate::scene::intersection::{Intersection, Past, SurfacePoint};
-use crate::scene::{Bsdf, Camera, Light, Scene};
+use crate::scene::{Camera, Light, Scene};
 use glam::Vec3;
 use std::ops::Range;
 
@@ -202,18 +203,18 @@ impl CameraIntegrator<'_> {
                     sight.add_light(Pass::Direct, &share, &self.scene.lights[i], colour);
                     break;
                 }
-                Intersection::Surface(at) => match &self.scene.surfaces[at.surface].finish {
-                    Bsdf::Mirror(reflectance) => {
-                        (0..BANDS).for_each(|b| share[b] *= reflectance.value(nm[b]));
-                        (origin, direction) = (self.scene.start(&at), direction.reflect(at.normal));
-                        past = Past::Surface(at.surface);
-                    }
-                    Bsdf::Diffuse(reflectance) => {
-                        (0..BANDS).for_each(|b| share[b] *= reflectance.value(nm[b]));
-                        self.radiance_of_surface(&at, &share, &mut sight, shared);
+                Intersection::Surface(at) => {
+                    let finish = &self.scene.surfaces[at.surface].finish;
+                    (0..BANDS).for_each(|b| share[b] *= finish.reflectance(nm[b]));
+                    if !finish.is_delta() {
+                        self.radiance_of_surface(&at, direction, &share, &mut sight, shared);
                         break;
                     }
-                },
+                    // a mirror goes the same way from the eye as to it
+                    direction = finish.sample(at.normal, direction, MIDDLE);
+                    origin = self.scene.start(&at);
+                    past = Past::Surface(at.surface);
+                }
                 Intersection::Stone(stone, arrival) => {
                     shared.entering.push(StoneArrival { sight: number, stone, hit: arrival, share });
                     break;
@@ -225,20 +226,23 @@ impl CameraIntegrator<'_> {
 
     /// A surface that the camera sees directly.
     ///
-    /// - `share`: of each wavelength that the surface and the mirrors before it give back
+    /// - `direction`: of the camera ray; `share`: of each wavelength that the surface and the mirrors before it give back
     fn radiance_of_surface(
         &self,
         at: &SurfacePoint,
+        direction: Vec3,
         share: &[f32; BANDS],
         sight: &mut CameraSample,
         shared: &mut Shared,
     ) {
+        let finish = &self.scene.surfaces[at.surface].finish;
+        let scattered = |incoming: Vec3| finish.eval(at.normal, incoming, -direction);
         let each = self.shadow_rays() as usize;
         let lights = self.scene.lights.iter().enumerate().zip(&mut shared.shadows);
         let lit: Vec<(&Light, Vec3)> = lights
             .map(|((i, light), places)| {
                 let places = places.take(each).map(|place| place.map(|p| p as f32));
-                (light, self.scene.direct_irradiance(i, at, places))
+                (light, self.scene.direct_light(i, at, places, scattered))
             })
             .collect();
         let near = |seen: &MapEstimates| {

@@ -6,7 +6,7 @@ use crate::color::cie::BANDS;
 use crate::photons::stone_scattering;
 use crate::photons::stone_scattering::IncidentPhoton as Single;
 use crate::sampling::random::Stream;
-use crate::scene::Bsdf;
+use crate::scene::bsdfs::MIDDLE;
 use crate::scene::intersection::{Intersection, Past, StoneHit, SurfacePoint};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{Interaction, LANES, Packet};
@@ -135,20 +135,19 @@ fn radiance_outside(
                 sight.add(Pass::Stone, band, power * scene.lights[i].radiance_at(colour, nm));
                 return;
             }
-            Intersection::Surface(at) => match &scene.surfaces[at.surface].finish {
-                Bsdf::Mirror(reflectance) => {
-                    power *= reflectance.value(nm);
-                    (origin, direction) = (scene.start(&at), direction.reflect(at.normal));
-                    past = Past::Surface(at.surface);
-                }
-                Bsdf::Diffuse(reflectance) => {
+            Intersection::Surface(at) => {
+                let finish = &scene.surfaces[at.surface].finish;
+                if !finish.is_delta() {
                     if drawn {
-                        let reflected = power / probability * reflectance.value(nm) / std::f32::consts::PI;
-                        radiance_from_afar(view, &at, band, reflected, sight, chance.jitter);
+                        let reflected = power / probability * finish.reflectance(nm) / std::f32::consts::PI;
+                        radiance_from_afar(view, &at, direction, band, reflected, sight, chance.jitter);
                     }
                     return;
                 }
-            },
+                power *= finish.reflectance(nm);
+                (origin, direction) = (scene.start(&at), finish.sample(at.normal, direction, MIDDLE));
+                past = Past::Surface(at.surface);
+            }
             Intersection::Stone(stone, arrival) => {
                 if drawn {
                     let power = power / probability;
@@ -162,18 +161,24 @@ fn radiance_outside(
 
 /// A surface seen through a stone or mirrored in it, at one wavelength: one shadow ray a light, irradiance
 /// from the nearest cell of the maps.
+///
+/// - `direction`: of the ray that meets it
 fn radiance_from_afar(
     view: &CameraIntegrator,
     at: &SurfacePoint,
+    direction: Vec3,
     band: usize,
     reflected: f32,
     sight: &mut CameraSample,
     jitter: [f32; 2],
 ) {
     let nm = sight.nm[band];
+    let finish = &view.scene.surfaces[at.surface].finish;
+    let scattered = |incoming: Vec3| finish.eval(at.normal, incoming, -direction);
     let lights = view.scene.lights.iter().enumerate();
-    let direct: f32 =
-        lights.map(|(i, light)| light.radiance_at(view.scene.direct_irradiance(i, at, [jitter]), nm)).sum();
+    let direct: f32 = lights
+        .map(|(i, light)| light.radiance_at(view.scene.direct_light(i, at, [jitter], scattered), nm))
+        .sum();
     let caustic = view.maps.caustic.irradiance_nearby(at)[band];
     let indirect = view.maps.indirect.irradiance_nearby(at)[band];
     sight.add(Pass::Stone, band, reflected * (direct + caustic + indirect));

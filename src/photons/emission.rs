@@ -13,8 +13,9 @@ use crate::photons::stone_scattering::IncidentPhoton;
 use crate::sampling::discrete_cdf::DiscreteCdf;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Stream;
+use crate::scene::bsdfs::MIDDLE;
 use crate::scene::intersection::{Intersection, Past};
-use crate::scene::{Bsdf, PhotonGuide, Scene};
+use crate::scene::{PhotonGuide, Scene};
 use glam::Vec3;
 
 /// Photons of one batch, the unit of parallel work.
@@ -195,8 +196,9 @@ fn trace(
                 let choice = flight.stream.unit64();
                 return Some((stone, (flight, IncidentPhoton { hit: arrival, nm, choice })));
             }
-            Intersection::Surface(at) => match &scene.surfaces[at.surface].finish {
-                Bsdf::Diffuse(reflectance) => {
+            Intersection::Surface(at) => {
+                let finish = &*scene.surfaces[at.surface].finish;
+                if !finish.is_delta() {
                     let wanted = match flight.last {
                         LastEvent::Light(_) => false,
                         LastEvent::Stone(_) | LastEvent::Mirror(_) => room.class == Class::Caustic,
@@ -205,26 +207,29 @@ fn trace(
                     if wanted {
                         landed.push((flight.number, StoredPhoton::new(&at, flight.light.spectrum())));
                     }
-                    if !flight.light.reflect(reflectance, flight.stream.unit()) {
+                } else {
+                    mirrors += 1;
+                    if mirrors > MIRRORS {
                         return None;
                     }
+                }
+                if !flight.light.reflect(|nm| finish.reflectance(nm), flight.stream.unit()) {
+                    return None;
+                }
+                flight.point = scene.start(&at);
+                if finish.is_delta() {
+                    flight.direction = finish.sample(at.normal, flight.direction, MIDDLE);
+                    flight.last = LastEvent::Mirror(at.surface);
+                } else {
                     let (pick, u) = (flight.stream.unit(), flight.stream.pair());
-                    let (direction, weight) = room.aim.direction(at.point, at.normal, 1.0, pick, u)?;
-                    flight.point = scene.start(&at);
+                    let scattered =
+                        room.aim.scattered(finish, at.point, at.normal, flight.direction, pick, u);
+                    let (direction, weight) = scattered?;
                     flight.direction = direction;
                     flight.light.scale(weight);
                     flight.last = LastEvent::Surface(at.surface);
                 }
-                Bsdf::Mirror(reflectance) => {
-                    mirrors += 1;
-                    if mirrors > MIRRORS || !flight.light.reflect(reflectance, flight.stream.unit()) {
-                        return None;
-                    }
-                    flight.point = scene.start(&at);
-                    flight.direction = flight.direction.reflect(at.normal);
-                    flight.last = LastEvent::Mirror(at.surface);
-                }
-            },
+            }
             Intersection::Light(..) | Intersection::None => return None,
         }
     }

@@ -8,7 +8,7 @@ use super::{BandSpectrum, PhotonSet, StoredPhoton};
 use crate::color::cie::BANDS;
 use crate::parallel;
 use crate::scene::intersection::SurfacePoint;
-use crate::scene::surface::{Quad, Shape};
+use crate::scene::surface::Quad;
 use crate::scene::{Scene, Surface};
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -139,7 +139,7 @@ impl SurfaceMap {
         });
         parallel::sort_by_key(&mut homes, |(home, _)| *home);
         let shares = CellPowers::new(photons, sheet.cells.len());
-        let edges = quad(surface).and_then(QuadEdges::new);
+        let edges = surface.shape.as_quad().and_then(QuadEdges::new);
         let mut counts = vec![0.0; sheet.cells.len()];
         homes.iter().for_each(|(home, _)| counts[*home as usize] += 1.0);
         let spread = Spread { edges, counts, nearest: nearest as f32, shares: &shares };
@@ -244,14 +244,6 @@ struct Spread<'a> {
     shares: &'a CellPowers,
 }
 
-/// The surface as a quad, if it is one.
-fn quad(surface: &Surface) -> Option<&Quad> {
-    match &surface.shape {
-        Shape::Quad(quad) => Some(quad),
-        Shape::Mesh(_) => None,
-    }
-}
-
 /// Over how wide a disc the photons of a side are spread.
 struct GatherRadii<'a> {
     /// The surface, if it is a quad.
@@ -274,7 +266,7 @@ impl<'a> GatherRadii<'a> {
         let points: Vec<[f32; 3]> = photons.iter().step_by(every).map(|p| p.point.to_array()).collect();
         let count = PILOTS.min(points.len() / 2);
         Some(GatherRadii {
-            quad: quad(surface),
+            quad: surface.shape.as_quad(),
             pilots: Tree::new_from_slice(&points).ok().filter(|_| !points.is_empty())?,
             counted: NonZero::new(count).filter(|_| photons.len() >= FEW),
             factor: (nearest as f32 / (count * every) as f32).sqrt(),

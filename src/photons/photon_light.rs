@@ -6,7 +6,6 @@
 use super::BandSpectrum;
 use crate::color::cie;
 use crate::color::cie::BANDS;
-use crate::scene::Reflectance;
 
 /// Power by band, and where in each band the photon's wavelengths lie.
 #[derive(Debug, Clone, Copy)]
@@ -43,17 +42,17 @@ impl PhotonLight {
         self.power.iter_mut().for_each(|p| *p *= weight);
     }
 
-    /// Reflects at a diffuse surface. Russian roulette by the strongest band decides whether the photon
+    /// Reflects at a surface. Russian roulette by the strongest band decides whether the photon
     /// goes on, its power then in proportion to what each band reflects.
     ///
-    /// - `u`: uniform in (0, 1)
-    pub fn reflect(&mut self, reflectance: &Reflectance, u: f32) -> bool {
+    /// - `reflectance`: by wavelength in nm; `u`: uniform in (0, 1)
+    pub fn reflect(&mut self, reflectance: impl Fn(f32) -> f32, u: f32) -> bool {
         let before = self.strongest();
         if before <= 0.0 {
             return false;
         }
         for band in 0..BANDS {
-            self.power[band] *= reflectance.value(self.nm(band));
+            self.power[band] *= reflectance(self.nm(band));
         }
         let survival = self.strongest() / before;
         if u >= survival {
@@ -96,6 +95,7 @@ fn wavelength(band: usize, place: f32) -> f32 {
 mod tests {
     use super::*;
     use crate::sampling::random::{Purpose, Stream};
+    use crate::scene::Reflectance;
 
     /// A coloured wall and the loss of all but one wavelength leave the mean spectrum as it is.
     #[test]
@@ -108,7 +108,7 @@ mod tests {
             for (band, sum) in expected.iter_mut().enumerate() {
                 *sum += f64::from(red.value(light.nm(band))) / f64::from(n);
             }
-            if light.reflect(&red, stream.unit()) {
+            if light.reflect(|nm| red.value(nm), stream.unit()) {
                 light.single_wavelength(stream.unit());
                 (0..BANDS).for_each(|b| mean[b] += f64::from(light.spectrum()[b]) / f64::from(n));
             }

@@ -2,7 +2,6 @@
 
 use crate::parallel;
 use crate::scene::Surface;
-use crate::scene::surface::Shape;
 use glam::Vec3;
 
 /// A part of one side of a surface.
@@ -74,17 +73,13 @@ const PARALLEL: u32 = 6;
 /// - `radius`: at a place; may not change faster than the place does, and `share` is below √2, so that
 ///   no small spot is missed
 pub fn divide(surface: &Surface, share: f32, radius: &(impl Fn(Vec3) -> f32 + Sync)) -> Vec<SurfaceCell> {
-    match &surface.shape {
-        Shape::Quad(quad) => {
-            let whole = Patch { corner: quad.corner, u: quad.u, v: quad.v, triangle: false };
-            halve(whole, quad.normal(), share, radius, 0)
-        }
-        Shape::Mesh(mesh) => {
-            let triangles: Vec<[Vec3; 3]> = mesh.triangles().collect();
-            let runs: Vec<&[[Vec3; 3]]> = triangles.chunks(RUN).collect();
-            parallel::map(runs.len(), |i| of_triangles(runs[i], share, radius)).concat()
-        }
+    if let Some(quad) = surface.shape.as_quad() {
+        let whole = Patch { corner: quad.corner, u: quad.u, v: quad.v, triangle: false };
+        return halve(whole, quad.normal(), share, radius, 0);
     }
+    let triangles = surface.shape.geometry().triangles();
+    let runs: Vec<&[[Vec3; 3]]> = triangles.chunks(RUN).collect();
+    parallel::map(runs.len(), |i| of_triangles(runs[i], share, radius)).concat()
 }
 
 /// The cells of a patch, in order.

@@ -15,7 +15,7 @@ pub enum RenderError {
     Request(String),
     /// A stone that could not be opened.
     #[error(transparent)]
-    Stone(#[from] StoneError),
+    Stone(Box<StoneError>),
     /// A scene that could not be read or built.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -31,4 +31,10 @@ pub enum RenderError {
     /// The work was ended early by [`crate::progress::Progress::is_cancelled`].
     #[error("cancelled")]
     Cancelled,
+}
+
+impl From<StoneError> for RenderError {
+    fn from(error: StoneError) -> RenderError {
+        RenderError::Stone(Box::new(error))
+    }
 }

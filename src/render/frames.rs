@@ -31,18 +31,17 @@ pub struct Provenances<'a> {
 
 /// Takes the picture of a request, or all frames that are not there yet, and writes them; returns the files.
 ///
-/// - `scene`: as [`RenderRequest::build`] gives it, at rest
+/// - `scene`: as [`RenderRequest::build`] gives it, at rest, and pixels across and down
 /// - `photon_map`: the file that photons are kept in
 /// - `passes`: whether passes are written as files of their own
 pub fn to_files(
     request: &RenderRequest,
-    scene: &Scene,
+    (scene, size): (&Scene, (u32, u32)),
     target: &OutputTarget,
     (photon_map, passes): (Option<&Path>, bool),
     made: Provenances,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, RenderError> {
-    let size = request.picture_size(&request.scene_file()?, target.kind())?;
     let settings = request.settings(scene, size);
     let job = PictureJob { request, scene, target, photon_map, passes, made, progress };
     match &request.animation {

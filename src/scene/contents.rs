@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::lights::Light;
 use super::photon_guide::{BoundingSphere, PhotonGuide};
 use super::stone_instance::PlacedStone;
-use super::surface::{Bsdf, Surface};
+use super::surface::Surface;
 use glam::Vec3;
 
 /// A scene ready to be traced.
@@ -30,16 +30,16 @@ pub struct Scene {
 impl Scene {
     /// Whether light can fall on a diffuse surface last from a stone or a mirror.
     pub fn has_caustics(&self) -> bool {
-        let mirrors = self.surfaces.iter().filter(|s| matches!(s.finish, Bsdf::Mirror(_))).count();
+        let mirrors = self.surfaces.iter().filter(|s| s.finish.is_delta()).count();
         mirrors < self.surfaces.len() && (mirrors > 0 || !self.stones.is_empty())
     }
 
     /// Whether light can go straight from one place of a diffuse surface to another: a quad alone
     /// does not shine on itself.
     pub fn has_indirect_light(&self) -> bool {
-        let mut diffuse = self.surfaces.iter().filter(|s| matches!(s.finish, Bsdf::Diffuse(_)));
+        let mut diffuse = self.surfaces.iter().filter(|s| !s.finish.is_delta());
         match (diffuse.next(), diffuse.next()) {
-            (Some(one), None) => matches!(one.shape, super::surface::Shape::Mesh(_)),
+            (Some(one), None) => one.shape.as_quad().is_none(),
             (one, _) => one.is_some(),
         }
     }

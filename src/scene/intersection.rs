@@ -1,6 +1,5 @@
 //! Intersection of rays with a scene: surfaces, lights and stones.
 
-use crate::scene::surface::Shape;
 use crate::scene::{Light, Scene, Surface};
 use glam::Vec3;
 
@@ -94,7 +93,7 @@ impl Scene {
         for (i, surface) in self.surfaces.iter().enumerate() {
             let Some(near) = self.min_distance(i, origin, past) else { continue };
             let Some(hit) = surface.intersect(origin, direction, near) else { continue };
-            let hidden = cut_away && !hit.front && matches!(surface.shape, Shape::Quad(_));
+            let hidden = cut_away && !hit.front && surface.shape.as_quad().is_some();
             if hit.distance < nearest && !hidden {
                 nearest = hit.distance;
                 let point = origin + direction * hit.distance;
@@ -134,7 +133,7 @@ impl Scene {
     /// The distance from which on a ray can meet a surface; none if it cannot.
     fn min_distance(&self, surface: usize, origin: Vec3, past: Past) -> Option<f32> {
         match past {
-            Past::Surface(s) if s == surface && matches!(self.surfaces[s].shape, Shape::Quad(_)) => None,
+            Past::Surface(s) if s == surface && self.surfaces[s].shape.as_quad().is_some() => None,
             Past::Light(_) => Some(MIN_DISTANCE_SHARE * origin.abs().max_element()),
             _ => Some(0.0),
         }
@@ -158,6 +157,20 @@ impl Scene {
         at: &SurfacePoint,
         places: impl IntoIterator<Item = [f32; 2]>,
     ) -> Vec3 {
+        self.direct_light(light, at, places, |_| 1.0)
+    }
+
+    /// The same with light from each direction weighted.
+    ///
+    /// - `weight`: of light that goes in a direction (unit): [`super::Bsdf::eval`] gives the light that is
+    ///   scattered, as the irradiance of a Lambertian surface that would scatter as much
+    pub fn direct_light(
+        &self,
+        light: usize,
+        at: &SurfacePoint,
+        places: impl IntoIterator<Item = [f32; 2]>,
+        weight: impl Fn(Vec3) -> f32,
+    ) -> Vec3 {
         let from = SurfacePoint { point: self.start(at), ..*at };
         let (mut sum, mut count) = (Vec3::ZERO, 0);
         for u in places {
@@ -173,7 +186,7 @@ impl Scene {
                     light,
                 )
             {
-                sum += light_sample.radiance_over_pdf * cos;
+                sum += light_sample.radiance_over_pdf * cos * weight(-light_sample.direction);
             }
         }
         sum / count.max(1) as f32

@@ -1,5 +1,6 @@
 //! Photon guide: aims a share of the photons at the stones.
 
+use super::bsdfs::Bsdf;
 use crate::sampling::warps;
 use glam::Vec3;
 use std::f32::consts::PI;
@@ -59,6 +60,40 @@ impl PhotonGuide {
             let local = warps::uniform_disc(u) * sin2_max.sqrt();
             warps::to_world(normal, local.extend((1.0 - local.length_squared()).max(0.0).sqrt()))
         };
+        let pdf = |direction: Vec3| {
+            let cos = direction.dot(normal);
+            if cos * cos < 1.0 - sin2_max || cos <= 0.0 { 0.0 } else { cos / (PI * sin2_max) }
+        };
+        self.mixed(point, natural, pdf, pick, u)
+    }
+
+    /// A direction in which a surface scatters light, and its weight. None for one in which it sends none.
+    ///
+    /// - `normal`, `incoming`: as [`Bsdf`] has them; `pick`, `u`: three uniforms
+    pub fn scattered(
+        &self,
+        bsdf: &dyn Bsdf,
+        point: Vec3,
+        normal: Vec3,
+        incoming: Vec3,
+        pick: f32,
+        u: [f32; 2],
+    ) -> Option<(Vec3, f32)> {
+        let natural = || bsdf.sample(normal, incoming, u);
+        self.mixed(point, natural, |outgoing| bsdf.pdf(normal, incoming, outgoing), pick, u)
+    }
+
+    /// A direction from the mixture of a natural density and the cones of the targets, and its weight.
+    ///
+    /// - `natural`: a direction of density `pdf`
+    fn mixed(
+        &self,
+        point: Vec3,
+        natural: impl Fn() -> Vec3,
+        pdf: impl Fn(Vec3) -> f32,
+        pick: f32,
+        u: [f32; 2],
+    ) -> Option<(Vec3, f32)> {
         if self.share == 0.0 {
             return Some((natural(), 1.0));
         }
@@ -69,11 +104,10 @@ impl PhotonGuide {
             Some(Some(cone)) => warps::to_world(cone.axis, warps::uniform_cone(u, cone.cos)),
             _ => natural(),
         };
-        let cos = direction.dot(normal);
-        if cos * cos < 1.0 - sin2_max || cos <= 0.0 {
+        let natural = pdf(direction);
+        if natural <= 0.0 {
             return None;
         }
-        let natural = cos / (PI * sin2_max);
         let mut mixed = (1.0 - self.share) * natural;
         for target in &self.targets {
             mixed += self.share / count as f32

@@ -1,24 +1,20 @@
-//! Schema of scene files: the entries for camera, stones and surfaces, and how each becomes a part of the scene.
+//! Schema of scene files: the entries for camera and stones, and how each becomes a part of the scene.
 
 use super::build_context::{BuildContext, GREATEST, SceneOverrides, stone_to_trace};
 pub use super::field_error::FieldError;
 pub(super) use super::field_error::{field_error, require_name};
 use super::file_access::Files;
 use super::named_data;
-use super::scene_mesh::SceneMesh;
-use super::surface::{Bsdf, Quad, Shape};
-use super::{Camera, Lens, PlacedStone, Pose, Reflectance, Surface};
-use crate::color::rgb_upsampling;
+use super::{Camera, Lens, PlacedStone, Pose};
 use crate::design::Design;
 use crate::design::{families, library};
-use crate::formats::{self, triangle_mesh};
+use crate::formats;
 use crate::limits::Limits;
 use crate::materials::Material;
 use crate::stone::{StoneError, grammar};
 use crate::trace::ConvexStone;
 use glam::{DMat3, Vec3};
 use serde::Deserialize;
-use std::sync::Arc;
 
 /// A number above 0.
 pub(super) fn positive(key: &'static str, value: Option<f32>) -> Result<f32, FieldError> {
@@ -30,7 +26,7 @@ pub(super) fn positive(key: &'static str, value: Option<f32>) -> Result<f32, Fie
 }
 
 /// Least length, in world units, of what is to have an area: squares of less leave the range of `f32`.
-const LEAST: f32 = 1e-6;
+pub(super) const LEAST: f32 = 1e-6;
 
 /// A length in the world that is long enough to span an area.
 ///
@@ -292,83 +288,5 @@ impl StoneEntry {
             }
             _ => Err(field_error("at", "at is [x, y] on the floor or [x, y, z]")),
         }
-    }
-}
-
-/// A reflectance as written.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
-enum ReflectanceEntry {
-    Grey(f32),
-    Rgb([f32; 3]),
-    Edge { low: f32, high: f32, edge: f32 },
-}
-
-/// `[[surface]]`
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SurfaceEntry {
-    corner: Option<[f32; 3]>,
-    u: Option<[f32; 3]>,
-    v: Option<[f32; 3]>,
-    pub(super) mesh: Option<String>,
-    at: Option<[f32; 3]>,
-    turn: Option<[f64; 3]>,
-    scale: Option<f32>,
-    reflectance: ReflectanceEntry,
-    #[serde(default)]
-    mirror: bool,
-    backdrop: Option<bool>,
-}
-
-impl SurfaceEntry {
-    pub(super) fn surface(&self, place: &BuildContext) -> Result<Surface, FieldError> {
-        let stated = match self.reflectance {
-            ReflectanceEntry::Grey(r) => [r; 3],
-            ReflectanceEntry::Rgb(rgb) => rgb,
-            ReflectanceEntry::Edge { low, high, .. } => [low, high, low],
-        };
-        if let Some(r) = stated.iter().find(|r| !(0.0..=1.0).contains(*r)) {
-            return Err(field_error(
-                "reflectance",
-                format!("a reflectance lies between 0 and 1, not at {r}"),
-            ));
-        }
-        let reflectance = match self.reflectance {
-            ReflectanceEntry::Grey(r) => Reflectance::Grey(r),
-            ReflectanceEntry::Rgb(rgb) => {
-                Reflectance::Mixture(rgb_upsampling::upsample(rgb.into()).min(Vec3::ONE))
-            }
-            ReflectanceEntry::Edge { low, high, edge } => Reflectance::Edge { low, high, edge_nm: edge },
-        };
-        let finish = if self.mirror { Bsdf::Mirror(reflectance) } else { Bsdf::Diffuse(reflectance) };
-        let shape = match (&self.mesh, self.corner, self.u, self.v) {
-            (Some(file), None, None, None) => {
-                let mesh = triangle_mesh::triangles(&place.files.find("mesh", file)?, place.limits);
-                let mesh = mesh.map_err(|e| field_error("mesh", e.to_string()))?;
-                place
-                    .count_triangles(mesh.triangles.len())
-                    .map_err(|e| field_error("mesh", e.to_string()))?;
-                let scale = place.length(positive("scale", Some(self.scale.unwrap_or(1.0)))?);
-                if mesh.vertices.iter().any(|v| v.length() * f64::from(scale) > GREATEST) {
-                    return Err(field_error("mesh", format!("{file} has a corner beyond ±{GREATEST:e}")));
-                }
-                let at = place.point(self.at.unwrap_or_default()).as_dvec3();
-                let mesh = SceneMesh::new(&mesh, turned(self.turn), scale.into(), at, place.limits);
-                Shape::Mesh(Arc::new(mesh.map_err(|e| field_error("mesh", e.to_string()))?))
-            }
-            (None, Some(corner), Some(u), Some(v)) => {
-                let [corner, u, v] = [corner, u, v].map(|p| place.point(p));
-                let shorter = u.length().min(v.length());
-                if shorter < LEAST || u.cross(v).length() <= 1e-9 * u.length() * v.length() {
-                    return Err(field_error("u", "u and v span no area"));
-                }
-                Shape::Quad(Quad { corner, u, v })
-            }
-            _ => return Err(field_error("corner", "a surface has corner, u and v, or a mesh")),
-        };
-        // floors and walls are quads, a piece of jewellery is a mesh
-        let backdrop = self.backdrop.unwrap_or(matches!(shape, Shape::Quad(_)));
-        Ok(Surface { shape, finish, backdrop })
     }
 }

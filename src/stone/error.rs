@@ -15,7 +15,7 @@ pub enum StoneError {
     /// A file that could not be read.
     #[cfg(feature = "files")]
     #[error(transparent)]
-    Format(#[from] FormatError),
+    Format(Box<FormatError>),
     /// A cut with a wrong parameter.
     #[error("{spec}: {cause}")]
     Cut {
@@ -114,10 +114,19 @@ impl StoneError {
     /// argument instead.
     pub fn is_io(&self) -> bool {
         #[cfg(feature = "files")]
-        if let StoneError::Format(FormatError::Read { cause, .. }) = self {
+        if let StoneError::Format(error) = self
+            && let FormatError::Read { cause, .. } = &**error
+        {
             use std::io::ErrorKind::{IsADirectory, NotADirectory, NotFound};
             return !matches!(cause.kind(), NotFound | NotADirectory | IsADirectory);
         }
         false
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<FormatError> for StoneError {
+    fn from(error: FormatError) -> StoneError {
+        StoneError::Format(Box::new(error))
     }
 }

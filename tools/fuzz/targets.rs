@@ -16,7 +16,7 @@ use cutlab::advanced::limits::Limits;
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::photons::map_file;
 use cutlab::advanced::scene::panorama::Panorama;
-use cutlab::advanced::scene::scene_mesh::SceneMesh;
+use cutlab::advanced::scene::shapes::{SceneMesh, SurfaceGeometry};
 use cutlab::advanced::scene::surface::SurfaceHit;
 use cutlab::advanced::scene::{SceneFile, SceneOverrides};
 use glam::{DMat3, DVec3, Vec3};

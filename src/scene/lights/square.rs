@@ -3,7 +3,7 @@
 use super::{EmissionSample, Emitter, LightSample, LightType};
 use crate::sampling::warps;
 use crate::scene::PhotonGuide;
-use crate::scene::surface::intersect_parallelogram;
+use crate::scene::shapes::quad::intersect_parallelogram;
 use glam::{Mat3, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;

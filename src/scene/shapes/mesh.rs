@@ -1,7 +1,12 @@
 //! Triangle meshes around the stones, in a tree of boxes.
 
-use super::surface::SurfaceHit;
-use crate::formats::triangle_mesh::Triangles;
+use super::super::build_context::{BuildContext, GREATEST};
+use super::super::field_error::{FieldError, field_error};
+use super::super::schema::{positive, turned};
+use super::super::surface_hit::SurfaceHit;
+use super::super::surface_schema::SurfaceEntry;
+use super::surface_geometry::SurfaceGeometry;
+use crate::formats::triangle_mesh::{self, Triangles};
 use crate::limits::{self, Exceeded, Limits};
 use glam::{DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
@@ -27,6 +32,24 @@ impl std::fmt::Debug for SceneMesh {
 }
 
 impl SceneMesh {
+    /// The mesh of a surface's entry.
+    pub(super) fn read(
+        file: &str,
+        entry: &SurfaceEntry,
+        place: &BuildContext,
+    ) -> Result<SceneMesh, FieldError> {
+        let mesh = triangle_mesh::triangles(&place.files.find("mesh", file)?, place.limits);
+        let mesh = mesh.map_err(|e| field_error("mesh", e.to_string()))?;
+        place.count_triangles(mesh.triangles.len()).map_err(|e| field_error("mesh", e.to_string()))?;
+        let scale = place.length(positive("scale", Some(entry.scale.unwrap_or(1.0)))?);
+        if mesh.vertices.iter().any(|v| v.length() * f64::from(scale) > GREATEST) {
+            return Err(field_error("mesh", format!("{file} has a corner beyond ±{GREATEST:e}")));
+        }
+        let at = place.point(entry.at.unwrap_or_default()).as_dvec3();
+        let mesh = SceneMesh::new(&mesh, turned(entry.turn), scale.into(), at, place.limits);
+        mesh.map_err(|e| field_error("mesh", e.to_string()))
+    }
+
     /// Places a mesh: turned and scaled about its own origin, then moved.
     pub fn new(
         mesh: &Triangles,
@@ -70,16 +93,20 @@ impl SceneMesh {
         SceneMesh::from_triangles(self.triangles.iter().map(each).collect())
     }
 
-    /// Height of its lowest corner.
-    pub fn lowest(&self) -> f32 {
-        let corners = self.triangles.iter().flat_map(|t| [t.v0, t.v1, t.v2]);
-        corners.map(|v| v.z).fold(f32::INFINITY, f32::min)
+    /// Bound on the rounding error of a point of the mesh.
+    pub fn offset(&self, point: Vec3) -> f32 {
+        let (low, high) = self.bounds();
+        1e-5 * (high - low).length().max(point.abs().max_element())
     }
 
-    /// The first intersection of a ray with either side of a triangle.
-    ///
-    /// - `near`: intersections no farther than this do not count
-    pub fn intersect(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<SurfaceHit> {
+    /// The corners of every triangle; neighbours follow each other.
+    pub fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
+        self.triangles.iter().map(|t| [t.v0, t.v1, t.v2].map(Vec3::from))
+    }
+}
+
+impl SurfaceGeometry for SceneMesh {
+    fn intersect(&self, origin: Vec3, direction: Vec3, near: f32) -> Option<SurfaceHit> {
         // an intersection at the ray's least distance counts in the tree
         let ray = Ray::new(origin.into(), direction.into(), near.next_up(), f32::INFINITY);
         let mut hit = RayHit::none();
@@ -93,22 +120,23 @@ impl SceneMesh {
         Some(SurfaceHit { distance: hit.t, normal: if front { normal } else { -normal }, front })
     }
 
-    /// Bound on the rounding error of a point of the mesh.
-    pub fn offset(&self, point: Vec3) -> f32 {
-        let (low, high) = self.bounds();
-        1e-5 * (high - low).length().max(point.abs().max_element())
+    fn start(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        point + normal * self.offset(point)
     }
 
-    /// The corners of every triangle; neighbours follow each other.
-    pub fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
-        self.triangles.iter().map(|t| [t.v0, t.v1, t.v2].map(Vec3::from))
-    }
-
-    /// Lowest and highest corner of its box.
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    fn bounds(&self) -> (Vec3, Vec3) {
         let root = self.tree.nodes.first().map(|n| (n.aabb().min, n.aabb().max));
         let (low, high) = root.unwrap_or((Vec3A::ZERO, Vec3A::ZERO));
         (low.into(), high.into())
+    }
+
+    fn lowest(&self) -> f32 {
+        let corners = self.triangles.iter().flat_map(|t| [t.v0, t.v1, t.v2]);
+        corners.map(|v| v.z).fold(f32::INFINITY, f32::min)
+    }
+
+    fn triangles(&self) -> Vec<[Vec3; 3]> {
+        SceneMesh::triangles(self).collect()
     }
 }
 
