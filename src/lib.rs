@@ -79,6 +79,8 @@ pub use progress::Progress;
 pub use render::{
     AnimationRequest, Background, Exposure, Picture, PictureKind, RenderError, RenderRequest, StopRequest,
 };
+#[cfg(feature = "report")]
+pub use report::ReportRequest;
 pub use sampling::stats::Estimate;
 #[cfg(feature = "render")]
 pub use scene::{Pose, Scene, SceneFile};

@@ -19,5 +19,5 @@ pub mod validation;
 pub mod viewer_images;
 pub mod virtual_facets;
 
-pub use request::ReportRequest;
+pub use request::{ReportInput, ReportRequest};
 pub use stone_report::{ReportError, StoneReport, make};

@@ -12,7 +12,7 @@ use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
 use crate::batch::table::TableFormat;
 use crate::render::record;
-use crate::report::{ReportRequest, comparison_page};
+use crate::report::{ReportInput, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{Comparison, RUNS, compare};
 use crate::scoring::score::{ScoreInput, ScoreRequest};
@@ -105,9 +105,9 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
         }
         None => (),
     }
-    let requests: Vec<ReportRequest> =
+    let requests: Vec<ReportInput> =
         specs.iter().map(|s| report_request(s, args, console)).collect::<Result<_, _>>()?;
-    let subject = |r: &ReportRequest| {
+    let subject = |r: &ReportInput| {
         let shape = Ok(r.design.solid()?.into());
         Ok(ScoreInput { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
     };
@@ -220,9 +220,9 @@ fn write_table(
     Ok(atomic_write::write(path, &bytes)?)
 }
 
-fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Result<ReportRequest, CliError> {
+fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Result<ReportInput, CliError> {
     let stone = args.scoring.open(stone, console)?.with_usual_width()?;
-    Ok(ReportRequest {
+    Ok(ReportInput {
         stone: stone.name().into(),
         design: stone.convex_design()?.clone(),
         material: stone.material().clone(),

@@ -8,15 +8,14 @@ use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
 use super::outputs::Outputs;
 use super::terminal_table;
-use crate::batch::fingerprint::BUILD;
+use crate::batch::fingerprint::Fingerprint;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
 use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
-use crate::report::{self, ReportError, ReportRequest};
+use crate::report::{self, ReportError, ReportInput, ReportRequest};
 use crate::sampling::stats::Estimate;
-use crate::stone::Stone;
 use crate::storage::journal::Journal;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -66,6 +65,11 @@ struct ReportSummary {
 
 /// Makes the reports and writes them.
 pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let request = ReportRequest {
+        stones: args.stones.iter().map(stone::display_name).collect(),
+        options: args.stone_args.options(args.size),
+        seed: args.seed,
+    };
     let specs = inputs::expanded(&args.stones)?;
     let folders: Vec<PathBuf> = match &args.stones[..] {
         [stone] if specs.len() == 1 && specs[0] == *stone => vec![args.output.clone()],
@@ -74,13 +78,13 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     let mut outputs = Outputs::reading_stones(&specs, console);
     // every place is tried before the first report, which takes half a minute
     for folder in &folders {
-        claim(folder, &mut outputs)?;
+        claim(folder, &request, &mut outputs)?;
     }
     let range = args.stone_args.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
-        let result = one(stone, folder, args, console);
+        let result = one(stone, folder, &request, console);
         if let (Err(failure), true) = (&result, specs.len() > 1) {
             console.complain(&failure.message());
         }
@@ -100,14 +104,14 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
 }
 
 /// What is kept of a report while its files are written.
-fn identity() -> String {
-    format!("report {} {BUILD}", record::own_command())
+fn identity(request: &ReportRequest) -> String {
+    format!("report {}", Fingerprint::of_request(request).hex())
 }
 
 /// Takes the places of all files of the report in a folder.
-fn claim(folder: &Path, outputs: &mut Outputs) -> Result<(), CliError> {
+fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
-    let begun = Journal::belongs_to(&Journal::path_for(&page), &identity());
+    let begun = Journal::belongs_to(&Journal::path_for(&page), &identity(request));
     let is_own = begun || record::is_of(&page, &record::own_command());
     stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
@@ -116,21 +120,21 @@ fn claim(folder: &Path, outputs: &mut Outputs) -> Result<(), CliError> {
 fn one(
     stone: &OsStr,
     folder: &Path,
-    args: &ReportArgs,
+    request: &ReportRequest,
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
-    let stone = Stone::open(stone, &args.stone_args.options(args.size))?.with_usual_width()?;
+    let stone = request.open(stone)?;
     let design = stone.convex_design()?.clone();
     stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
-    let request = ReportRequest {
+    let input = ReportInput {
         stone: stone.name().into(),
         design,
         material: stone.material().clone(),
-        seed: args.seed,
+        seed: request.seed,
         command: record::command_line(),
     };
     let bar = console.steps(STEPS);
-    let bundle = report::make(&request, &|what| {
+    let bundle = report::make(&input, &|what| {
         bar.set_message(what);
         bar.inc(1);
     });
@@ -143,7 +147,7 @@ fn one(
     }
     // what a kill leaves of the files is known as this command's
     let progress = Journal::path_for(&folder.join("index.html"));
-    let progress = Journal::open(&progress, &identity(), &|_| ())?;
+    let progress = Journal::open(&progress, &identity(request), &|_| ())?;
     bundle.write(folder)?;
     progress.finish()?;
     if !console.json {

@@ -4,7 +4,7 @@ use super::diagram::projection::{self, DiagramView};
 use super::estimates::{difference_html, estimate_html};
 use super::html::{HtmlPage, data_uri};
 use super::page::{scope_figure, tilt_section};
-use super::request::ReportRequest;
+use super::request::ReportInput;
 use super::stone_report::{ReportError, table_picture};
 use super::{tilt_curves, viewer_images};
 use crate::geometry::{Polyhedron, SolidError};
@@ -51,7 +51,7 @@ pub fn left_out(comparison: &Comparison) -> Vec<String> {
 /// - `requests`: one a stone, in the order of the comparison
 /// - `step`: called with what comes next, [`STEPS`] times a stone
 pub fn html(
-    requests: &[ReportRequest],
+    requests: &[ReportInput],
     comparison: &Comparison,
     plan: &ScoreRequest,
     step: &dyn Fn(&'static str),
@@ -81,7 +81,7 @@ pub fn html(
         cells.extend(views.map(|drawing| html! { figure { (drawing) } }));
         rows.push(cells);
     }
-    let lines: Vec<(&ReportRequest, &str, &Polyhedron)> = requests
+    let lines: Vec<(&ReportInput, &str, &Polyhedron)> = requests
         .iter()
         .zip(&labels)
         .zip(&solids)

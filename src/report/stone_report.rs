@@ -2,7 +2,7 @@
 
 use super::page::{Page, Section};
 use super::references::References;
-use super::request::ReportRequest;
+use super::request::ReportInput;
 use super::viewer_images::ViewerImageError;
 use super::{chart, diagram, sections, tilt_curves, viewer_images};
 use crate::batch::table;
@@ -77,7 +77,7 @@ pub const STEPS: usize = 6;
 ///
 /// The same request gives the same bytes on any number of threads. Checked in `tests/report.rs`
 /// and `tests/cli.rs`.
-pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<StoneReport, ReportError> {
+pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneReport, ReportError> {
     let design = &request.design;
     let solid = design.solid()?;
     let proportions = proportions::measure(&solid);
@@ -158,7 +158,7 @@ pub fn make(request: &ReportRequest, step: &dyn Fn(&'static str)) -> Result<Ston
 
 /// The photon-mapped picture of the stone on the grey table, as PNG.
 pub(super) fn table_picture(
-    request: &ReportRequest,
+    request: &ReportInput,
     step: &dyn Fn(&'static str),
 ) -> Result<Vec<u8>, ReportError> {
     let (width, height, rays) = PICTURE;

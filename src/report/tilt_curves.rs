@@ -1,7 +1,7 @@
 //! Tilt curves: scores against the tilt of the stone.
 
 use super::plot::{Curves, PlotCurve};
-use super::request::ReportRequest;
+use super::request::ReportInput;
 use crate::geometry::Polyhedron;
 use crate::metrics::Metric;
 use crate::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
@@ -33,7 +33,7 @@ pub struct TiltPlot {
 ///
 /// Stones that cannot be scored at a tilt have a gap there.
 pub fn plots(
-    stones: &[(&ReportRequest, &str, &Polyhedron)],
+    stones: &[(&ReportInput, &str, &Polyhedron)],
     plan: &ScoreRequest,
     step: &dyn Fn(),
 ) -> Vec<TiltPlot> {

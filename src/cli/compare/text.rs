@@ -6,7 +6,7 @@ use crate::design::proportions;
 use crate::materials::weight::Weight;
 use crate::metrics::Better;
 use crate::report::estimates::plus;
-use crate::report::{ReportRequest, comparison_page};
+use crate::report::{ReportInput, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::Comparison;
 use crate::scoring::score::ScoreRequest;
@@ -18,7 +18,7 @@ const MOST_COLUMNS: usize = 4;
 /// What is compared.
 pub struct Compared<'a> {
     /// One a stone.
-    pub requests: &'a [ReportRequest],
+    pub requests: &'a [ReportInput],
     /// Their scores.
     pub comparison: &'a Comparison,
     /// What was scored.
@@ -37,7 +37,7 @@ struct MeasureRow {
 impl Compared<'_> {
     /// Proportions and weight.
     fn measures(&self) -> Vec<MeasureRow> {
-        type Of = fn(&proportions::Proportions, &ReportRequest) -> Option<f64>;
+        type Of = fn(&proportions::Proportions, &ReportInput) -> Option<f64>;
         let all: [(&str, &str, Of, &str); 10] = [
             ("width", "mm", |p, _| Some(p.width), ""),
             ("length_to_width", "", |p, _| Some(p.length / p.width), ""),
@@ -70,7 +70,7 @@ impl Compared<'_> {
 
     /// What must be known about the weights, a line each.
     pub fn weight_notes(&self) -> Vec<String> {
-        let said = |r: &ReportRequest| {
+        let said = |r: &ReportInput| {
             Some(format!("weight of {}: {}", in_line(&r.stone), Weight::new(&r.material).note()?))
         };
         self.requests.iter().filter_map(said).collect()
