@@ -47,6 +47,12 @@ pub enum Error {
 }
 
 /// Kinds of errors.
+///
+/// ```
+/// use cutlab::{Error, ErrorKind, Material};
+///
+/// assert_eq!(Error::from(Material::named("rubby").unwrap_err()).kind(), ErrorKind::NotFound);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {

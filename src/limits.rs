@@ -149,6 +149,14 @@ impl Limit {
 }
 
 /// The limits that a reader keeps to: every [`Limit`], so many times as high.
+///
+/// ```
+/// use cutlab::{Limits, Stone, StoneOptions};
+///
+/// let limits: Limits = "4".parse().unwrap(); // four times as much of everything is read
+/// let options = StoneOptions { limits, ..StoneOptions::default() };
+/// assert!(Stone::open("tolkowsky", &options).is_ok());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// At least 1.

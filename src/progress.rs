@@ -3,6 +3,28 @@
 /// Hears how long work goes on, and may end it. Every method has a default that does nothing.
 ///
 /// It is called from all threads. `()` hears nothing and ends nothing.
+///
+/// ```
+/// use cutlab::Progress;
+/// use std::sync::atomic::{AtomicU64, Ordering};
+///
+/// /// Counts the parts that are done, and ends the work after ten.
+/// struct Ten(AtomicU64);
+///
+/// impl Progress for Ten {
+///     fn advance(&self, parts: u64) {
+///         self.0.fetch_add(parts, Ordering::Relaxed);
+///     }
+///
+///     fn is_cancelled(&self) -> bool {
+///         self.0.load(Ordering::Relaxed) >= 10
+///     }
+/// }
+///
+/// let progress = Ten(AtomicU64::new(0));
+/// progress.advance(12);
+/// assert!(progress.is_cancelled());
+/// ```
 pub trait Progress: Sync {
     /// A step begins.
     ///

@@ -12,6 +12,16 @@ use crate::stone::StoneOptions;
 use serde::{Deserialize, Serialize};
 
 /// A request for a table of scores.
+///
+/// ```
+/// use cutlab::TableRequest;
+///
+/// let json = r#"{ "command": "score", "stones": ["tolkowsky"], "options": {}, "scores": { "metrics": ["wlr"] },
+///     "tilt": null, "proportions": false, "sort": null }"#;
+/// let request: TableRequest = serde_json::from_str(json)?;
+/// assert!(request.command().starts_with("cutlab score tolkowsky --metrics wlr"));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(tag = "command", rename_all = "snake_case")]
 pub enum TableRequest {

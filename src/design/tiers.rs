@@ -7,6 +7,14 @@ use crate::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DVec3};
 
 /// The unit of a design's distances.
+///
+/// ```
+/// use cutlab::{LengthUnit, Stone};
+///
+/// let stone = Stone::parse("tolkowsky")?.with_width(8.0)?;
+/// assert_eq!(stone.unit(), LengthUnit::Millimetre);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LengthUnit {
     /// Millimetres: a stone of a definite size.
@@ -59,6 +67,14 @@ pub struct Tier {
 }
 
 /// A gem design.
+///
+/// ```
+/// use cutlab::Stone;
+///
+/// let design = Stone::parse("tolkowsky")?.into_design()?;
+/// assert_eq!((design.facets().count(), design.tiers[0].facets.len()), (73, 1));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     /// Its name: from the library, the file's first header line, or the file name.

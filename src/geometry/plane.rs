@@ -3,6 +3,14 @@
 use glam::{DMat3, DVec3};
 
 /// The half-space `normal · x ≤ distance`.
+///
+/// ```
+/// use cutlab::Plane;
+/// use cutlab::glam::DVec3;
+///
+/// let table = Plane::new(DVec3::Z, 2.0);
+/// assert_eq!(table.signed_distance(DVec3::new(1.0, 1.0, 3.0)), 1.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     /// Unit normal, pointing out of the stone.

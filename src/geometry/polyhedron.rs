@@ -27,6 +27,15 @@ pub enum PlaneStatus {
 }
 
 /// A bounded convex solid.
+///
+/// ```
+/// use cutlab::glam::DVec3;
+/// use cutlab::{Plane, Polyhedron};
+///
+/// let sides = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
+/// let cube = Polyhedron::from_planes(&sides.map(|normal| Plane::new(normal, 1.0))).unwrap();
+/// assert!((cube.volume() - 8.0).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Polyhedron {
     /// Corner positions, in the unit of the planes.

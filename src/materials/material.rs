@@ -5,6 +5,15 @@ use crate::optics::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
 
 /// What a stone is made of.
+///
+/// ```
+/// use cutlab::Material;
+///
+/// let quartz = Material::named("quartz")?;
+/// assert!((quartz.index_d() - 1.544).abs() < 1e-3 && quartz.is_clear());
+/// assert_eq!(Material::from_index(1.62).index(450.0), 1.62);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// The name on the command line.

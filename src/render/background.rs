@@ -5,6 +5,14 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// What a picture has for its background.
+///
+/// ```
+/// use cutlab::Background;
+///
+/// let json = serde_json::to_string(&Background::Colour([255, 0, 128]))?;
+/// assert_eq!(json, r#"{"colour":[255,0,128]}"#);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Background {

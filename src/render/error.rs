@@ -7,6 +7,12 @@ use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
 
 /// A picture that could not be taken or written.
+///
+/// ```
+/// use cutlab::{RenderError, RenderRequest};
+///
+/// assert!(matches!(RenderRequest::scene("beach"), Err(RenderError::Request(_))));
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {

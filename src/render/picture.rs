@@ -17,6 +17,15 @@ use crate::storage::text::display_name;
 use std::path::{Path, PathBuf};
 
 /// A picture that was taken.
+///
+/// ```
+/// use cutlab::{Picture, RenderRequest};
+///
+/// let request = RenderRequest::scene("face-up")?.size(24, 24).samples_per_pixel(1).photons(100);
+/// let picture: Picture = request.run()?;
+/// assert_eq!((picture.film.width, picture.film.height), (24, 24));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Picture {
     /// Its light, pass by pass, with glare if that was asked for.

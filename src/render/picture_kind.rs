@@ -3,6 +3,13 @@
 use std::path::Path;
 
 /// What a picture is written as.
+///
+/// ```
+/// use cutlab::PictureKind;
+///
+/// let kind = PictureKind::of_picture("a.exr".as_ref());
+/// assert_eq!(kind, Some(PictureKind::Exr));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureKind {
     /// PNG, of 8 or 16 bits a channel.

@@ -78,6 +78,14 @@ pub struct RenderRequest {
 
 /// When a progressive picture is good enough; the first that is reached counts. Without any it ends at 2 % of noise,
 /// or after 100 rounds.
+///
+/// ```
+/// use cutlab::{RenderRequest, StopRequest};
+///
+/// let stop = StopRequest { rounds: Some(8), ..StopRequest::default() };
+/// let request = RenderRequest { progressive: Some(stop), ..RenderRequest::default() };
+/// assert_eq!(request.progressive.unwrap().rounds, Some(8));
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StopRequest {
@@ -90,6 +98,14 @@ pub struct StopRequest {
 }
 
 /// What moves in an animation.
+///
+/// ```
+/// use cutlab::{AnimationRequest, RenderRequest, Turn};
+///
+/// let animation = AnimationRequest { frames: 36, turn: Turn::Stone, rock: true, fps: None };
+/// let request = RenderRequest { animation: Some(animation), ..RenderRequest::default() };
+/// assert_eq!(request.turn(), Turn::Stone);
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AnimationRequest {
@@ -107,6 +123,14 @@ pub struct AnimationRequest {
 }
 
 /// Exposure of a picture.
+///
+/// ```
+/// use cutlab::{Exposure, RenderRequest};
+///
+/// let request = RenderRequest { exposure: Some(Exposure::Auto), ..RenderRequest::scene("studio")? };
+/// assert_eq!(request.scene, "studio");
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Exposure {

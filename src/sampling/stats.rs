@@ -4,6 +4,13 @@ use serde::Serialize;
 use std::fmt;
 
 /// A value and its standard error, in the same unit.
+///
+/// ```
+/// use cutlab::Estimate;
+///
+/// assert_eq!(Estimate { value: 0.28376, error: 0.00103 }.to_string(), "0.2838 ± 0.0010");
+/// assert_eq!(Estimate::exact(0.5).to_string(), "0.5000");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Estimate {
     /// The value.

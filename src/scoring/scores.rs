@@ -9,6 +9,14 @@ use crate::stone::Stone;
 use std::ops::Index;
 
 /// A stone that could not be scored.
+///
+/// ```
+/// use cutlab::{ScoreError, ScoreRequest, Stone};
+///
+/// let error = ScoreRequest::new(["brilliance"]).run(&Stone::parse("octahedron")?).unwrap_err();
+/// assert!(matches!(error, ScoreError::NoSuchMetric { .. }));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScoreError {

@@ -17,6 +17,12 @@ pub const DEFAULT_SAMPLES: u64 = 1 << 18;
 pub const MAX_SAMPLES: u64 = 1 << 25;
 
 /// How far to trace.
+///
+/// ```
+/// use cutlab::{ScoreRequest, Target};
+///
+/// assert_eq!(ScoreRequest::new(["wlr"]).error(1e-3).target, Target::Error(1e-3));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
@@ -34,6 +40,15 @@ impl Default for Target {
 }
 
 /// How a stone is turned before viewer and light, which stay.
+///
+/// ```
+/// use cutlab::{ScoreRequest, Stone, Tilt};
+///
+/// let request = ScoreRequest::new(["light_return"]).samples(1 << 10);
+/// let tilted = request.run_tilted(&Stone::parse("tolkowsky")?, Some(Tilt { degrees: 15.0, azimuth: 0.0 }))?;
+/// assert!(tilted["light_return"].value > 0.5);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tilt {
     /// Degrees, right-handed about the axis.
@@ -147,6 +162,14 @@ impl ScoreRow {
 }
 
 /// What to score, and how. As JSON its metrics are names; fields that are left out have their defaults.
+///
+/// ```
+/// use cutlab::{ScoreRequest, Stone};
+///
+/// let request = ScoreRequest::new(["windowing"]).samples(1 << 10).seed(7);
+/// assert!(request.run(&Stone::parse("octahedron")?)?.get("windowing").is_some());
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ScoreRequest {

@@ -9,6 +9,13 @@ use crate::parse::did_you_mean;
 use std::sync::Arc;
 
 /// A STONE that could not be opened: what was asked for, what was expected, what was found.
+///
+/// ```
+/// use cutlab::{Stone, StoneError};
+///
+/// let error = Stone::parse("tolkowski").unwrap_err();
+/// assert!(matches!(error, StoneError::NoSuchStone { nearest: Some("tolkowsky"), .. }));
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StoneError {

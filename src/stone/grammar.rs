@@ -21,6 +21,14 @@ const INDEX: &str = "ri";
 
 /// A STONE taken apart: a cut or a file, and what it is made of, if it says so itself
 /// (`D.asc:material=topaz`, `oval:table=57,ri=2.2`).
+///
+/// ```
+/// use cutlab::StoneSpec;
+///
+/// let spec = StoneSpec::parse("oval:table=57,material=ruby")?;
+/// assert_eq!((spec.base().to_str(), spec.own()), (Some("oval:table=57"), &["material=ruby".to_string()][..]));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct StoneSpec {
     base: OsString,

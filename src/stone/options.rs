@@ -7,6 +7,15 @@ use serde::{Deserialize, Serialize};
 
 /// What is asked for of every stone of a request. A stone that says it itself (`D.asc:material=topaz`) is as
 /// it says.
+///
+/// ```
+/// use cutlab::{Stone, StoneOptions};
+///
+/// let options = StoneOptions { material: Some("topaz".into()), size_mm: Some(9.0), ..StoneOptions::default() };
+/// let stone = Stone::open("emerald", &options)?;
+/// assert!(stone.material().name == "topaz" && (stone.width() - 9.0).abs() < 1e-9);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StoneOptions {
@@ -40,6 +49,16 @@ impl StoneOptions {
 }
 
 /// How the stones of files are turned before anything else.
+///
+/// ```
+/// use cutlab::{Orientation, Stone, StoneOptions, UpAxis};
+///
+/// let orientation = Orientation { up: Some(UpAxis::Y), align: false };
+/// let options = StoneOptions { orientation, ..StoneOptions::default() };
+/// // stones of files are turned, cuts of the library stand as they do
+/// assert!(Stone::open("tolkowsky", &options)?.orientation_doubt().is_none());
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Orientation {
@@ -50,6 +69,13 @@ pub struct Orientation {
 }
 
 /// An axis of a file's frame.
+///
+/// ```
+/// use cutlab::UpAxis;
+/// use cutlab::glam::DVec3;
+///
+/// assert_eq!((UpAxis::NegY.name(), UpAxis::NegY.direction()), ("-y", DVec3::NEG_Y));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum UpAxis {
     /// +x
