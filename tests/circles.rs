@@ -129,7 +129,10 @@ impl House {
                 .filter(|part| part != "lib")
                 .collect()
         };
-        let text = |path: &PathBuf| fs::read_to_string(path).expect("a source file is UTF-8");
+        // what a macro names after `$crate::` is for those who use it
+        let text = |path: &PathBuf| {
+            fs::read_to_string(path).expect("a source file is UTF-8").replace("$crate::advanced::", "")
+        };
         let all = paths.iter().filter(|p| !p.ends_with("main.rs"));
         House(all.map(|path| (module(path), source(&text(path)))).collect())
     }

@@ -46,16 +46,11 @@ const SCENE: &str = "about = \"a cube under a dome\"\nunit = \"stone\"\npicture 
     [camera]\nat = [0, 0, 12]\nwidth = 2.2\n\n[[stone]]\ncut = \"cube\"\npose = \"table-up\"\n\n\
     [[light]]\nkind = \"dome\"\nradiance = 0.9\n";
 
-/// A material of the user's.
-const MATERIAL: &str = "name = \"my gem\"\nspecific-gravity = 3.5\n[index]\ncauchy = [1.7, 0.01]\n\
-    [absorption]\nquantity = \"per-mm\"\ntable = [[400, 0.1], [550, 0.02], [700, 0.01]]\n";
-
 impl Inputs {
     /// Makes them.
     pub fn made() -> Inputs {
         let mut files = Files::new();
         files.insert("scene.toml".into(), SCENE.into());
-        files.insert("gem.toml".into(), MATERIAL.into());
         let folder = Bench::of(files);
         let make = |words: &[&str]| {
             let words: Vec<String> = words.iter().map(|w| w.to_string()).collect();

@@ -2,6 +2,9 @@
 
 use clap::Arg;
 
+/// A material of a user's own. The options are read in this process too, so its path is whole.
+const MATERIAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/materials/plate.toml");
+
 /// Options that are never left out, for the work would be large without.
 pub const ALWAYS: &[(&str, &str)] = &[
     ("render", "width"),
@@ -129,7 +132,7 @@ const SAMPLES: &[Sample] = &[
     ("*", "pixels", &[&["64"]]),
     ("*", "colours", &[&["greys"]]),
     // stones' stuff
-    ("*", "material", &[&["diamond"], &["quartz"], &["ruby"], &["gem.toml"]]),
+    ("*", "material", &[&["diamond"], &["quartz"], &["ruby"], &[MATERIAL]]),
     ("*", "ri", &[&["1.54"]]),
     ("*", "size", &[&["4"]]),
     ("*", "carat", &[&["1"]]),
