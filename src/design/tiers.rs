@@ -72,8 +72,8 @@ pub struct Tier {
 /// use cutlab::Stone;
 ///
 /// let design = Stone::parse("tolkowsky")?.into_design()?;
-/// assert_eq!((design.facets().count(), design.tiers[0].facets.len()), (73, 1));
-/// # Ok::<(), cutlab::Error>(())
+/// assert_eq!((design.facets().count(), design.solid()?.faces.len()), (153, 153));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {

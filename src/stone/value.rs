@@ -34,7 +34,7 @@ enum Shape {
 /// use cutlab::advanced::stone::Stone;
 ///
 /// let stone = Stone::parse("round-brilliant:crown-angle=35,material=quartz")?.with_width(8.0)?;
-/// assert_eq!(stone.facets(), 73);
+/// assert_eq!(stone.facets(), 153);
 /// assert_eq!(stone.material().name, "quartz");
 /// # Ok::<(), cutlab::advanced::stone::StoneError>(())
 /// ```
