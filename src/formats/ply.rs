@@ -13,7 +13,7 @@ use super::{Format, MeshExport, Parsed, Writer};
 use crate::geometry::facet_recovery::Polygon;
 use crate::limits;
 use glam::DVec3;
-use header::{Element, Header, PlyScalar, Property};
+use header::{Header, PlyElement, PlyScalar, Property};
 use std::borrow::Cow;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -60,7 +60,7 @@ pub(super) fn mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
     let mut values = PlyValues::new(source, &header, bytes);
     let mut mesh = PolygonMesh { corners: Digits::F64, normals: Digits::F64, ..PolygonMesh::default() };
     let mut total = 0;
-    let fits = |n: usize, element: &Element| source.within_at(element.line, &limits::CORNERS, n);
+    let fits = |n: usize, element: &PlyElement| source.within_at(element.line, &limits::CORNERS, n);
     for element in &header.elements {
         match &*element.name {
             "vertex" => {
@@ -120,7 +120,7 @@ pub(super) fn mesh(source: &Input) -> Result<PolygonMesh, FormatError> {
 
 /// Reads every row of an element: single values, and the values of lists, by property.
 fn read_elements(
-    element: &Element,
+    element: &PlyElement,
     values: &mut PlyValues,
     mut row: impl FnMut(&[f64], &[Vec<f64>]) -> Result<(), FormatError>,
 ) -> Result<(), FormatError> {
@@ -152,7 +152,7 @@ fn read_elements(
 }
 
 /// Where three properties stand in their element.
-fn places(source: &Input, element: &Element, names: [&str; 3]) -> Result<[usize; 3], FormatError> {
+fn places(source: &Input, element: &PlyElement, names: [&str; 3]) -> Result<[usize; 3], FormatError> {
     let at = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
     match names.map(at) {
         [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
@@ -168,7 +168,7 @@ fn is_corners(property: &Property) -> bool {
     property.length.is_some() && matches!(&*property.name, "vertex_indices" | "vertex_index")
 }
 
-fn list_of_corners(source: &Input, element: &Element) -> Result<usize, FormatError> {
+fn list_of_corners(source: &Input, element: &PlyElement) -> Result<usize, FormatError> {
     let expected = format!("property list … vertex_indices of {}", element.name);
     let list = element.properties.iter().position(is_corners);
     list.ok_or_else(|| source.at_line(element.line, expected, "none"))

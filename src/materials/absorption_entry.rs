@@ -6,7 +6,7 @@ use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::optics::fresnel::unpolarised;
 use crate::optics::spectral_curve::SpectralCurve;
 use crate::parse::data_file::ValueProblem;
-use crate::parse::spectral_table::{TableEntry, TableLayout, WavelengthUnit};
+use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, WavelengthUnit};
 use serde::Deserialize;
 use std::f64::consts::LN_10;
 
@@ -32,7 +32,7 @@ pub struct AbsorptionEntry {
     about: Option<String>,
     source: Option<String>,
     band: Option<Vec<BandEntry>>,
-    table: Option<TableEntry>,
+    table: Option<SpectrumEntry>,
     wavelength: Option<WavelengthUnit>,
     columns: Option<[usize; 2]>,
     quantity: Option<Quantity>,
@@ -115,7 +115,7 @@ impl AbsorptionEntry {
 
     fn curve(
         &self,
-        table: &TableEntry,
+        table: &SpectrumEntry,
         index: &Dispersion,
         tables: TableReader,
     ) -> Result<AbsorptionSpectrum, ValueProblem> {
@@ -136,7 +136,8 @@ impl AbsorptionEntry {
             let expected = "absorbance or transmittance";
             return Err(ValueProblem::new("includes-surface-losses", expected, "a coefficient"));
         }
-        let layout = TableLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
+        let layout =
+            SpectrumLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
         let rows = read_rows(table, layout, tables)?;
         let (first, last) = (rows[0].nm, rows[rows.len() - 1].nm);
         if first > COVERED_NM.0 || last < COVERED_NM.1 {

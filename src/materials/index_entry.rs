@@ -4,7 +4,7 @@ use super::table_entry::{TableReader, read_rows};
 use crate::optics::dispersion::{Dispersion, lines};
 use crate::optics::spectral_curve::SpectralCurve;
 use crate::parse::data_file::ValueProblem;
-use crate::parse::spectral_table::{TableEntry, TableLayout, WavelengthUnit};
+use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, WavelengthUnit};
 use serde::Deserialize;
 
 /// Most coefficients of a law.
@@ -22,7 +22,7 @@ pub struct IndexEntry {
     cauchy: Option<Vec<f64>>,
     resonance: Option<[f64; 4]>,
     steps: Option<Vec<[f64; 2]>>,
-    table: Option<TableEntry>,
+    table: Option<SpectrumEntry>,
     wavelength: Option<WavelengthUnit>,
     columns: Option<[usize; 2]>,
 }
@@ -102,8 +102,9 @@ impl IndexEntry {
         }
     }
 
-    fn table(&self, table: &TableEntry, tables: TableReader) -> Result<Dispersion, ValueProblem> {
-        let layout = TableLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
+    fn table(&self, table: &SpectrumEntry, tables: TableReader) -> Result<Dispersion, ValueProblem> {
+        let layout =
+            SpectrumLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
         let rows = read_rows(table, layout, tables)?;
         let points = rows.iter().map(|row| (row.nm, row.value)).collect();
         let curve = SpectralCurve::new(points);

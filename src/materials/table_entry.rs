@@ -1,23 +1,23 @@
 //! Tables of material files: their rows, from the file itself or from one beside it.
 
 use crate::parse::data_file::ValueProblem;
-use crate::parse::spectral_table::{TableEntry, TableLayout, TableRow, from_pairs, from_text};
+use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, SpectrumRow, from_pairs, from_text};
 
 /// Reads the text of the table that a data file names, or says why it cannot be read.
 pub type TableReader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// The rows of a table, by rising wavelength.
 pub fn read_rows(
-    table: &TableEntry,
-    layout: TableLayout,
+    table: &SpectrumEntry,
+    layout: SpectrumLayout,
     tables: TableReader,
-) -> Result<Vec<TableRow>, ValueProblem> {
+) -> Result<Vec<SpectrumRow>, ValueProblem> {
     let rows = match table {
-        TableEntry::Rows(_) if layout.columns.is_some() => {
+        SpectrumEntry::Rows(_) if layout.columns.is_some() => {
             return Err(ValueProblem::new("columns", "a table in a file beside it", "rows of two"));
         }
-        TableEntry::Rows(pairs) => from_pairs(pairs, layout.wavelength),
-        TableEntry::File(name) => {
+        SpectrumEntry::Rows(pairs) => from_pairs(pairs, layout.wavelength),
+        SpectrumEntry::File(name) => {
             let text = tables(name).map_err(|why| {
                 ValueProblem::new(
                     "table",
@@ -34,10 +34,10 @@ pub fn read_rows(
 /// What is wrong with a row of a table.
 ///
 /// - `line`: of the file, or the row's number in a list
-pub fn at(table: &TableEntry, line: usize, expected: impl Into<String>, found: String) -> ValueProblem {
+pub fn at(table: &SpectrumEntry, line: usize, expected: impl Into<String>, found: String) -> ValueProblem {
     let place = match table {
-        TableEntry::Rows(_) => format!("row {line}"),
-        TableEntry::File(name) => format!("line {line} of {}", name.escape_debug()),
+        SpectrumEntry::Rows(_) => format!("row {line}"),
+        SpectrumEntry::File(name) => format!("line {line} of {}", name.escape_debug()),
     };
     ValueProblem::new("table", expected, format!("{found} in {place}"))
 }

@@ -22,7 +22,7 @@ pub enum WavelengthUnit {
 
 /// How a table is read.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct TableLayout {
+pub struct SpectrumLayout {
     /// Unit of the wavelengths.
     pub wavelength: WavelengthUnit,
     /// The columns of wavelength and value, from 1; none for the first two.
@@ -31,7 +31,7 @@ pub struct TableLayout {
 
 /// A row of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TableRow {
+pub struct SpectrumRow {
     /// Wavelength, nm.
     pub nm: f64,
     /// The value, in the table's own unit.
@@ -42,7 +42,7 @@ pub struct TableRow {
 
 /// A table that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TableError {
+pub struct SpectrumError {
     /// The line of the file, or the number of the row in a list, from 1.
     pub line: usize,
     /// What belongs there.
@@ -51,41 +51,41 @@ pub struct TableError {
     pub found: String,
 }
 
-impl TableError {
-    fn new(line: usize, expected: &str, found: impl Into<String>) -> TableError {
-        TableError { line, expected: expected.into(), found: found.into() }
+impl SpectrumError {
+    fn new(line: usize, expected: &str, found: impl Into<String>) -> SpectrumError {
+        SpectrumError { line, expected: expected.into(), found: found.into() }
     }
 }
 
 /// A table as a data file has it: in rows of its own, or in a file beside it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum TableEntry {
+pub enum SpectrumEntry {
     /// Pairs of wavelength and value.
     Rows(Vec<[f64; 2]>),
     /// A file's name.
     File(String),
 }
 
-impl<'de> Deserialize<'de> for TableEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<TableEntry, D::Error> {
+impl<'de> Deserialize<'de> for SpectrumEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<SpectrumEntry, D::Error> {
         struct Either;
         impl<'de> Visitor<'de> for Either {
-            type Value = TableEntry;
+            type Value = SpectrumEntry;
 
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
                 f.write_str("a list of pairs [wavelength, value], or a file's name in quotes")
             }
 
-            fn visit_str<E: Error>(self, name: &str) -> Result<TableEntry, E> {
-                Ok(TableEntry::File(name.into()))
+            fn visit_str<E: Error>(self, name: &str) -> Result<SpectrumEntry, E> {
+                Ok(SpectrumEntry::File(name.into()))
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut pairs: A) -> Result<TableEntry, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, mut pairs: A) -> Result<SpectrumEntry, A::Error> {
                 let mut rows = Vec::new();
                 while let Some(row) = pairs.next_element()? {
                     rows.push(row);
                 }
-                Ok(TableEntry::Rows(rows))
+                Ok(SpectrumEntry::Rows(rows))
             }
         }
         deserializer.deserialize_any(Either)
@@ -93,16 +93,16 @@ impl<'de> Deserialize<'de> for TableEntry {
 }
 
 /// The rows of a list of pairs of wavelength and value, by rising wavelength.
-pub fn from_pairs(pairs: &[[f64; 2]], wavelength: WavelengthUnit) -> Result<Vec<TableRow>, TableError> {
+pub fn from_pairs(pairs: &[[f64; 2]], wavelength: WavelengthUnit) -> Result<Vec<SpectrumRow>, SpectrumError> {
     let rows = pairs.iter().zip(1..).map(|([x, value], line)| row(*x, *value, line, wavelength));
     in_order(rows.collect::<Result<_, _>>()?)
 }
 
 /// The rows of a table as text, by rising wavelength.
-pub fn from_text(text: &str, layout: TableLayout) -> Result<Vec<TableRow>, TableError> {
+pub fn from_text(text: &str, layout: SpectrumLayout) -> Result<Vec<SpectrumRow>, SpectrumError> {
     let columns = layout.columns.unwrap_or([1, 2]);
     if columns.contains(&0) || columns[0] == columns[1] {
-        return Err(TableError::new(1, "two different columns, counted from 1", format!("{columns:?}")));
+        return Err(SpectrumError::new(1, "two different columns, counted from 1", format!("{columns:?}")));
     }
     let cell = |record: &Record, column: usize| record.cells.get(column - 1).and_then(|cell| number(cell));
     let is_row = |record: &Record| columns.iter().all(|column| cell(record, *column).is_some());
@@ -113,7 +113,7 @@ pub fn from_text(text: &str, layout: TableLayout) -> Result<Vec<TableRow>, Table
     let records = best.map_or(&[][..], Vec::as_slice);
     let Some(first) = records.iter().position(is_row) else {
         let found = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("nothing");
-        return Err(TableError::new(1, "rows of a wavelength and a value", excerpt(found)));
+        return Err(SpectrumError::new(1, "rows of a wavelength and a value", excerpt(found)));
     };
     let mut rows = Vec::new();
     let mut ended = false;
@@ -121,10 +121,10 @@ pub fn from_text(text: &str, layout: TableLayout) -> Result<Vec<TableRow>, Table
         match (cell(record, columns[0]), cell(record, columns[1])) {
             (Some(x), Some(value)) if !ended => rows.push(row(x, value, record.line, layout.wavelength)?),
             (Some(_), Some(_)) => {
-                return Err(TableError::new(record.line, "the end of the table", excerpt(&record.text())));
+                return Err(SpectrumError::new(record.line, "the end of the table", excerpt(&record.text())));
             }
             (Some(_), None) if !ended => {
-                return Err(TableError::new(
+                return Err(SpectrumError::new(
                     record.line,
                     "a wavelength and a value",
                     excerpt(&record.text()),
@@ -198,20 +198,20 @@ fn number(cell: &str) -> Option<f64> {
     text.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
-fn row(x: f64, value: f64, line: usize, unit: WavelengthUnit) -> Result<TableRow, TableError> {
+fn row(x: f64, value: f64, line: usize, unit: WavelengthUnit) -> Result<SpectrumRow, SpectrumError> {
     let nm = match unit {
         WavelengthUnit::Nm => x,
         WavelengthUnit::Um => 1e3 * x,
         WavelengthUnit::PerCm => 1e7 / x,
     };
     if !(nm > 0.0 && nm.is_finite() && value.is_finite()) {
-        return Err(TableError::new(line, "a wavelength above 0 and a value", format!("{x}, {value}")));
+        return Err(SpectrumError::new(line, "a wavelength above 0 and a value", format!("{x}, {value}")));
     }
-    Ok(TableRow { nm, value, line })
+    Ok(SpectrumRow { nm, value, line })
 }
 
 /// The rows by rising wavelength; they rise or fall from first to last.
-fn in_order(mut rows: Vec<TableRow>) -> Result<Vec<TableRow>, TableError> {
+fn in_order(mut rows: Vec<SpectrumRow>) -> Result<Vec<SpectrumRow>, SpectrumError> {
     if let [first, .., last] = rows[..]
         && first.nm > last.nm
     {
@@ -222,7 +222,7 @@ fn in_order(mut rows: Vec<TableRow>) -> Result<Vec<TableRow>, TableError> {
     }
     match rows.windows(2).find(|pair| pair[0].nm >= pair[1].nm) {
         Some(pair) => Err(out_of_order(pair[1])),
-        None if rows.len() < 2 => Err(TableError::new(
+        None if rows.len() < 2 => Err(SpectrumError::new(
             rows.first().map_or(1, |row| row.line),
             "two rows or more",
             rows.len().to_string(),
@@ -231,8 +231,8 @@ fn in_order(mut rows: Vec<TableRow>) -> Result<Vec<TableRow>, TableError> {
     }
 }
 
-fn out_of_order(row: TableRow) -> TableError {
-    TableError::new(row.line, "wavelengths that rise, or fall, from row to row", format!("{} nm", row.nm))
+fn out_of_order(row: SpectrumRow) -> SpectrumError {
+    SpectrumError::new(row.line, "wavelengths that rise, or fall, from row to row", format!("{} nm", row.nm))
 }
 
 /// The beginning of a line, for a message.
@@ -246,8 +246,8 @@ fn excerpt(line: &str) -> String {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Vec<(f64, f64)>, TableError> {
-        let rows = from_text(text, TableLayout::default())?;
+    fn read(text: &str) -> Result<Vec<(f64, f64)>, SpectrumError> {
+        let rows = from_text(text, SpectrumLayout::default())?;
         Ok(rows.iter().map(|row| (row.nm, row.value)).collect())
     }
 
@@ -271,7 +271,7 @@ mod tests {
 
     #[test]
     fn units_and_columns_are_as_stated() {
-        let layout = TableLayout { wavelength: WavelengthUnit::PerCm, columns: Some([2, 3]) };
+        let layout = SpectrumLayout { wavelength: WavelengthUnit::PerCm, columns: Some([2, 3]) };
         let rows = from_text("n,k,a\n1,25000,7\n2,20000,8\n", layout).expect("a table");
         assert_eq!(
             rows.iter().map(|r| (r.nm, r.value, r.line)).collect::<Vec<_>>(),

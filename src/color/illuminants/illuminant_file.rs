@@ -10,7 +10,7 @@ use super::{Illuminant, SpectralPower};
 use crate::limits::Limits;
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
 use crate::parse::spectral_table::{
-    TableEntry, TableLayout, TableRow, WavelengthUnit, from_pairs, from_text,
+    SpectrumEntry, SpectrumLayout, SpectrumRow, WavelengthUnit, from_pairs, from_text,
 };
 #[cfg(feature = "files")]
 use crate::storage::include;
@@ -54,7 +54,7 @@ struct PowerEntry {
     black_body_k: Option<f64>,
     c2_nm_k: Option<f64>,
     daylight_k: Option<f64>,
-    table: Option<TableEntry>,
+    table: Option<SpectrumEntry>,
     wavelength: Option<WavelengthUnit>,
     columns: Option<[usize; 2]>,
 }
@@ -137,14 +137,15 @@ impl PowerEntry {
 
     fn table(
         &self,
-        table: &TableEntry,
+        table: &SpectrumEntry,
         tables: &dyn Fn(&str) -> Result<String, String>,
     ) -> Result<SpectralPower, ValueProblem> {
-        let layout = TableLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
+        let layout =
+            SpectrumLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
         let wrong = |expected: &str, found: String| ValueProblem::new("table", expected, found);
         let (rows, place) = match table {
-            TableEntry::Rows(pairs) => (from_pairs(pairs, layout.wavelength), "row".to_owned()),
-            TableEntry::File(name) => {
+            SpectrumEntry::Rows(pairs) => (from_pairs(pairs, layout.wavelength), "row".to_owned()),
+            SpectrumEntry::File(name) => {
                 let text = tables(name);
                 let text = text.map_err(|why| {
                     wrong("a table beside the file", format!("'{}': {why}", name.escape_debug()))
@@ -179,9 +180,9 @@ fn within(key: &'static str, x: f64, range: &RangeInclusive<f64>, what: &str) ->
 
 /// The values of a table at even steps over the range of a picture: its own if it has a row every 10 or 5 nm,
 /// else one every nm, linear between its rows. Beyond its ends it has their values.
-fn even(rows: &[TableRow]) -> Vec<f32> {
+fn even(rows: &[SpectrumRow]) -> Vec<f32> {
     let (from, to) = (f64::from(cie::RANGE_NM.0), f64::from(cie::RANGE_NM.1));
-    let inside: Vec<&TableRow> = rows.iter().filter(|row| (from..=to).contains(&row.nm)).collect();
+    let inside: Vec<&SpectrumRow> = rows.iter().filter(|row| (from..=to).contains(&row.nm)).collect();
     let steps = |step: f64| (0..=((to - from) / step) as usize).map(move |i| from + step * i as f64);
     for step in [10.0, 5.0] {
         if inside.iter().map(|row| row.nm).eq(steps(step)) {
@@ -192,7 +193,7 @@ fn even(rows: &[TableRow]) -> Vec<f32> {
 }
 
 /// The value at a wavelength, linear between two rows.
-fn linear(rows: &[TableRow], nm: f64) -> f64 {
+fn linear(rows: &[SpectrumRow], nm: f64) -> f64 {
     let i = rows.partition_point(|row| row.nm <= nm).clamp(1, rows.len() - 1) - 1;
     let (a, b) = (rows[i], rows[i + 1]);
     a.value + (b.value - a.value) * ((nm - a.nm) / (b.nm - a.nm)).clamp(0.0, 1.0)

@@ -56,7 +56,7 @@ pub struct Property {
 
 /// One element: so many rows of its properties.
 #[derive(Debug)]
-pub struct Element {
+pub struct PlyElement {
     pub name: String,
     pub count: u64,
     pub properties: Vec<Property>,
@@ -68,7 +68,7 @@ pub struct Element {
 #[derive(Debug)]
 pub struct Header {
     pub storage: Storage,
-    pub elements: Vec<Element>,
+    pub elements: Vec<PlyElement>,
     /// What follows `comment facet` on each such line: the facets' names, as cutlab writes them.
     pub facet_names: Vec<String>,
     /// Offset of the first byte after the header.
@@ -131,7 +131,7 @@ impl Header {
                     let count = count.parse().map_err(|_| wrong("element NAME COUNT"))?;
                     source.within_at(header.line, &limits::PLY_PARTS, header.elements.len() + 1)?;
                     let (name, line) = (name.into(), header.line);
-                    header.elements.push(Element { name, count, properties: Vec::new(), line });
+                    header.elements.push(PlyElement { name, count, properties: Vec::new(), line });
                 }
                 ["property", ref rest @ ..] => {
                     let (length, kind, name) = match rest {
@@ -161,7 +161,7 @@ impl Header {
         }
         header.storage = storage
             .ok_or_else(|| source.at_line(header.line, "a line 'format …' before it", "end_header"))?;
-        let face = |e: &Element| matches!(&*e.name, "face" | "tristrips") && e.count > 0;
+        let face = |e: &PlyElement| matches!(&*e.name, "face" | "tristrips") && e.count > 0;
         if !header.elements.iter().any(face) {
             // a scan as a grid of ranges, a cloud of points
             let others: Vec<&str> = header.elements.iter().map(|e| &*e.name).collect();
