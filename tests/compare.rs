@@ -90,7 +90,7 @@ fn the_page_has_both_stones_and_needs_nothing_beside_it() {
         "out",
     ]);
     let page = String::from_utf8(bench.read("out/index.html")).expect("UTF-8");
-    assert_eq!(page.matches("data:image/png;base64,").count(), 8);
+    assert_eq!(page.matches("data:image/png;base64,").count(), 10);
     assert!(page.contains("tilt (°)") && page.contains("octahedron less tolkowsky"));
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
 }
