@@ -81,7 +81,7 @@ pub enum ViewerImageError {
 const RED: [u8; 3] = [214, 36, 36];
 const WHITE: [u8; 3] = [255, 255, 255];
 
-/// The colours of the ASET, in the order of [`AsetBand`].
+/// The colours of the ASET, in the order of [`crate::estimators::view::AsetBand`].
 pub static ASET: ViewerImage = ViewerImage {
     name: "ASET",
     file: "aset.png",
