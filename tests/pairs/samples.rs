@@ -3,7 +3,7 @@
 use clap::Arg;
 
 /// A material of a user's own. The options are read in this process too, so its path is whole.
-const MATERIAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/materials/plate.toml");
+const MATERIAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/materials/clear.toml");
 
 /// Options that are never left out, for the work would be large without.
 pub const ALWAYS: &[(&str, &str)] = &[
