@@ -75,8 +75,8 @@ pub const STEPS: usize = 6;
 ///
 /// - `step`: called with what comes next, [`STEPS`] times
 ///
-/// The same request gives the same bytes on any number of threads. Checked in `tests/report.rs`
-/// and `tests/cli.rs`.
+/// The same request gives the same bytes on any number of threads. Checked in `tests/program/report.rs`
+/// and `tests/program/cli.rs`.
 pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneReport, ReportError> {
     let design = &request.design;
     let solid = design.solid()?;
