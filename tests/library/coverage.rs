@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 const RUNS: u64 = 2000;
-const SHORT: u64 = 1 << 12;
-const LONG: u64 = 1 << 22;
+const SHORT: u64 = 1 << 11;
+const LONG: u64 = 1 << 21;
 
 #[test]
 #[ignore = "two thousand runs, half a minute in release"]

@@ -281,10 +281,10 @@ fn render_writes_a_png_and_its_passes() {
 }
 
 #[test]
-#[ignore = "a minute on two cores: .ci/run runs it"]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn report_leaves_everything_about_a_stone() {
     let bench = Bench::new();
-    let said = bench.good(&["report", "round-brilliant", "-o", "out"]);
+    let said = bench.good(&["report", "round-brilliant", "--width", "160", "--error", "0.01", "-o", "out"]);
     for word in
         ["Brilliance", "wlr", "leakage", "Dispersion", "fire_streak", "dispersion_mean", "out: index.html"]
     {

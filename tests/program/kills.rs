@@ -1,7 +1,7 @@
 //! A command that is killed at random moments and started again until it ends leaves the bytes of
 //! one that was never disturbed, and at no moment a part of a file.
 //!
-//! `CUTLAB_KILLS` is how many kills each command survives (20 if it is not set).
+//! `CUTLAB_KILLS` is how many kills each command survives (10 if it is not set).
 
 use crate::bench::Bench;
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ fn something_appears(bench: &Bench, before: usize, at_most: Duration) {
 /// - `prepare`: makes its inputs in a folder
 /// - `expected`: how many files there are in the end
 fn survives(name: &str, code: i32, command: &[&str], prepare: impl Fn(&Bench), expected: usize) {
-    let kills: u32 = std::env::var("CUTLAB_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(20);
+    let kills: u32 = std::env::var("CUTLAB_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(10);
     let whole = Bench::new();
     prepare(&whole);
     let inputs = whole.files();
@@ -118,7 +118,7 @@ const PICTURE: [&str; 10] =
     ["--width", "32", "--height", "24", "--spp", "4", "--photons", "2000", "--nearest", "50"];
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_score_of_a_folder() {
     let score =
         |output| ["score", "in", "tolkowsky", "--metrics", "wlr,contrast", "--error", "0.003", "-o", output];
@@ -127,14 +127,14 @@ fn a_score_of_a_folder() {
 }
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_sweep_with_plots() {
     let output = ["-o", "t.csv", "--plot", "wlr.svg", "--plot", "m.png"];
     survives("sweep", 0, &[&["sweep", "round-brilliant"], &GRID[..], &output].concat(), nothing, 5);
 }
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_merge() {
     let shards = |bench: &Bench| {
         for (shard, part) in [("1/2", "p1.csv"), ("2/2", "p2.csv")] {
@@ -146,7 +146,7 @@ fn a_merge() {
 }
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn animations() {
     let render = [&["render", "octahedron", "--frames", "4", "--turn", "stone"], &PICTURE[..]].concat();
     survives("GIF", 0, &[&render[..], &["-o", "a.gif"]].concat(), nothing, 1);
@@ -155,7 +155,7 @@ fn animations() {
 }
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_photon_map_and_its_picture() {
     let render = [&["render"], &PICTURE[..], &["--photon-map", "kept.map", "-o", "p.png"]].concat();
     survives("photon map", 0, &render, nothing, 2);
@@ -163,15 +163,15 @@ fn a_photon_map_and_its_picture() {
 
 /// Long enough for its state to be kept now and then.
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_progressive_picture() {
-    let rounds = ["--progressive", "--rounds", "60", "-o", "p.exr"];
+    let rounds = ["--progressive", "--rounds", "30", "-o", "p.exr"];
     let render = [&["render"], &PICTURE[..4], &["--photons", "2000", "--nearest", "50"], &rounds].concat();
     survives("progressive picture", 0, &render, nothing, 1);
 }
 
 #[test]
-#[ignore = "twenty kills: .ci/run runs it"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn designs_in_and_out() {
     survives("import", 1, &["import", "in", "-o", "out", "--to", "glb"], designs, 4);
     let files = ["-o", "g.obj", "-o", "g.toml", "-o", "g.svg", "-o", "g.png", "-o", "g.stl"];
@@ -180,11 +180,8 @@ fn designs_in_and_out() {
 
 /// Its files come all together, at its end.
 #[test]
-#[ignore = "half a minute a kill: run by hand with CUTLAB_KILLS"]
+#[ignore = "ten kills: .ci/run runs it"]
 fn a_report() {
-    if std::env::var_os("CUTLAB_KILLS").is_none() {
-        println!("skipped: a kill takes half a minute, and CUTLAB_KILLS says not how many");
-        return;
-    }
-    survives("report", 0, &["report", "octahedron", "-o", "out"], nothing, 9);
+    let report = ["report", "octahedron", "--width", "64", "--error", "0.1", "-o", "out"];
+    survives("report", 0, &report, nothing, 9);
 }

@@ -210,10 +210,11 @@ fn the_reference_stones_are_of_the_stones_own_material() {
 /// The page holds every head, every score beside the references, all drawings, and no address
 /// outside.
 #[test]
-#[ignore = "two pictures on tables take half a minute: .ci/run runs it"]
+#[ignore = "two reports: .ci/run runs it"]
 fn the_page_holds_everything_and_needs_nothing_beside_it() {
     let bench = Bench::new();
-    bench.good(&["report", "round-brilliant:pavilion-angle=43", "-o", "out"]);
+    let small = ["report", "--width", "160", "--error", "0.01", "-o", "out"];
+    bench.good(&[&small[..], &["round-brilliant:pavilion-angle=43"]].concat());
     let page = String::from_utf8(bench.read("out/index.html")).expect("UTF-8");
     for head in [
         "Brilliance",
@@ -244,7 +245,7 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
     assert!(page.contains("(table/crown/pavilion) in diamond.") && page.contains("<em>less is better</em>"));
     assert!(!page.contains("http://") && !page.contains("https://"), "the page needs no network");
     let other = Bench::new();
-    other.good(&["report", "princess", "--ri", "1.544", "-o", "out"]);
+    other.good(&[&small[..], &["princess", "--ri", "1.544"]].concat());
     let page = String::from_utf8(other.read("out/index.html")).expect("UTF-8");
     assert!(page.contains("(table/crown/pavilion) in n=1.544."), "references of the stone's own index");
     assert!(page.contains(" ct in quartz") && page.contains("Weight: n = 1.544 is nearest to quartz"));

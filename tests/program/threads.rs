@@ -59,18 +59,21 @@ fn scores() {
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
 fn studies() {
-    same_on_any_number_of_threads(&[
-        "sweep round-brilliant --vary crown-angle=30:38:4 --vary table=50:60:5 --metrics wlr,fire_streak \
+    same_on(
+        &["5"],
+        &[
+            "sweep round-brilliant --vary crown-angle=30:38:4 --vary table=50:60:5 --metrics wlr,fire_streak \
          --error 0.02 -o t.csv --plot m.svg --plot c.png",
-        "sweep oval --vary ri=1.5:2.4:0.1 --scatter 9 --metrics wlr --error 0.02 -o t.json",
-        "compare tolkowsky octahedron --metrics wlr,leakage,fire_streak --error 0.02 --json",
-        "validate --only leakage --json",
-        "validate --only volume -o out",
-        "import in -o out --to glb",
-        "generate --facets 153 -o g.obj -o g.toml -o g.svg -o g.png -o g.glb -o g.gem",
-        "show in/a.asc in/b.gem cube --json",
-        "show tolkowsky --beams b.svg --diagram d.png",
-    ]);
+            "sweep oval --vary ri=1.5:2.4:0.1 --scatter 9 --metrics wlr --error 0.02 -o t.json",
+            "compare tolkowsky octahedron --metrics wlr,leakage,fire_streak --error 0.02 --json",
+            "validate --only leakage --json",
+            "validate --only volume -o out",
+            "import in -o out --to glb",
+            "generate --facets 153 -o g.obj -o g.toml -o g.svg -o g.png -o g.glb -o g.gem",
+            "show in/a.asc in/b.gem cube --json",
+            "show tolkowsky --beams b.svg --diagram d.png",
+        ],
+    );
 }
 
 #[test]
@@ -94,7 +97,7 @@ fn pictures() {
 }
 
 #[test]
-#[ignore = "most of a minute: .ci/run runs it"]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn a_report() {
-    same_on(&["5"], &["report octahedron -o out"]);
+    same_on(&["5"], &["report octahedron --width 96 --error 0.02 -o out"]);
 }
