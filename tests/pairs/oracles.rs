@@ -37,7 +37,8 @@ pub const AT_ONCE: Duration = Duration::from_secs(4);
 
 /// Runs a case and what belongs to it, and judges it.
 ///
-/// - `number`: of the case; of dear ones the first alone is run again, on two threads
+/// - `number`: of the case; every third is run anew on two threads, the others again where they were; of dear
+///   ones the first alone is run again
 pub fn judge(case: &Case, number: usize, inputs: &Inputs) -> Verdict {
     let bench = Bench::new(inputs, &case.words());
     let ran = bench.run(&case.words(), 1);
@@ -50,8 +51,8 @@ pub fn judge(case: &Case, number: usize, inputs: &Inputs) -> Verdict {
     }
     faults.extend(outputs::faults(case, &ran, inputs));
     match (case.is_dear(), number) {
-        (false, _) => faults.extend(repeated(case, &ran, inputs)),
-        (true, 0) => faults.extend(again(case, &ran, &bench)),
+        (false, _) if number.is_multiple_of(3) => faults.extend(repeated(case, &ran, inputs)),
+        (false, _) | (true, 0) => faults.extend(again(case, &ran, &bench)),
         (true, _) => (),
     }
     faults.extend(numbers::faults(case, &ran, inputs));

@@ -185,7 +185,7 @@ pub fn option(flag: &str, value: &str, with_equals: bool) -> Vec<String> {
 }
 
 /// Words that make a command quick without which it would not be: pictures that converge stop, reports are
-/// small and their scores coarse.
+/// small, and where all metrics are scored they are coarse.
 pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
     let has = |flag: &str| words.iter().any(|w| w == flag);
     if command == "render" && has("--progressive") && !["--rounds", "--time", "--noise"].into_iter().any(has)
@@ -196,7 +196,8 @@ pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
     if command == "report" && !has("--width") {
         words.extend(["--width".into(), "64".into()]);
     }
-    if command == "report" && !has("--error") {
+    let all = ["score", "sweep", "compare"].contains(&command) && !has("--metrics");
+    if (command == "report" || all) && !has("--error") {
         words.extend(["--error".into(), "0.05".into()]);
     }
     words
