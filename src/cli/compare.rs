@@ -226,6 +226,7 @@ fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Resul
         stone: stone.name().into(),
         design: stone.convex_design()?.clone(),
         material: stone.material().clone(),
+        polarised: args.scoring.polarisation,
         seed: args.scoring.seed,
         command: record::command_line(),
     })

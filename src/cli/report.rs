@@ -46,6 +46,10 @@ pub struct ReportArgs {
     size: Option<f64>,
     #[command(flatten)]
     stone_args: StoneArgs,
+    /// Whether light keeps its polarisation from facet to facet, in scores and pictures; off takes it as
+    /// unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
@@ -68,6 +72,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     let request = ReportRequest {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.stone_args.options(args.size),
+        polarised: args.polarisation,
         seed: args.seed,
     };
     let specs = inputs::expanded(&args.stones)?;
@@ -130,6 +135,7 @@ fn one(
         stone: stone.name().into(),
         design,
         material: stone.material().clone(),
+        polarised: request.polarised,
         seed: request.seed,
         command: record::command_line(),
     };

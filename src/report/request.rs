@@ -12,7 +12,7 @@ use std::ffi::OsStr;
 /// use cutlab::ReportRequest;
 ///
 /// let request: ReportRequest = serde_json::from_str(r#"{ "stones": ["tolkowsky"] }"#)?;
-/// assert_eq!((request.seed, request.options), (1, Default::default()));
+/// assert_eq!((request.seed, request.polarised, request.options), (1, true, Default::default()));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -22,14 +22,16 @@ pub struct ReportRequest {
     pub stones: Vec<String>,
     /// What they are made of, how large they are and how they stand.
     pub options: StoneOptions,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at each.
+    pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
 }
 
 impl Default for ReportRequest {
-    /// Of no stone, as each is, seed 1.
+    /// Of no stone, as each is, polarisation followed, seed 1.
     fn default() -> ReportRequest {
-        ReportRequest { stones: Vec::new(), options: StoneOptions::default(), seed: 1 }
+        ReportRequest { stones: Vec::new(), options: StoneOptions::default(), polarised: true, seed: 1 }
     }
 }
 
@@ -51,6 +53,8 @@ pub struct ReportInput {
     pub design: Design,
     /// What it is made of.
     pub material: Material,
+    /// Whether light keeps its polarisation from facet to facet, in scores and pictures.
+    pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
     /// The command as typed, for the page.
