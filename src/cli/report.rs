@@ -128,7 +128,7 @@ fn one(
     request: &ReportRequest,
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
-    let stone = request.open(stone)?;
+    let stone = request.open(stone).map_err(|error| CliError::needs_convex("a report", error))?;
     let design = stone.convex_design()?.clone();
     stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
     let input = ReportInput {
