@@ -163,7 +163,7 @@ fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) ->
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
-/// quietly; an interrupt ends it with 130. Checked in `tests/cli.rs` and `tests/exits.rs`.
+/// quietly; an interrupt ends it with 130. Checked in `tests/program/cli.rs` and `tests/program/exits.rs`.
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
     let _ = ctrlc::set_handler(|| exit_code::interrupted());

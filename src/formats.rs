@@ -112,7 +112,7 @@ pub struct Loaded {
 
 /// Reads the design in the file at `path`, whatever its extension. It may be a pipe.
 ///
-/// Errors name the file and the place in it. Checked in `tests/formats.rs` and `tests/corpus.rs`.
+/// Errors name the file and the place in it. Checked in `tests/library/formats.rs` and `tests/program/corpus.rs`.
 pub fn read(path: &Path) -> Result<Loaded, FormatError> {
     read_content(path, Limits::default())?.into_design()
 }
@@ -213,7 +213,7 @@ fn check_closed(source: &Input, design: &Design) -> Result<Vec<String>, FormatEr
 
 /// Writes the design to `path` in the format that its extension names.
 ///
-/// The file is replaced whole. Checked in `tests/formats.rs`.
+/// The file is replaced whole. Checked in `tests/library/formats.rs`.
 pub fn write(design: &Design, path: &Path) -> Result<(), FormatError> {
     let bytes = encode(design, writer_for_path(path)?.name)?;
     Ok(atomic_write::write(path, &bytes)?)
@@ -238,7 +238,7 @@ pub fn encode(design: &Design, format: &str) -> Result<Vec<u8>, FormatError> {
 /// - `material`: what the stone is made of; without it the index that the design was drawn for counts,
 ///   or diamond's
 ///
-/// Checked in `tests/receivers.rs`.
+/// Checked in `tests/library/receivers.rs`.
 pub fn encode_as(design: &Design, material: Option<&Material>, format: &str) -> Result<Encoded, FormatError> {
     let mut remarks = Vec::new();
     let bytes = match writer_named(format)?.write.ok_or_else(|| no_writer(format))? {
@@ -267,7 +267,7 @@ pub fn unit_mm(format: &str) -> Option<f64> {
 ///
 /// - `unit`: of the mesh's corners
 ///
-/// Formats that hold planes refuse it. Checked in `tests/cli.rs`.
+/// Formats that hold planes refuse it. Checked in `tests/program/cli.rs`.
 pub fn encode_mesh(
     name: &str,
     mesh: &ClosedMesh,

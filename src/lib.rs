@@ -2,7 +2,7 @@
 //!
 //! Facet planes become a solid, light is traced through it, and what comes out is pictured and scored.
 //! The rooms, lowest first; a file imports only from rooms before its own, which
-//! `tests/house.rs` keeps:
+//! `tests/house/layers.rs` keeps:
 //!
 //! `sampling parse limits parallel progress` → `storage` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →

@@ -2,7 +2,7 @@
 //!
 //! Each topic is a Markdown file in `src/manual/`. `cutlab help TOPIC` prints it, the module of its name
 //! shows it in this documentation, and the tests run its examples: those in Rust as tests of the
-//! documentation, the commands of the shell in `tests/manual.rs`.
+//! documentation, the commands of the shell in `tests/program/manual.rs`.
 
 /// A topic of the manual.
 #[derive(Debug)]

@@ -19,5 +19,5 @@ pub mod validation;
 pub mod viewer_images;
 pub mod virtual_facets;
 
-pub use request::{ReportInput, ReportRequest};
+pub use request::{LEAST_WIDTH, ReportInput, ReportRequest, USUAL_WIDTH};
 pub use stone_report::{ReportError, StoneReport, make};

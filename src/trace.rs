@@ -33,7 +33,7 @@ impl ConvexStone {
     ///   absorbed on the way there
     ///
     /// Returns the power given up, summed over the lanes. What entered = Σ exits + Σ absorbed + lost to
-    /// rounding. Checked in `tests/trace/` against [`mod@reference`] and by energy balance.
+    /// rounding. Checked in `tests/library/trace/` against [`mod@reference`] and by energy balance.
     pub fn trace(
         &self,
         packet: &mut Packet,

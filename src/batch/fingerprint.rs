@@ -21,7 +21,7 @@ pub const BUILD: &str = env!("CUTLAB_BUILD");
 pub struct Fingerprint(Sha256);
 
 /// A digest of what a file holds, of one that may include others also of what it comes to with them;
-/// none if it cannot be read. Checked in `tests/score_batches.rs`.
+/// none if it cannot be read. Checked in `tests/program/score_batches.rs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FileDigest(Option<[u8; 32]>);
 

@@ -147,7 +147,7 @@ impl TableParts {
     /// Puts the parts in order.
     ///
     /// Refuses parts of different tables, parts given twice and parts that changed, and names those
-    /// that are missing. Checked in `tests/score_batches.rs`.
+    /// that are missing. Checked in `tests/program/score_batches.rs`.
     pub fn new(mut parts: Vec<TablePart>) -> Result<TableParts, MergeError> {
         parts.sort_by_key(TablePart::shard);
         let Some(first) = parts.first() else { return Err(MergeError::Missing(Vec::new(), 0)) };

@@ -61,7 +61,7 @@ pub enum TableCell {
 impl TableCell {
     /// The cell in a CSV: a text that a spreadsheet would compute (it begins with `=`, `+`, `-`, `@`, a tab
     /// or an end of a line) has an apostrophe before it, which makes it text; one that begins so after
-    /// apostrophes has one more, so that none is lost. Checked in `tests/words.rs`.
+    /// apostrophes has one more, so that none is lost. Checked in `tests/program/words.rs`.
     fn for_spreadsheet(&self) -> TableCell {
         match self {
             TableCell::Text(text) if is_formula(text.trim_start_matches('\'')) => {
@@ -370,7 +370,7 @@ pub fn stone_cells(row: &ScoreRow) -> Vec<TableCell> {
 ///
 /// - `metrics`: those that the rows were scored for, in the same order
 ///
-/// The caller writes the bytes with [`crate::storage::atomic_write::write`]. Checked in `tests/score_promises.rs`.
+/// The caller writes the bytes with [`crate::storage::atomic_write::write`]. Checked in `tests/library/score_promises.rs`.
 pub fn csv(metrics: &[&Metric], rows: &[ScoreRow]) -> Result<Vec<u8>, TableError> {
     let columns = columns(&STONE_COLUMNS, metrics);
     let mut out = TableFormat::Csv.head(&columns)?;

@@ -12,10 +12,10 @@ use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
 use crate::batch::table::TableFormat;
 use crate::render::record;
-use crate::report::{ReportInput, comparison_page};
+use crate::report::{ReportInput, USUAL_WIDTH, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{Comparison, RUNS, compare};
-use crate::scoring::score::{ScoreInput, ScoreRequest};
+use crate::scoring::score::{ScoreInput, ScoreRequest, Target};
 use crate::storage::atomic_write;
 use serde::Serialize;
 use std::ffi::{OsStr, OsString};
@@ -229,6 +229,8 @@ fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Resul
         material: stone.material().clone(),
         polarised: args.scoring.polarisation,
         seed: args.scoring.seed,
+        target: Target::default(),
+        width: USUAL_WIDTH,
         command: record::command_line(),
     })
 }

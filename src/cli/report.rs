@@ -1,8 +1,8 @@
 //! `cutlab report`: everything about one stone, on one page.
 
-use super::args::inputs;
 use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use super::args::values;
+use super::args::{inputs, scoring};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::import::plan;
@@ -14,8 +14,10 @@ use crate::render::record;
 use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
-use crate::report::{self, ReportError, ReportInput, ReportRequest};
+use crate::report::{self, LEAST_WIDTH, ReportError, ReportInput, ReportRequest, USUAL_WIDTH};
 use crate::sampling::stats::Estimate;
+use crate::scene::scene_file::MOST_PIXELS;
+use crate::scoring::score::Target;
 use crate::storage::journal::Journal;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -50,6 +52,13 @@ pub struct ReportArgs {
     /// unpolarised at each
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
     polarisation: bool,
+    /// Trace every score until its standard error is below this times the metric's scale [a number of samples
+    /// that leaves about 0.0005 for fractions]
+    #[arg(long, value_name = "E", value_parser = scoring::error)]
+    error: Option<f64>,
+    /// Pixels across the picture on the table; the others are as high as it is
+    #[arg(long, value_name = "PIXELS", default_value_t = USUAL_WIDTH, value_parser = values::whole_number(LEAST_WIDTH..=MOST_PIXELS, "a width is a whole number of pixels"))]
+    width: u32,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     seed: u64,
@@ -74,6 +83,8 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
         options: args.stone_args.options(args.size),
         polarised: args.polarisation,
         seed: args.seed,
+        error: args.error,
+        width: args.width,
     };
     let specs = inputs::expanded(&args.stones)?;
     let folders: Vec<PathBuf> = match &args.stones[..] {
@@ -137,6 +148,8 @@ fn one(
         material: stone.material().clone(),
         polarised: request.polarised,
         seed: request.seed,
+        target: request.error.map_or_else(Target::default, Target::Error),
+        width: request.width,
         command: record::command_line(),
     };
     let bar = console.steps(STEPS);

@@ -201,7 +201,7 @@ fn srgb_white() -> Vec3 {
 
 /// XYZ under D65 to linear sRGB, from the chromaticities of its primaries and its white.
 ///
-/// Source: IEC 61966-2-1. Checked in `tests/colour.rs` against the matrix printed there.
+/// Source: IEC 61966-2-1. Checked in `tests/library/colour.rs` against the matrix printed there.
 pub fn srgb_matrix() -> Mat3 {
     let primaries = Mat3::from_cols(
         of_chromaticity(0.64, 0.33),
@@ -215,7 +215,7 @@ pub fn srgb_matrix() -> Mat3 {
 /// XYZ to linear sRGB for an eye adapted to `white` (XYZ, Y = 1), which comes out as (1, 1, 1):
 /// Bradford adaptation to D65, then the sRGB matrix.
 ///
-/// Source: Lam 1985 (Bradford cone responses). Checked in `tests/colour.rs`.
+/// Source: Lam 1985 (Bradford cone responses). Checked in `tests/library/colour.rs`.
 pub fn adapted_srgb(xyz: Vec3, white: Vec3) -> Vec3 {
     to_adapted_srgb(white) * xyz
 }

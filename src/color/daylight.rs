@@ -3,7 +3,7 @@
 //! Source: A. J. Preetham, P. Shirley and B. Smits, *A practical analytic model for daylight*,
 //! SIGGRAPH 1999, appendix A: the sky's distribution of luminance and chromaticity fitted to
 //! simulated atmospheres, and what the atmosphere leaves of the sun's light. Directions have z up;
-//! azimuths go from +y toward +x, as on a compass. Checked in `tests/daylight.rs` against the
+//! azimuths go from +y toward +x, as on a compass. Checked in `tests/library/daylight.rs` against the
 //! illuminances that lighting engineers use.
 
 use super::cie;

@@ -75,7 +75,7 @@ impl MeetPointSolver {
 
     /// Finds the angle (degrees) and distance of a tier.
     ///
-    /// Checked in `tests/meet.rs` against hand-derived corners and the closed form of the round
+    /// Checked in `tests/library/meet.rs` against hand-derived corners and the closed form of the round
     /// brilliant (1e-12).
     pub fn place(&self, cut: &TierSpec) -> Result<(f64, f64), MeetError> {
         let index = cut.indices.first().copied().unwrap_or_default();

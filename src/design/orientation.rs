@@ -36,7 +36,7 @@ pub fn turned_up(up: DVec3) -> DMat3 {
 ///
 /// A stone is doubted if it is symmetric about another axis and not about z, if by far its largest facet
 /// is not horizontal, or if the flat at its bottom is larger than its table and has facets
-/// around it. Checked in `tests/orientation.rs` on every cut of the library.
+/// around it. Checked in `tests/program/orientation.rs` on every cut of the library.
 pub fn doubt(solid: &Polyhedron) -> Option<String> {
     let faces = Faces::new(solid);
     if faces.is_upside_down() {

@@ -56,7 +56,7 @@ pub struct Proportions {
 }
 
 /// What GemCad and the faceting guilds print below a design: ratios to the width W, taken corner to
-/// corner ([`wheel_size`]). Checked in `tests/library.rs` against
+/// corner ([`wheel_size`]). Checked in `tests/library/cuts.rs` against
 /// the figures that the US Faceters Guild published for Classic and First Stone.
 #[derive(Debug, Clone, Serialize)]
 pub struct Ratios {

@@ -26,7 +26,7 @@ const MAINS: usize = 8;
 /// - `zones`: of the solid's faces
 ///
 /// Plan distances are taken along the ray from the axis through the facet's inner tip. Checked in
-/// `tests/library.rs` against the parameters that stones were made from.
+/// `tests/library/cuts.rs` against the parameters that stones were made from.
 pub fn lengths(solid: &Polyhedron, zones: &[Zone]) -> Option<FacetLengths> {
     let of = |zone| (0..zones.len()).filter(|&f| zones[f] == zone).collect::<Vec<_>>();
     let (table, crown, mut pavilion) = (of(Zone::Table), of(Zone::Crown), of(Zone::Pavilion));

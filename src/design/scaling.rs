@@ -15,7 +15,7 @@ const RANGE: (f64, f64) = (1.0, 6.0);
 
 /// The design with `ratio` times the extent along y (toward the wheel's index 0 and its opposite)
 /// that it has along x, which it keeps. Angles and indices follow; tiers are divided where their
-/// facets no longer have one angle. Checked in `tests/library.rs`.
+/// facets no longer have one angle. Checked in `tests/library/cuts.rs`.
 pub fn scale_length_to_width(design: Design, ratio: f64) -> Result<Design, CutError> {
     if !(RANGE.0..=RANGE.1).contains(&ratio) {
         let (from, to) = RANGE;

@@ -38,7 +38,7 @@ impl<E: Estimator + ?Sized> Estimator for Box<E> {
 ///
 /// A pure function of estimator, seed and the calls of [`BatchedEstimate::extend_to`]: threads take whole
 /// batches, so neither their number nor their order shows in a single bit. Checked in
-/// `tests/score_promises.rs` with one, two and five threads.
+/// `tests/library/score_promises.rs` with one, two and five threads.
 #[derive(Debug, Clone)]
 pub struct BatchedEstimate<E: Estimator> {
     estimator: E,

@@ -90,7 +90,7 @@ const WEIGHTED: [Column; 8] = [
 /// The view's tally in batches, which share what beams give and have photons of their own.
 ///
 /// The luminance of single points is not known: dark rays stay 0. Strongest paths are followed if they are
-/// asked for; if not, or if there are too many beams, they are NaN. Checked in `tests/exact.rs` against
+/// asked for; if not, or if there are too many beams, they are NaN. Checked in `tests/library/exact.rs` against
 /// [`super::View`].
 pub fn view(
     beams: &Beams,
@@ -129,7 +129,7 @@ pub fn view(
     Ok(weighed.batches().into_iter().map(tally).collect())
 }
 
-/// The faceters' view. Checked in `tests/exact.rs` against [`super::FaceterView`].
+/// The faceters' view. Checked in `tests/library/exact.rs` against [`super::FaceterView`].
 pub fn iso(
     beams: &Beams,
     medium: &TraceOptics,
@@ -194,7 +194,7 @@ impl BeamVisitor<UnpolarisedLight, 1> for FaceterBeamVisitor<'_> {
 }
 
 /// The sums behind colour separation, in batches as those of [`view()`]; angles one by one and thresholds
-/// are left out. Checked in `tests/beams.rs`.
+/// are left out. Checked in `tests/library/beams.rs`.
 pub fn colours(
     beams: &Beams,
     medium: &TraceOptics,

@@ -42,7 +42,7 @@ pub struct BeamView {
 /// - `index`: of the stone; `polarised`: see [`integrate_exits`]
 ///
 /// Without photons nothing is finished, and the sums fall short of 1 by `by_photons`. Checked in
-/// `tests/beams.rs`.
+/// `tests/library/beams.rs`.
 pub fn beam_view(
     beams: &Beams,
     direction: DVec3,

@@ -29,7 +29,7 @@ pub struct ColourSeparation {
 /// Light counts that leaves through the crown on the side that it came from, at a point where B and
 /// G, which fell on the same point of the stone, have met the same facets as D and leave too: the
 /// beams of the three lines are clipped together. A material without dispersion gives 0. Checked in
-/// `tests/beams.rs` against the photons of [`super::PointLight`].
+/// `tests/library/beams.rs` against the photons of [`super::PointLight`].
 pub fn colour_separation(
     beams: &Beams,
     direction: DVec3,

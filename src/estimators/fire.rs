@@ -94,7 +94,7 @@ impl<L: BeamLight> BeamLight for VisibleLight<L> {
 /// The tally of [`super::PointLight`] in batches, which share what beams give and have photons of their own:
 /// the streaks, and what is lit. What is too faint to be seen is left out.
 ///
-/// Checked in `tests/fire.rs` against [`super::PointLight`].
+/// Checked in `tests/library/fire.rs` against [`super::PointLight`].
 pub fn fire(
     beams: &Beams,
     medium: &TraceOptics,

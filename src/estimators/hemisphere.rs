@@ -240,7 +240,7 @@ static METRICS: [Metric; 6] = [
             SAMPLED,
         ],
         source: "T. S. Hemphill et al., Gems & Gemology 34 (1998) 158; recipe of the project's reference figures, \
-            which tests/scores.rs holds",
+            which `cutlab validate` checks",
         read_from: MetricSource::Sums(Statistic::Mean(RETURNED_COS2, ARRIVED, 1.0)),
         ..ROW
     },

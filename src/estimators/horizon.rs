@@ -9,7 +9,7 @@
 /// Light that leaves exactly level comes out of a trace in `f32` within 1e-6 of it, measured over the
 /// crystal shapes of the library at stop powers of 1e-4; this is ten times as much. The angles of
 /// designs, given to a hundredth of a degree, send light 1.7e-4 or more away. Uniform light changes by
-/// a part in 1e5. A smaller value lets rounding decide again (`tests/horizon.rs`).
+/// a part in 1e5. A smaller value lets rounding decide again (`tests/library/horizon.rs`).
 pub const MAX_LEVEL_SINE: f32 = 1e-5;
 
 /// Whether light comes from above a limit.

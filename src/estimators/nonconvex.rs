@@ -6,7 +6,7 @@
 //! counts as reflected at entry, after however many facets. In a concavity a random choice decides which
 //! part of a ray goes on: sums of power have no bias, but a single ray has no strongest path and no
 //! luminance of its own, so the tallies of strongest paths and of dark rays stay empty. Checked in
-//! `tests/trace/nonconvex_scores.rs`.
+//! `tests/library/trace/nonconvex_scores.rs`.
 
 use super::batches::Estimator;
 use super::entry_sampling::{self, Crown};

@@ -32,7 +32,7 @@ const PHOTONS: usize = 64;
 /// angle, each followed over the whole crown at once by beams and finished by a few photons.
 ///
 /// Batches shift their directions at random, so their spread is the error of the quadrature, photons
-/// included. Checked in `tests/exact.rs` against [`super::Hemisphere`].
+/// included. Checked in `tests/library/exact.rs` against [`super::Hemisphere`].
 #[derive(Debug, Clone)]
 pub struct Quadrature<'a> {
     stone: &'a ConvexStone,

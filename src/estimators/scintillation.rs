@@ -27,7 +27,7 @@ const REACH: i32 = 15;
 const STEPS: usize = 4 * REACH as usize;
 
 /// The most points of a cell, as a power of two. What the last doubling takes off is summed up in
-/// [`LAST`], and is about what is left to take off: checked in `tests/faceter_view.rs`.
+/// [`LAST`], and is about what is left to take off: checked in `tests/library/faceter_view.rs`.
 const FINEST: u32 = 10;
 
 /// A cell has 2^k points or more with probability 2^(−k · this).
@@ -107,7 +107,7 @@ impl<'a> Scintillation<'a> {
     ///
     /// - `pivot`: design's frame
     ///
-    /// Checked in `tests/scintillation.rs` against figures for two other pivots.
+    /// Checked in `tests/library/scintillation.rs` against figures for two other pivots.
     pub fn with_pivot(
         stone: &'a ConvexStone,
         medium: &TraceOptics,

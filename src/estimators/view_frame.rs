@@ -22,7 +22,7 @@ impl ViewFrame {
     ///
     /// - `degrees`: right-handed about the axis; `azimuth`: of the axis, degrees from +x towards +y
     ///
-    /// Checked in this file's tests and in `tests/tilts.rs` against stones that are turned themselves.
+    /// Checked in this file's tests and in `tests/library/tilts.rs` against stones that are turned themselves.
     pub fn tilted(degrees: f64, azimuth: f64) -> ViewFrame {
         let (sin, cos) = azimuth.to_radians().sin_cos();
         ViewFrame::FACE_UP.turned(degrees, DVec3::new(cos, sin, 0.0))

@@ -117,7 +117,7 @@ impl<const N: usize> WeightedSums<N> {
 /// - `weights`: of light that leaves; with several lines only where all have met the same facets, and
 ///   leave
 ///
-/// Checked in `tests/beams.rs` against photons alone, and against an independent tracer.
+/// Checked in `tests/library/beams.rs` against photons alone, and against an independent tracer.
 pub fn integrate_exits<const K: usize, const N: usize>(
     beams: &Beams,
     lit: &IncidentBeam<K>,

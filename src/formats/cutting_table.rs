@@ -42,7 +42,7 @@ pub struct CutFacet<'d> {
 /// The cutting table: every tier as one row, or as several if its facets differ.
 ///
 /// A facet keeps the angle and index it is stated with if they give its very plane (1e-13);
-/// otherwise both are computed from its normal. Checked in `tests/formats.rs`.
+/// otherwise both are computed from its normal. Checked in `tests/library/formats.rs`.
 pub fn rows(design: &Design) -> Vec<CuttingRow<'_>> {
     let mut rows: Vec<CuttingRow> = Vec::new();
     let mut number = 0;

@@ -3,7 +3,7 @@
 //! Normals are the truth; where one is missing it follows from the index angle or the corners, and a depth
 //! that is missing from the corners. Indices are computed from the normals: `base`, `symmetry` and `mirror`
 //! are the state of the program's window, not of the design. The frame is ours (a chiral design was compared
-//! in the program itself; `tests/dialects/designs.rs` keeps one). No document type is accepted, so no entity can expand.
+//! in the program itself; `tests/library/dialects/designs.rs` keeps one). No document type is accepted, so no entity can expand.
 
 use super::cutting_table::{angle_of_mesh, index_of, one_line};
 use super::error::{FormatError, counted, quoted_excerpt};

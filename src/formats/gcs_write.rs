@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 /// The design as Gem Cut Studio holds it, with max(|x|, |y|) = 1 and z from −h to h: normals, depths and
 /// corners to the last bit; facets by tier, without names of their own. A design drawn for no index of
-/// refraction gets diamond's. Checked in `tests/receivers.rs`.
+/// refraction gets diamond's. Checked in `tests/library/receivers.rs`.
 pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     let design = &for_gem_cut_studio(design)?;
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;

@@ -19,7 +19,7 @@ const TEXT: usize = u8::MAX as usize;
 ///
 /// - `remarks`: gets a sentence for whatever had no room
 ///
-/// Checked in `tests/receivers.rs`.
+/// Checked in `tests/library/receivers.rs`.
 pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     let design = &*for_gemcad(design)?;
     let unfit = |problem: String| FormatError::Encode { name: design.name.clone(), format: NAME, problem };

@@ -30,7 +30,7 @@ const DIGITS: i32 = 10;
 /// Angles have at least six decimals and distances eight, as GemCad's own, and ten significant digits
 /// where it takes them. Facets that were not cut by index get the index of their normal, fractional
 /// where it must be. Bytes are Windows-1252, or UTF-8 if that cannot hold the texts. Checked in
-/// `tests/receivers.rs`.
+/// `tests/library/receivers.rs`.
 pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
     let design = &*for_gemcad(design)?;
     let (order, mirror) = design.symmetry.unwrap_or((1, false));

@@ -155,8 +155,8 @@ impl Polyhedron {
     ///
     /// Coincident planes merge, planes that bound nothing are dropped; [`Polyhedron::plane_status`] tells.
     /// Every corner lies on its planes and under all others to some 1e-11 of the solid's radius, so the
-    /// volume is the planes' own to 1e-9 of the radius cubed. Checked in `tests/geometry.rs` and
-    /// `tests/hostile/degenerate.rs` (V − E + F = 2, volumes, shuffled, turned and scaled planes).
+    /// volume is the planes' own to 1e-9 of the radius cubed. Checked in `tests/library/geometry.rs` and
+    /// `tests/program/hostile/degenerate.rs` (V − E + F = 2, volumes, shuffled, turned and scaled planes).
     pub fn from_planes(planes: &[Plane]) -> Result<Self, SolidError> {
         for (plane, p) in planes.iter().enumerate() {
             if !p.normal.is_finite() || !p.distance.is_finite() || (p.normal.length() - 1.0).abs() > 1e-6 {

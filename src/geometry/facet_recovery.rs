@@ -131,8 +131,8 @@ pub enum RecoverError {
 /// Corners are welded, corners on edges made corners of both sides, faces without three different corners
 /// dropped, windings made consistent and outward, coplanar neighbours merged unless both have names and
 /// stated normals and differ in both. A mesh that is open or not convex comes back with its flags saying so;
-/// [`Recovered::into_facets`] turns those into errors. Checked in this file's tests, in `tests/formats.rs` and
-/// on real designs in `tests/corpus.rs`.
+/// [`Recovered::into_facets`] turns those into errors. Checked in this file's tests, in `tests/library/formats.rs` and
+/// on real designs in `tests/program/corpus.rs`.
 pub fn facets_of_polygons(
     vertices: &[DVec3],
     polygons: &[Polygon],

@@ -52,7 +52,7 @@ impl Polyhedron {
     ///
     /// Each facet's corners are laid into its plane and triangulated with the outline as
     /// constraint; a facet that spade refuses (two corners that coincide in `f64`) is cut as a fan.
-    /// Checked in `tests/geometry.rs`.
+    /// Checked in `tests/library/geometry.rs`.
     pub fn triangulate(&self) -> TriangleMesh {
         let mut mesh = TriangleMesh { vertices: self.vertices.clone(), ..TriangleMesh::default() };
         for (number, face) in self.faces.iter().enumerate() {

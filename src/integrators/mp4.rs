@@ -4,7 +4,7 @@
 //! are the same bytes. The index (`moov`) comes before the pictures, so that a film starts to play before
 //! all of it has arrived. Encoded frames wait in a temporary file: memory holds one of them.
 //!
-//! Source: ITU-R BT.709-6, §3; ISO/IEC 14496-12 and 14496-15. Checked in `tests/mp4.rs`.
+//! Source: ITU-R BT.709-6, §3; ISO/IEC 14496-12 and 14496-15. Checked in `tests/program/mp4.rs`.
 
 use super::animation::FrameTiming;
 use super::image_io::{EncodeError, PROGRAM, Provenance};

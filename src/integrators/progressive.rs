@@ -5,7 +5,7 @@
 //! (i + α)/(i + 1) with α = 2/3: the disc of an estimate shrinks to nothing while the mean over rounds sees
 //! ever more photons, so that noise and bias both vanish. Memory holds one round. Source: C. Knaus and M.
 //! Zwicker, *Progressive photon mapping: a probabilistic approach*, ACM Trans. Graphics 30(3), 2011.
-//! Checked in `tests/progressive.rs`.
+//! Checked in `tests/library/progressive.rs`.
 
 use super::camera_integrator::{self, PhotonMaps, RenderSettings};
 use super::film::{Film, PASSES, Pixel};

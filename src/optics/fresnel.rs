@@ -52,7 +52,7 @@ impl FresnelCoefficients {
 ///
 /// Returns (reflectance in 0..=1, cosine of the refraction angle); the reflectance is exactly 1
 /// and the cosine 0 beyond the critical angle.
-/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked in this file's tests and in `tests/optics.rs`.
+/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked in this file's tests and in `tests/library/optics.rs`.
 pub fn unpolarised(cos_i: f64, eta: f64) -> (f64, f64) {
     let facing = FresnelCoefficients::new(cos_i, eta);
     (facing.unpolarised_reflectance(), facing.cos_t)

@@ -2,7 +2,7 @@
 //!
 //! A Stokes vector is given about an axis across the ray: with (s, p = d × s, d) right-handed and
 //! field components E_s, E_p, I = |E_s|² + |E_p|², Q = |E_s|² − |E_p|², U + iV = 2 E_s E_p*.
-//! Source: Born & Wolf, *Principles of Optics*, §1.4–1.5. Checked in `tests/polarisation.rs`
+//! Source: Born & Wolf, *Principles of Optics*, §1.4–1.5. Checked in `tests/library/polarisation.rs`
 //! against field components carried in complex numbers.
 
 use super::fresnel::FresnelCoefficients;

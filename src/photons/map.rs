@@ -27,7 +27,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// E_c = Σ_i Φ_i K(d_ic/r_i) / Σ_c' A_c' K(d_ic'/r_i), K(x) = max(0, 1 − x²), r_i the distance within
 /// which about 4/3 `nearest` photons lie: under K these are as noisy as `nearest` photons that count alike, for
 /// π r² ∫K² = 4/3 (∫K)². Source: sample-point density estimation, B. Silverman, *Density Estimation*, 1986,
-/// §5.3. Checked in `tests/estimate.rs`.
+/// §5.3. Checked in `tests/library/estimate.rs`.
 pub struct PhotonMap {
     /// Front and back of each surface.
     surface_maps: Vec<[Option<SurfaceMap>; 2]>,

@@ -150,7 +150,7 @@ fn surroundings_checksum(scene: &Scene) -> u32 {
 
 /// The photons of a scene: read from `path` if it exists and fits, else emitted and written there.
 ///
-/// Returns the photons and whether they were read. Checked in this file's tests and in `tests/render.rs`.
+/// Returns the photons and whether they were read. Checked in this file's tests and in `tests/library/render.rs`.
 pub fn load_or_emit(
     path: &Path,
     scene: &Scene,

@@ -43,7 +43,7 @@ const CHOICES: [(f64, f64, f64); 5] =
 /// Facets carry the names of their tiers where those are short, else P1, G1, C1, T … in cutting
 /// order; the table tells which is which. The pavilion is seen from below with the stone turned over
 /// left to right: index 0 stays at the foot and the wheel runs clockwise. The same design gives the
-/// same bytes. Errors are those of [`Design::solid`]. Checked in `tests/diagram.rs`.
+/// same bytes. Errors are those of [`Design::solid`]. Checked in `tests/program/diagram.rs`.
 pub fn draw(design: &Design, index: Option<f64>) -> Result<String, SolidError> {
     draw_on(design, index, Paper::A4)
 }

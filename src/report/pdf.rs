@@ -17,7 +17,7 @@ const POINTS: f32 = 72.0 / 96.0;
 /// An SVG drawing as a PDF of one page of its size.
 ///
 /// Text is set in the fonts of the binary and can be searched. The same SVG gives the same bytes. Checked
-/// in `tests/diagram.rs`.
+/// in `tests/program/diagram.rs`.
 pub fn pdf(svg: &str) -> Result<Vec<u8>, PdfError> {
     let tree = tree(svg).map_err(|e| PdfError(e.to_string()))?;
     let size = Size::from_wh(POINTS * tree.size().width(), POINTS * tree.size().height())

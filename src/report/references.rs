@@ -73,7 +73,7 @@ impl References {
 
     /// One score of every stone of [`STONES`]; none where it has none.
     ///
-    /// Some are scored afresh in `tests/report.rs`.
+    /// Some are scored afresh in `tests/program/report.rs`.
     pub fn scores(&self, metric: &Metric) -> [Option<Estimate>; STONES.len()] {
         self.scores.get(metric.name).copied().unwrap_or_default()
     }

@@ -2,6 +2,7 @@
 
 use crate::design::Design;
 use crate::materials::Material;
+use crate::scoring::score::Target;
 use crate::stone::{Stone, StoneError, StoneOptions};
 use serde::{Deserialize, Serialize};
 use std::ffi::OsStr;
@@ -26,12 +27,32 @@ pub struct ReportRequest {
     pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
+    /// The standard error at which every score ends, times the metric's scale; none is a number of samples
+    /// ([`Target`]).
+    pub error: Option<f64>,
+    /// Pixels across the picture on the table, at least [`LEAST_WIDTH`]. It is three quarters as high, and so
+    /// are the squares of the pictures from above.
+    pub width: u32,
 }
 
+/// Pixels across the picture on the table unless asked otherwise.
+pub const USUAL_WIDTH: u32 = 640;
+
+/// The fewest pixels across the picture on the table: less shows no facets.
+pub const LEAST_WIDTH: u32 = 64;
+
 impl Default for ReportRequest {
-    /// Of no stone, as each is, polarisation followed, seed 1.
+    /// Of no stone, as each is, polarisation followed, seed 1, scores of as many samples as `score` takes,
+    /// [`USUAL_WIDTH`].
     fn default() -> ReportRequest {
-        ReportRequest { stones: Vec::new(), options: StoneOptions::default(), polarised: true, seed: 1 }
+        ReportRequest {
+            stones: Vec::new(),
+            options: StoneOptions::default(),
+            polarised: true,
+            seed: 1,
+            error: None,
+            width: USUAL_WIDTH,
+        }
     }
 }
 
@@ -57,6 +78,10 @@ pub struct ReportInput {
     pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
+    /// When its scores end.
+    pub target: Target,
+    /// Pixels across the picture on the table; it is three quarters as high.
+    pub width: u32,
     /// The command as typed, for the page.
     pub command: String,
 }

@@ -19,14 +19,11 @@ use crate::scoring::score::{ScoreInput, ScoreRequest, score};
 use crate::storage::atomic_write::{self, WriteError};
 use std::path::Path;
 
-/// Pixels across and down of the picture on the table, and camera rays a pixel.
-const PICTURE: (u32, u32, u32) = (640, 480, 16);
+/// Camera rays a pixel of the picture on the table.
+const RAYS: u32 = 16;
 
 /// Photons of each map, and how many an estimate gathers: the original project's numbers.
 const PHOTONS: (usize, usize) = (100_000, 500);
-
-/// Pixels across and down of the pictures through scopes.
-const SCOPE_SIDE: u32 = 480;
 
 /// A report that could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -75,8 +72,8 @@ pub const STEPS: usize = 6;
 ///
 /// - `step`: called with what comes next, [`STEPS`] times
 ///
-/// The same request gives the same bytes on any number of threads. Checked in `tests/report.rs`
-/// and `tests/cli.rs`.
+/// The same request gives the same bytes on any number of threads. Checked in `tests/program/report.rs`
+/// and `tests/program/cli.rs`.
 pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneReport, ReportError> {
     let design = &request.design;
     let solid = design.solid()?;
@@ -84,7 +81,12 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
     let (made_up_of, _) = families::facet_summary(design)?;
 
     step("scoring");
-    let plan = ScoreRequest { seed: request.seed, polarised: request.polarised, ..ScoreRequest::default() };
+    let plan = ScoreRequest {
+        seed: request.seed,
+        polarised: request.polarised,
+        target: request.target,
+        ..ScoreRequest::default()
+    };
     let subject = ScoreInput {
         stone: request.stone.clone(),
         material: request.material.clone(),
@@ -100,7 +102,7 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
     let sections = sections::sections(&plan.metrics, &row, &references);
 
     step("scopes");
-    let pictures = viewer_images::pictures(&subject, &plan, SCOPE_SIDE)?;
+    let pictures = viewer_images::pictures(&subject, &plan, height(request.width))?;
 
     let tilts = tilt_curves::plots(&[(request, "", &solid)], &plan, &|| step("tilts"));
 
@@ -138,7 +140,7 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
                 "Lying on a grey table: {},000 photons in each of two maps, the {} nearest gathered, {} rays a pixel",
                 PHOTONS.0 / 1000,
                 PHOTONS.1,
-                PICTURE.2
+                RAYS
             ),
         )),
         scopes: &pictures,
@@ -160,12 +162,17 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
     Ok(StoneReport { files, sections, proportions })
 }
 
+/// Pixels down a picture of so many across.
+fn height(width: u32) -> u32 {
+    width * 3 / 4
+}
+
 /// The photon-mapped picture of the stone on the grey table, as PNG.
 pub(super) fn table_picture(
     request: &ReportInput,
     step: &dyn Fn(&'static str),
 ) -> Result<Vec<u8>, ReportError> {
-    let (width, height, rays) = PICTURE;
+    let (width, height) = (request.width, height(request.width));
     let (photons, nearest) = PHOTONS;
     let Some(table) = preset("table") else {
         return Err(ReportError::Scores("the scene 'table' is not in the catalogue".into()));
@@ -184,7 +191,7 @@ pub(super) fn table_picture(
     step("picture");
     let tone = Tone { stops: scene.camera.stops, ..Tone::default() };
     let settings =
-        integrators::RenderSettings { width, height, samples_per_pixel: rays, round: 0, tone, seed };
+        integrators::RenderSettings { width, height, samples_per_pixel: RAYS, round: 0, tone, seed };
     let film = integrators::render(&scene, &scene.camera, &maps, &settings, &|| ());
     Ok(image_io::png(&image_io::display_rgb(&film, None, &tone), width, height, image_io::Bits::Eight, None)?)
 }

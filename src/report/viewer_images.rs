@@ -178,7 +178,7 @@ pub struct ViewerPicture {
 ///   are followed
 ///
 /// The same arguments give the same bytes on any number of threads. Shares are checked against the scores
-/// in `tests/report.rs`.
+/// in `tests/program/report.rs`.
 pub fn pictures(
     subject: &ScoreInput,
     plan: &ScoreRequest,

@@ -88,7 +88,7 @@ impl BeamVisitor<StrongestPath, 1> for VirtualFacetVisitor {
 /// - `stop_power`: a footprint with less power than this share of the light on the outline is not
 ///   divided further
 ///
-/// The same stone gives the same bytes. Checked in `tests/cli.rs` and below.
+/// The same stone gives the same bytes. Checked in `tests/program/cli.rs` and below.
 pub fn draw(stone: &ConvexStone, index: f64, stop_power: f64) -> VirtualFacets {
     let beams = Beams::new(stone);
     let (lo, hi) = stone.solid.bounds();

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 /// batches is an honest error (R. Cranley and T. Patterson, SIAM J. Numer. Anal. 13 (1976) 904).
 /// The steps are powers of the root of xᴰ⁺¹ = x + 1 (M. Roberts's R sequence). Counted in 64-bit
 /// fixed point, so that a point's position does not depend on where its run starts. Checked in
-/// `tests/coverage.rs` by the coverage of the errors.
+/// `tests/library/coverage.rs` by the coverage of the errors.
 pub struct KroneckerPoints<const D: usize> {
     at: [u64; D],
     step: [u64; D],

@@ -8,7 +8,7 @@ use rand_philox::{Philox, splitmix64, u32_to_unit_f32, u32_to_unit_f64};
 /// What a stream is drawn for, by a name. Streams of different names never share numbers.
 ///
 /// A user of random numbers declares its name once, as a constant: names are turned into keys while the
-/// program is compiled. `tests/house.rs` checks that no name is declared twice and no two names have one
+/// program is compiled. `tests/house/layers.rs` checks that no name is declared twice and no two names have one
 /// key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Purpose {

@@ -118,7 +118,7 @@ fn share(found: Estimate, n: f64) -> Estimate {
 /// a known error. The values that could be are a 95 % interval, whatever the histogram (R. S. Woodruff,
 /// *J. Am. Stat. Assoc.* 47 (1952) 635); its longer side is 1.96 of the errors given. Where the half
 /// falls between two peaks it reaches from one to the other until the samples can tell. Checked in
-/// `tests/coverage.rs`.
+/// `tests/library/coverage.rs`.
 fn error_of_median(value: f64, batches: &[CumulativeHistogram], classes: usize) -> f64 {
     let k = batches.len() as f64;
     if k < 2.0 {

@@ -131,7 +131,7 @@ pub fn with_given_up<T>(found: Estimate, sums: &T, bounds: &[T], of: impl Fn(&T)
 /// The value is that of all batches together, the error √((k−1)/k Σ(θᵢ − θ̄)²) over the values θᵢ
 /// without batch i, times Student's t over 1.96; batches that all give one value give it exactly.
 /// Source: R. G. Miller, *Biometrika* 61 (1974) 1.
-/// Checked in this file's tests, and for every metric in `tests/coverage.rs`.
+/// Checked in this file's tests, and for every metric in `tests/library/coverage.rs`.
 pub fn jackknife<T: Accumulate>(batches: &[T], of: impl Fn(&T) -> f64) -> Estimate {
     let k = batches.len();
     // sums of all batches from each on, the last one empty

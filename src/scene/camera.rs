@@ -14,7 +14,7 @@ pub enum Lens {
     ///
     /// A point at depth z shows as a disc whose diameter, measured in the plane in focus, is
     /// 2 · `radius` · |z − `focus`| / z. Source: the thin-lens equation, Born & Wolf, *Principles of
-    /// Optics*, §4.4. Checked in `tests/depth_of_field.rs`.
+    /// Optics*, §4.4. Checked in `tests/library/depth_of_field.rs`.
     Thin {
         /// Full angle of the field across the width, in degrees, from the lens's middle.
         field_deg: f32,

@@ -67,7 +67,7 @@ fn is_for_long_runs(metric: &Metric) -> bool {
 /// - `step`: called after each of the [`RUNS`] runs
 ///
 /// With exact metrics there is one run, and errors of differences are those of both scores together; so
-/// it is for medians, which have a run of their own. Checked in `tests/compare.rs`.
+/// it is for medians, which have a run of their own. Checked in `tests/program/compare.rs`.
 pub fn compare(subjects: &[ScoreInput], plan: &ScoreRequest, step: &dyn Fn()) -> Comparison {
     let runs = if plan.exact { 1 } else { RUNS };
     let effort = match plan.target {

@@ -21,7 +21,7 @@ const NO_OUTLINE: &str = "the stone has no outline to compare";
 ///
 /// The result is a pure function of subject and plan: the number of threads shows in no bit.
 /// Never fails; a stone that cannot be scored says so in [`ScoreRow::error`].
-/// Checked against published and reference figures in `tests/scores.rs`.
+/// Checked against published and reference figures in `tests/library/scores.rs`.
 pub fn score(subject: &ScoreInput, plan: &ScoreRequest) -> ScoreRow {
     let mut row = ScoreRow {
         stone: subject.stone.clone(),

@@ -120,7 +120,7 @@ impl StoneSpec {
     /// Reads what it names.
     ///
     /// A library name wins over a file of that name, which `./name` reaches. Errors suggest a cut whose name is
-    /// near where there is neither. Checked in `tests/formats.rs`.
+    /// near where there is neither. Checked in `tests/library/formats.rs`.
     #[cfg(feature = "files")]
     pub(super) fn load(&self, limits: Limits) -> Result<Content, StoneError> {
         if self.base == STANDARD_INPUT {

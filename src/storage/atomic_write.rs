@@ -65,8 +65,8 @@ pub fn open_stream(path: &Path) -> Result<Box<dyn Write + Send>, WriteError> {
 ///
 /// Missing parent folders are made, links are followed, the mode of a file that is replaced is kept;
 /// another hard link to it keeps what it held. What [`is_stream`] is written to as it is. On
-/// any error an existing file at `path` is left as it was. Checked in this file's tests, in `tests/cli.rs` and, by
-/// killing it, in `tests/kills.rs`.
+/// any error an existing file at `path` is left as it was. Checked in this file's tests, in `tests/program/cli.rs` and, by
+/// killing it, in `tests/program/kills.rs`.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let fail = |cause| WriteError { path: path.to_owned(), cause };
     stream(path, |out| out.write_all(bytes).map_err(fail))

@@ -112,7 +112,7 @@ impl Journal {
     /// has it.
     ///
     /// A file that is broken or of other work is moved aside, never used and never overwritten by
-    /// this work. Checked in `tests/progress.rs`.
+    /// this work. Checked in `tests/library/progress.rs`.
     pub fn open(path: &Path, identity: &str, tell: &dyn Fn(JournalRemark)) -> Result<Journal, WriteError> {
         let fail = |cause| WriteError { path: path.to_owned(), cause };
         let head = RecordKey::of_work(identity);

@@ -27,7 +27,7 @@ pub fn sidecar_path(path: &Path, extension: &str) -> PathBuf {
 /// - `waiting`: called if another process has it, before this one waits
 ///
 /// A link in its place is taken away, never followed: it may lead to what is another's.
-/// A file system without locks has none to wait for. Checked in `tests/progress.rs`.
+/// A file system without locks has none to wait for. Checked in `tests/library/progress.rs`.
 pub fn acquire(path: &Path, waiting: &dyn Fn()) -> std::io::Result<File> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;

@@ -9,7 +9,7 @@ static BYTES: Mutex<Option<Vec<u8>>> = Mutex::new(None);
 /// All of standard input, if it is not more than [`FILE`] allows.
 ///
 /// A second call gives the same bytes: a command opens its stones as often as it needs them. Checked in
-/// `tests/words.rs`.
+/// `tests/program/words.rs`.
 pub fn bytes(limits: Limits) -> Result<Result<Vec<u8>, Exceeded>, Error> {
     let mut bytes = BYTES.lock().map_err(|_| Error::other("it was given up"))?;
     if let Some(bytes) = &*bytes {

@@ -4,7 +4,7 @@
 //! its footprint is a convex polygon clipped facet by facet: the "virtual facets" of J. Sasián et
 //! al. (*Optical Engineering* 46 (2007) 093604). Adding up the polygons gives light return, ASET
 //! shares and leakage without noise. What is too weak to be followed is handed to the caller, who
-//! may finish it by photons ([`residual`]). Checked in `tests/beams.rs` against an independent
+//! may finish it by photons ([`residual`]). Checked in `tests/library/beams.rs` against an independent
 //! tracer's figures, and against photons for every cut of the library.
 
 mod beam_coords;

@@ -2,7 +2,7 @@
 //!
 //! [`Vectorised`] work is safe code, compiled three times under `#[target_feature]`. Calling such a
 //! function is `unsafe` because the machine might lack the instructions; an [`Isa`] can only be
-//! obtained after asking the machine, so the calls below are sound. `tests/trace/` checks that all
+//! obtained after asking the machine, so the calls below are sound. `tests/library/trace/` checks that all
 //! three builds agree.
 
 #![allow(unsafe_code)]

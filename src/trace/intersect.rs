@@ -339,7 +339,7 @@ impl ConvexStone {
     /// The facet that every lane of a packet meets next, and how far it is: the search that tracing
     /// does at every interaction.
     ///
-    /// Checked in `tests/trace/intersect.rs` against brute force in `f64`.
+    /// Checked in `tests/library/trace/intersect.rs` against brute force in `f64`.
     pub fn next_facets(&self, packet: &Packet) -> NextFacets {
         self.isa.run(FindNextFacets { stone: self, packet })
     }

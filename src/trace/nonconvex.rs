@@ -3,7 +3,7 @@
 //! Light that leaves a concavity may meet the stone again. A ray still never branches: a transmitted part
 //! that does not meet the stone again leaves it; where both parts meet the stone again, one of them goes on
 //! with the power of both, chosen at random in proportion to its share. That conserves power, and sums over
-//! many rays have no bias. `tests/trace/nonconvex.rs` checks both, and convex stones against
+//! many rays have no bias. `tests/library/trace/nonconvex.rs` checks both, and convex stones against
 //! [`super::reference`].
 
 use super::reference::{ScalarInteraction, ScalarRay};

@@ -62,7 +62,7 @@ fn a_sample_of_all_pairs_holds() {
 }
 
 #[test]
-#[ignore = "three minutes on two cores: every pair of option values of every command"]
+#[ignore = "minutes: every pair of option values of every command"]
 fn all_pairs_hold() {
     run(|_, _| true);
 }

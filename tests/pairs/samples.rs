@@ -184,12 +184,20 @@ pub fn option(flag: &str, value: &str, with_equals: bool) -> Vec<String> {
     }
 }
 
-/// Words that make a command quick without which it would not be: pictures that converge stop.
+/// Words that make a command quick without which it would not be: pictures that converge stop, reports are
+/// small and their scores coarse.
 pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
     let has = |flag: &str| words.iter().any(|w| w == flag);
     if command == "render" && has("--progressive") && !["--rounds", "--time", "--noise"].into_iter().any(has)
     {
         return vec!["--rounds".into(), "1".into()];
     }
-    Vec::new()
+    let mut words = Vec::new();
+    if command == "report" && !has("--width") {
+        words.extend(["--width".into(), "64".into()]);
+    }
+    if command == "report" && !has("--error") {
+        words.extend(["--error".into(), "0.05".into()]);
+    }
+    words
 }

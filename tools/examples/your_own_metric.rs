@@ -1,6 +1,6 @@
 //! A metric of your own, on sums that an estimator of cutlab has: one row.
 //!
-//! `cargo run --release --example your_own_metric`. `tests/extending.rs` has one on a sum of its own, and an
+//! `cargo run --release --example your_own_metric`. `tests/library/extending.rs` has one on a sum of its own, and an
 //! estimator.
 
 use cutlab::advanced::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};

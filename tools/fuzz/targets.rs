@@ -1,7 +1,7 @@
 //! What is asked of every input: no panic, no hang, an error of one line or a correct stone.
 //!
 //! Each target takes the fuzzer's bytes. They are run by libFuzzer (`fuzz_targets/`) and, bounded, by
-//! proptest on every change (`tests/hostile.rs`).
+//! proptest on every change (`tests/program/hostile.rs`).
 
 #![allow(dead_code)] // every binary uses one of them
 

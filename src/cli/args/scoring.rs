@@ -130,7 +130,7 @@ pub fn metric(name: &str) -> Result<&'static Metric, String> {
 const LEAST_ERROR: f64 = 1e-9;
 
 /// Value parser of `--error`.
-fn error(text: &str) -> Result<f64, String> {
+pub fn error(text: &str) -> Result<f64, String> {
     match parse::parse_number(text, NumberUnit::None) {
         Ok(e) if (LEAST_ERROR..=1e3).contains(&e) => Ok(e),
         Ok(_) | Err(NumberError::NotANumber | NumberError::Infinite) => {

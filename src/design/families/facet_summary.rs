@@ -15,7 +15,7 @@ struct FacetGroup<'d> {
 /// How many facets of each name the finished stone has, in words, and the total.
 ///
 /// `8 pavilion main + 16 lower half`; a name that is no word is quoted (`16 × "1"`), and one that stands
-/// on the pavilion and on the crown is counted on each. Checked in `tests/same_solid.rs`.
+/// on the pavilion and on the crown is counted on each. Checked in `tests/program/same_solid.rs`.
 pub fn facet_summary(design: &Design) -> Result<(String, usize), CutError> {
     let solid = design.solid()?;
     let mut statuses = solid.plane_status.iter();

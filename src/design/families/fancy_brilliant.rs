@@ -2,7 +2,7 @@
 //!
 //! Eight mains touch the outline and run to the culet; the table is the outline's own shape made
 //! smaller about the axis. Every facet of the round brilliant has its counterpart, so that a round
-//! outline gives the round brilliant again, and an ellipse its affine image (`tests/fancy.rs`).
+//! outline gives the round brilliant again, and an ellipse its affine image (`tests/library/fancy.rs`).
 
 use super::{CutError, Parameter, ParameterValues, check_every_facet_stands, whole_number};
 use crate::design::tiers::{Design, Facet, Gear, LengthUnit, Tier};

@@ -92,7 +92,7 @@ const HALF_DEG: f64 = 11.25;
 /// With A = t cos 22.5°, r_s = A + s(1 − A), r_l = 1 − ℓ: the star passes through two table corners
 /// and the point at r_s where two mains meet; the halves through the girdle ends of a main and the
 /// points at r_s, r_l. Checked against the project's table of worked rows in
-/// `tests/round_brilliant.rs`.
+/// `tests/library/round_brilliant.rs`.
 pub fn derived_angles(
     table: f64,
     crown_deg: f64,

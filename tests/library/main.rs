@@ -1,0 +1,45 @@
+//! The library, used as any program uses it.
+
+mod absorbing_stones;
+mod beam_reciprocity;
+mod beams;
+#[path = "../common/brilliants.rs"]
+mod brilliants;
+mod colour;
+mod coverage;
+mod cuts;
+mod daylight;
+mod depth_of_field;
+mod designs;
+mod dialects;
+mod estimate;
+mod exact;
+mod examples;
+mod extending;
+mod faceter_view;
+mod fancy;
+mod fire;
+mod formats;
+mod furnace;
+mod geometry;
+mod horizon;
+mod instruction_sets;
+mod meet;
+mod optics;
+mod polarisation;
+mod progress;
+mod progressive;
+mod receivers;
+mod render;
+mod requests;
+#[path = "../common/room.rs"]
+mod room;
+mod round_brilliant;
+mod scintillation;
+mod score_promises;
+mod scores;
+mod tilts;
+mod trace;
+mod validate;
+mod variants;
+mod weighted_exits;
