@@ -29,6 +29,7 @@ pub mod quadrature;
 mod same_path;
 pub mod scintillation;
 pub mod solid;
+pub mod strongest_path;
 mod trace_optics;
 pub mod view;
 pub mod view_frame;

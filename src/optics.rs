@@ -1,7 +1,8 @@
-//! Light and matter: dispersion, absorption, Fresnel coefficients, Stokes vectors.
+//! Light and matter: dispersion, absorption, Snell's law, Fresnel coefficients, Stokes vectors.
 
 pub mod absorption;
 pub mod dispersion;
 pub mod fresnel;
+pub mod snell;
 pub mod spectral_curve;
 pub mod stokes;

@@ -222,10 +222,12 @@ fn write_table(
 
 fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Result<ReportInput, CliError> {
     let stone = args.scoring.open(stone, console)?.with_usual_width()?;
+    let design = stone.convex_design().map_err(|error| CliError::needs_convex("a comparison", error))?;
     Ok(ReportInput {
         stone: stone.name().into(),
-        design: stone.convex_design()?.clone(),
+        design: design.clone(),
         material: stone.material().clone(),
+        polarised: args.scoring.polarisation,
         seed: args.scoring.seed,
         target: Target::default(),
         width: USUAL_WIDTH,

@@ -89,6 +89,19 @@ impl CliError {
         CliError { code, message: message.into(), shape: None }
     }
 
+    /// A stone that cannot be opened, or that is not convex where `what` needs one that is: proportions, a cutting
+    /// diagram and scenes are of convex stones alone.
+    pub fn needs_convex(what: &str, error: StoneError) -> CliError {
+        let is_mesh = matches!(error, StoneError::NotConvex(_));
+        let mut error = CliError::from(error);
+        if is_mesh {
+            error.message += &format!(
+                "; {what} needs one: cutlab show tells what it can of a mesh, cutlab score scores one with a dent"
+            );
+        }
+        error
+    }
+
     /// A file or folder that could not be read.
     pub fn reading(path: &str, cause: &std::io::Error) -> CliError {
         CliError::new(code_of(cause), format!("cannot read {path}: {cause}"))

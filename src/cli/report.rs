@@ -48,6 +48,10 @@ pub struct ReportArgs {
     size: Option<f64>,
     #[command(flatten)]
     stone_args: StoneArgs,
+    /// Whether light keeps its polarisation from facet to facet, in scores and pictures; off takes it as
+    /// unpolarised at each
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
     /// Trace every score until its standard error is below this times the metric's scale [a number of samples
     /// that leaves about 0.0005 for fractions]
     #[arg(long, value_name = "E", value_parser = scoring::error)]
@@ -77,6 +81,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     let request = ReportRequest {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.stone_args.options(args.size),
+        polarised: args.polarisation,
         seed: args.seed,
         error: args.error,
         width: args.width,
@@ -134,13 +139,14 @@ fn one(
     request: &ReportRequest,
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
-    let stone = request.open(stone)?;
+    let stone = request.open(stone).map_err(|error| CliError::needs_convex("a report", error))?;
     let design = stone.convex_design()?.clone();
     stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
     let input = ReportInput {
         stone: stone.name().into(),
         design,
         material: stone.material().clone(),
+        polarised: request.polarised,
         seed: request.seed,
         target: request.error.map_or_else(Target::default, Target::Error),
         width: request.width,

@@ -2,6 +2,7 @@
 //! none.
 
 use super::horizon::is_above;
+use super::strongest_path::{StrongestExit, first_below};
 use super::viewer_lighting::{AsetBand, band};
 use super::weighted_exits::{BeamEffort, ExitSample, MAX_BEAMS, WeightedSums, integrate_exits};
 use super::{EstimatorError, check_index, entry_sampling};
@@ -93,25 +94,21 @@ pub fn between<const N: usize>(limits_deg: [f64; N]) -> impl Fn(&ExitSample<1>) 
 pub struct StrongestPath<L = UnpolarisedLight> {
     /// What is still inside.
     pub light: L,
-    /// The strongest exit so far, as a share of the light on the footprint.
-    pub best: f64,
-    /// Its direction; zero before the first.
-    pub towards: DVec3,
-    /// Whether it left through the first pavilion facet that the light met.
-    pub windowed: bool,
-    /// Whether the light has met the pavilion.
-    been_below: bool,
+    /// The strongest exit so far: its power as a share of the light on the footprint, and its direction.
+    pub strongest: StrongestExit<f64, DVec3>,
+    /// 1 once the light has met the pavilion.
+    been_below: f64,
 }
 
 impl<L: BeamLight> StrongestPath<L> {
     /// Light before its first facet.
     pub fn new(light: L) -> Self {
-        StrongestPath { light, best: 0.0, towards: DVec3::ZERO, windowed: false, been_below: false }
+        StrongestPath { light, strongest: StrongestExit::default(), been_below: 0.0 }
     }
 
     /// Whether no later path can be stronger than the best so far.
     pub fn is_decided(&self) -> bool {
-        self.light.power() <= self.best
+        self.light.power() <= self.strongest.power
     }
 }
 
@@ -125,12 +122,10 @@ impl<L: BeamLight> BeamLight for StrongestPath<L> {
         let mut stays = StrongestPath { light: kept, ..*self };
         // at entry what passes goes on inside: it is no exit
         if at.is_exit {
-            let first = !self.been_below && entry_sampling::is_pavilion(at.normal);
-            stays.been_below |= first;
-            if out.power() > self.best {
-                stays =
-                    StrongestPath { best: out.power(), towards: at.transmitted, windowed: first, ..stays };
-            }
+            let pavilion = if entry_sampling::is_pavilion(at.normal) { 1.0 } else { 0.0 };
+            let windowed = first_below(&mut stays.been_below, pavilion);
+            let exit = StrongestExit { power: out.power(), towards: at.transmitted, windowed };
+            stays.strongest = self.strongest.or_stronger(exit);
         }
         (StrongestPath { light: out, ..*self }, stays)
     }
@@ -166,9 +161,10 @@ impl<L: BeamLight> BeamVisitor<StrongestPath<L>, 1> for StrongestAreas {
     fn exit(&mut self, _: &BeamExit<StrongestPath<L>, 1>) {}
 
     fn residual(&mut self, rest: &ResidualBeam<StrongestPath<L>, 1>) {
-        self.shares.windowed += if rest.light.windowed { rest.share } else { 0.0 };
-        if rest.light.best > 0.0 {
-            let z = rest.light.towards.dot(self.axis);
+        let strongest = rest.light.strongest;
+        self.shares.windowed += strongest.windowed * rest.share;
+        if strongest.power > 0.0 {
+            let z = strongest.towards.dot(self.axis);
             self.shares.bands[band(z as f32) as usize] += rest.share;
             self.shares.undecided += if rest.light.is_decided() { 0.0 } else { rest.share };
         } else {

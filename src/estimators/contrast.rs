@@ -131,12 +131,10 @@ impl EstimatorKind for ContrastKind {
     }
 
     fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
-        let cost = COST * setup.medium.wavelengths_per_point();
-        let dome = setup.dome(AGS_OBSERVER_DEG);
-        vec![Method::samples("contrast", cost, move || {
+        pixel_cells::methods("contrast", COST, setup, move |dome| {
             let estimator = Contrast::in_frame(stone, &setup.medium, setup.view_frame, dome)?;
             Ok(estimator.with_stop_power(setup.stop_power))
-        })]
+        })
     }
 }
 

@@ -9,6 +9,7 @@ use super::weighted_exits::{BeamEffort, MAX_BEAMS};
 use super::{BATCHES, EstimatorError, TraceOptics, ViewFrame, check_index, entry_sampling};
 use crate::geometry::Plane;
 use crate::optics::dispersion::lines;
+use crate::optics::snell::Snell;
 use crate::optics::stokes::Stokes;
 use crate::parallel;
 use crate::sampling::tally::Tally;
@@ -182,7 +183,7 @@ impl<F> FireRules<'_, F> {
     /// cos t / cos i at entry through a facet with unit normal `normal`.
     fn widening(&self, normal: DVec3) -> f64 {
         let cos = -normal.dot(self.direction);
-        (1.0 - (1.0 - cos * cos) / self.index.powi(2)).max(0.0).sqrt() / cos
+        Snell::new(cos, 1.0 / self.index).cos_t / cos
     }
 
     /// What an exit adds for each part of the outline's area.

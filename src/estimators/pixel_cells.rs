@@ -4,7 +4,9 @@
 //! noise of a mean of few points would pass for structure; the estimators multiply or compare
 //! points of one cell in ways whose expectation is free of it.
 
+use super::batches::Estimator;
 use super::entry_sampling::Silhouette;
+use super::kind::{Method, Setup};
 use super::viewer_lighting::ObserverDome;
 use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
@@ -28,6 +30,19 @@ pub const AGS_OBSERVER_DEG: f64 = 15.0;
 /// Draws for a point of a cell within the outline. They may not suffice for less than one cell in a
 /// thousand.
 const DRAWS: usize = 32;
+
+/// The method of an estimator of cells: samples, under a dome with the observer of AGS, or the one asked for.
+///
+/// - `cost`: so many points of the hemisphere are as dear as a cell in one wavelength
+pub(super) fn methods<'a, E: Estimator + 'a>(
+    name: &'static str,
+    cost: u64,
+    setup: Setup<'a>,
+    make: impl FnOnce(ObserverDome) -> Result<E, EstimatorError> + 'a,
+) -> Vec<Method<'a>> {
+    let dome = setup.dome(AGS_OBSERVER_DEG);
+    vec![Method::samples(name, cost * setup.medium.wavelengths_per_point(), move || make(dome))]
+}
 
 /// Random numbers for the cells of a run that starts at point `start` of a batch.
 pub(super) fn stream(seed: u64, purpose: Purpose, batch: u64, start: u64) -> Stream {

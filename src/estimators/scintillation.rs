@@ -246,12 +246,10 @@ impl EstimatorKind for ScintillationKind {
     }
 
     fn methods<'a>(&self, stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
-        let cost = COST * setup.medium.wavelengths_per_point();
-        let dome = setup.dome(AGS_OBSERVER_DEG);
-        vec![Method::samples("scintillation", cost, move || {
+        pixel_cells::methods("scintillation", COST, setup, move |dome| {
             let estimator = Scintillation::in_frame(stone, &setup.medium, setup.view_frame, dome)?;
             Ok(estimator.with_stop_power(setup.stop_power))
-        })]
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
 use super::horizon::{is_above, is_up};
+use super::strongest_path::StrongestPaths;
 use super::viewer_lighting::BAND_LIMITS;
 pub use super::viewer_lighting::{AsetBand, GIA_OBSERVER_DEG, ObserverDome, SCOPE_DEG, ViewerLighting, band};
 use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
@@ -137,15 +138,10 @@ struct ViewClient<'a, S, const K: usize> {
     bands: [Lanes; 4],
     up_cos2: Lanes,
     absorbed: Lanes,
-    strongest: Lanes,
-    strongest_z: Lanes,
+    strongest: StrongestPaths<K>,
     scope_bright: Lanes,
     scope_dark: Lanes,
     luminance: Lanes,
-    /// 1 once a lane has met the pavilion.
-    been_below: Lanes,
-    /// 1 if the strongest path so far has left where the lane first met the pavilion.
-    windowed: Lanes,
 }
 
 impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_, S, K> {
@@ -168,10 +164,10 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
         let View { stone, light, view_frame, lighting: surroundings, .. } = self.estimator;
         let toward = -view_frame.axis.as_vec3();
         self.tally[RAYS] += 1.0;
+        self.strongest.begin(lane);
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
             let entry = optics.enter(packet, lane, stone, facet, point, toward);
             self.luminance[lane] = surroundings.dome.mirrored(&entry);
-            self.been_below[lane] = 0.0;
             self.tally[REFLECTED] += f64::from(entry.reflectance) / K as f64;
         }
         true
@@ -180,7 +176,7 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
     fn interact(&mut self, m: &Interaction, _: &Packet) {
         let View { view_frame, lighting: ViewerLighting { scope, dome }, pavilion, .. } = self.estimator;
         let axis = view_frame.axis.as_vec3();
-        let (mut height, mut straight) = ([0.0; LANES], [0.0; LANES]);
+        let (mut height, mut below) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
             let power = m.power[l];
             let z = m.dx[l] * axis.x + m.dy[l] * axis.y + m.dz[l] * axis.z;
@@ -197,26 +193,13 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
             self.scope_bright[l] += above(scope.is_bright(z));
             self.scope_dark[l] += above(scope.is_hidden(z));
             self.luminance[l] += above(dome.is_bright(z));
-            let below = pavilion[m.facet[l] as usize];
-            let first = if self.been_below[l] > 0.0 { 0.0 } else { below };
-            self.been_below[l] += below;
-            (height[l], straight[l]) = (z, first);
+            (height[l], below[l]) = (z, pavilion[m.facet[l] as usize]);
         }
-        // the strongest path of a ray: the exit with the greatest power over all wavelengths, by the
-        // direction of the strongest of them
-        for ray in (0..LANES).step_by(K) {
-            let powers = &m.power[ray..ray + K];
-            let power = powers.iter().sum::<f32>();
-            let most = (1..K).fold(0, |most, k| if powers[k] > powers[most] { k } else { most });
-            let stronger = power > self.strongest[ray];
-            self.windowed[ray] = if stronger { straight[ray + most] } else { self.windowed[ray] };
-            self.strongest[ray] = if stronger { power } else { self.strongest[ray] };
-            self.strongest_z[ray] = if stronger { height[ray + most] } else { self.strongest_z[ray] };
-        }
+        self.strongest.interact(m, &height, &below);
     }
 
     fn finish(&mut self, lane: usize) {
-        let of_ray = |of: &mut Lanes| f64::from(std::mem::take(&mut of[lane]));
+        let strongest = self.strongest.finish(lane);
         let take = |sums: &mut Lanes| {
             let all = sums[lane..lane + K].iter_mut().map(|sum| f64::from(std::mem::take(sum)));
             all.sum::<f64>() / K as f64
@@ -228,12 +211,12 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
         self.tally[ABSORBED] += take(&mut self.absorbed);
         self.tally[SCOPE_BRIGHT] += take(&mut self.scope_bright);
         self.tally[SCOPE_DARK] += take(&mut self.scope_dark);
-        let (luminance, windowed) = (take(&mut self.luminance), of_ray(&mut self.windowed));
+        let (luminance, windowed) = (take(&mut self.luminance), f64::from(strongest.windowed));
         self.tally[LUMINANCE] += luminance;
         self.tally[WINDOWED] += windowed;
         self.tally[DARK_RAYS] += if luminance < f64::from(DARK) { 1.0 - windowed } else { 0.0 };
-        if of_ray(&mut self.strongest) > 0.0 {
-            self.tally[STRONGEST[band(self.strongest_z[lane]) as usize]] += 1.0;
+        if strongest.power > 0.0 {
+            self.tally[STRONGEST[band(strongest.towards) as usize]] += 1.0;
         }
     }
 }
@@ -258,13 +241,10 @@ impl View<'_> {
             bands: [zero; 4],
             up_cos2: zero,
             absorbed: zero,
-            strongest: zero,
-            strongest_z: zero,
+            strongest: StrongestPaths::default(),
             scope_bright: zero,
             scope_dark: zero,
             luminance: zero,
-            been_below: zero,
-            windowed: zero,
         };
         let lost = lane_scheduler::trace_all(self.stone, self.stop_power, &mut client);
         tally[LOST] += lost / K as f64;

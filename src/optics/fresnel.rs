@@ -1,4 +1,6 @@
-//! Reflection and refraction at a smooth facet.
+//! Reflection and refraction at a smooth facet: shares of power.
+
+use super::snell::Snell;
 
 /// What happens at a smooth facet to the components across (s) and in (p) the plane of incidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,24 +23,18 @@ impl FresnelCoefficients {
     /// - `cos_i`: |incident · normal|, in 0..=1; `eta`: n_transmitted / n_incident
     #[inline]
     pub fn new(cos_i: f64, eta: f64) -> FresnelCoefficients {
-        let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
-        if sin2_t < 1.0 {
-            let cos_t = (1.0 - sin2_t).sqrt();
-            let s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-            let p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-            return FresnelCoefficients { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t };
-        }
-        // cos t = iκ: r_s r_p* = A²/|A|² with A = (cos²i + κ²)/η + i κ cos i (1/η² − 1)
-        let n = 1.0 / eta;
-        let kappa = (sin2_t - 1.0).sqrt();
-        let (x, y) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
-        let size = x * x + y * y;
-        FresnelCoefficients {
-            r_s: 1.0,
-            r_p: 1.0,
-            re: (x * x - y * y) / size,
-            im: 2.0 * x * y / size,
-            cos_t: 0.0,
+        Self::of(&Snell::new(cos_i, 1.0 / eta))
+    }
+
+    /// Fresnel's coefficients of light that is refracted so.
+    #[inline]
+    pub fn of(law: &Snell<f64>) -> FresnelCoefficients {
+        if law.passes() {
+            let (s, p) = law.amplitudes();
+            FresnelCoefficients { r_s: s * s, r_p: p * p, re: s * p, im: 0.0, cos_t: law.cos_t }
+        } else {
+            let (re, im) = law.total_reflection();
+            FresnelCoefficients { r_s: 1.0, r_p: 1.0, re, im, cos_t: 0.0 }
         }
     }
 

@@ -10,7 +10,8 @@ use crate::scoring::score::{DEFAULT_SAMPLES, ScoreInput, ScoreRequest, Target, s
 use crate::stone::Stone;
 use std::collections::BTreeMap;
 
-/// Made with `cutlab score STONES -o references.csv`, STONES as [`STONES`] names them, in diamond, seed 1.
+/// Made with `cutlab score STONES -o references.csv`, STONES as [`STONES`] names them, in diamond, polarisation
+/// followed, seed 1.
 const TABLE: &str = include_str!("data/references.csv");
 
 /// Name on the page, proportions in words, and the stone for the command line, in the order of the
@@ -23,7 +24,7 @@ pub const STONES: [(&str, &str, &str); 5] = [
     ("nailhead", "58/36/43", "round-brilliant:table=58,crown-angle=36,pavilion-angle=43"),
 ];
 
-/// Points of the hemisphere for each stone in another material than the table's: a quarter of a report's
+/// Points of the hemisphere for each stone in another material or light than the table's: a quarter of a report's
 /// own.
 const SAMPLES: u64 = DEFAULT_SAMPLES / 4;
 
@@ -50,12 +51,12 @@ impl References {
         Ok(References { material: Material::diamond().name.to_string(), scores })
     }
 
-    /// The stones in `material`: those of the table for diamond, else scored as `plan` says, with fewer
-    /// samples.
+    /// The stones in `material`: those of the table for diamond with polarisation followed, else scored as `plan`
+    /// says, with fewer samples.
     ///
     /// - `width_mm`: girdle width, on which the scores depend if the material absorbs
     pub fn within(material: &Material, width_mm: f64, plan: &ScoreRequest) -> Result<References, TableError> {
-        if material == Material::diamond() {
+        if material == Material::diamond() && plan.polarised {
             return References::read();
         }
         let plan =

@@ -13,7 +13,7 @@ use std::ffi::OsStr;
 /// use cutlab::ReportRequest;
 ///
 /// let request: ReportRequest = serde_json::from_str(r#"{ "stones": ["tolkowsky"] }"#)?;
-/// assert_eq!((request.seed, request.options), (1, Default::default()));
+/// assert_eq!((request.seed, request.polarised, request.options), (1, true, Default::default()));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,8 @@ pub struct ReportRequest {
     pub stones: Vec<String>,
     /// What they are made of, how large they are and how they stand.
     pub options: StoneOptions,
+    /// Whether light keeps its polarisation from facet to facet; if not it counts as unpolarised at each.
+    pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
     /// The standard error at which every score ends, times the metric's scale; none is a number of samples
@@ -40,11 +42,13 @@ pub const USUAL_WIDTH: u32 = 640;
 pub const LEAST_WIDTH: u32 = 64;
 
 impl Default for ReportRequest {
-    /// Of no stone, as each is, seed 1, scores of as many samples as `score` takes, [`USUAL_WIDTH`].
+    /// Of no stone, as each is, polarisation followed, seed 1, scores of as many samples as `score` takes,
+    /// [`USUAL_WIDTH`].
     fn default() -> ReportRequest {
         ReportRequest {
             stones: Vec::new(),
             options: StoneOptions::default(),
+            polarised: true,
             seed: 1,
             error: None,
             width: USUAL_WIDTH,
@@ -70,6 +74,8 @@ pub struct ReportInput {
     pub design: Design,
     /// What it is made of.
     pub material: Material,
+    /// Whether light keeps its polarisation from facet to facet, in scores and pictures.
+    pub polarised: bool,
     /// Seed of the random streams.
     pub seed: u64,
     /// When its scores end.

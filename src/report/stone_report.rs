@@ -81,7 +81,12 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
     let (made_up_of, _) = families::facet_summary(design)?;
 
     step("scoring");
-    let plan = ScoreRequest { seed: request.seed, target: request.target, ..ScoreRequest::default() };
+    let plan = ScoreRequest {
+        seed: request.seed,
+        polarised: request.polarised,
+        target: request.target,
+        ..ScoreRequest::default()
+    };
     let subject = ScoreInput {
         stone: request.stone.clone(),
         material: request.material.clone(),
@@ -144,7 +149,11 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
         tilts: &tilts,
         map,
         references: &references.material,
-        traced: format!("Light traced by photons, seed {}.", request.seed),
+        traced: format!(
+            "Light traced by photons, seed {}{}.",
+            request.seed,
+            if request.polarised { "" } else { ", unpolarised at every facet" }
+        ),
         command: request.command.clone(),
         files: &names,
     }
@@ -172,6 +181,7 @@ pub(super) fn table_picture(
     let cast = SceneOverrides {
         designs: vec![request.design.clone()],
         material: Some(request.material.clone()),
+        polarisation: Some(request.polarised),
         ..SceneOverrides::default()
     };
     let scene = table?.build(&cast, width as f32 / height as f32)?;

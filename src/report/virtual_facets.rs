@@ -6,6 +6,7 @@
 //! bands of the ASET, in tones that a black-and-white printer keeps apart.
 
 use crate::estimators::beam_view::StrongestPath;
+use crate::estimators::strongest_path::StrongestExit;
 use crate::estimators::view::{AsetBand, band};
 use crate::report::svg_canvas::{Element, PathData};
 use crate::trace::ConvexStone;
@@ -70,8 +71,8 @@ impl BeamVisitor<StrongestPath, 1> for VirtualFacetVisitor {
     fn exit(&mut self, _: &BeamExit<StrongestPath, 1>) {}
 
     fn residual(&mut self, rest: &ResidualBeam<StrongestPath, 1>) {
-        let StrongestPath { best, towards, .. } = rest.light;
-        let tone = if best > 0.0 { band(towards.z as f32) as usize } else { AsetBand::Below as usize + 1 };
+        let StrongestExit { power, towards, .. } = rest.light.strongest;
+        let tone = if power > 0.0 { band(towards.z as f32) as usize } else { AsetBand::Below as usize + 1 };
         let fine = usize::from(rest.share < FINE);
         let path = std::mem::take(&mut self.paths[fine][tone]);
         let corners = rest.footprint.iter().map(|c| self.place(rest.entry.point(*c)));

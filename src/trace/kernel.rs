@@ -9,6 +9,7 @@ use super::dispatch::Vectorised;
 use super::intersect::{self, mul_add};
 use super::packet::{Interaction, LANES, NextFacets, Packet};
 use super::stone::ConvexStone;
+use crate::optics::snell::Snell;
 
 /// One interaction of a packet, with the stone's instruction set: advances every lane to its next facet,
 /// splits its power there and reflects it.
@@ -88,21 +89,14 @@ fn interact_lanes<
         y += off * ny;
         z += off * nz;
         let cos_i = (nx * dx + ny * dy + nz * dz).clamp(0.0, 1.0);
-        let n = p.index[l];
-        let sin2_t = n * n * (1.0 - cos_i * cos_i);
-        let passes = sin2_t < 1.0;
-        let cos_t = (1.0 - sin2_t).max(0.0).sqrt();
-        // Fresnel from inside: eta = 1/n, multiplied through by n
-        let s = (n * cos_i - cos_t) / (n * cos_i + cos_t);
-        let q = (cos_i - n * cos_t) / (cos_i + n * cos_t);
+        let law = Snell::new(cos_i, p.index[l]);
+        let passes = law.passes();
+        let (s, q) = law.amplitudes();
         let (r_s, r_p) = if passes { (s * s, q * q) } else { (1.0, 1.0) };
         let mean = 0.5 * (r_s + r_p);
-        let bend = cos_t - n * cos_i;
-        out.dx[l] = n * dx + bend * nx;
-        out.dy[l] = n * dy + bend * ny;
-        out.dz[l] = n * dz + bend * nz;
+        [out.dx[l], out.dy[l], out.dz[l]] = law.refracted([dx, dy, dz], [nx, ny, nz]);
         out.cos_inside[l] = cos_i;
-        out.cos_outside[l] = if passes { cos_t } else { 0.0 };
+        out.cos_outside[l] = law.cos_t;
         let mut kept = p.power[l] * mean;
         if POLARISED {
             let half = 0.5 * (r_s - r_p);
@@ -111,10 +105,7 @@ fn interact_lanes<
             kept = (kept + half * turned.q).max(0.0).min(p.power[l]);
             p.q[l] = half * p.power[l] + mean * turned.q;
             // r_s r_p*: real where light passes, of size 1 at total reflection
-            let kappa = (sin2_t - 1.0).max(0.0).sqrt();
-            let (a, b) = (n * (cos_i * cos_i + kappa * kappa), cos_i * kappa * (n * n - 1.0));
-            let size = (a * a + b * b).max(f32::MIN_POSITIVE);
-            let (re, im) = if passes { (s * q, 0.0) } else { ((a * a - b * b) / size, 2.0 * a * b / size) };
+            let (re, im) = if passes { (s * q, 0.0) } else { law.total_reflection() };
             p.u[l] = re * turned.u - im * p.v[l];
             p.v[l] = im * turned.u + re * p.v[l];
             [p.ax[l], p.ay[l], p.az[l]] = turned.axis;

@@ -10,6 +10,7 @@ use super::reference::{ScalarInteraction, ScalarRay};
 use crate::geometry::Plane;
 use crate::geometry::triangulation::TriangleMesh;
 use crate::optics::fresnel::FresnelCoefficients;
+use crate::optics::snell::Snell;
 use crate::optics::stokes::Stokes;
 use crate::sampling::random::Stream;
 use glam::{DVec3, Vec3A};
@@ -195,9 +196,9 @@ impl FresnelSplit {
     fn new(normal: DVec3, ray: &ScalarRay, side: Side) -> FresnelSplit {
         let along = ray.direction.dot(normal);
         let cos_i = along.abs().min(1.0);
-        let eta = if side == Side::Inside { 1.0 / ray.index } else { ray.index };
-        let facing = FresnelCoefficients::new(cos_i, eta);
-        let bend = (facing.cos_t - cos_i / eta) * along.signum();
+        let law = Snell::new(cos_i, if side == Side::Inside { ray.index } else { 1.0 / ray.index });
+        let facing = FresnelCoefficients::of(&law);
+        let refracted = law.refracted(ray.direction.into(), (normal * along.signum()).into());
         let light = ray.stokes.map(|light| light.about_incidence(ray.direction, normal));
         let reflected = light.map(|light| light.reflected(&facing));
         let power = reflected.map_or(ray.power * facing.unpolarised_reflectance(), |light| light.i);
@@ -208,7 +209,7 @@ impl FresnelSplit {
         };
         let passed = ray.power - power;
         let through = Branch {
-            direction: (ray.direction / eta + bend * normal).normalize_or_zero(),
+            direction: DVec3::from(refracted).normalize_or_zero(),
             power: passed,
             stokes: light.map(|light| Stokes { i: passed, ..light.transmitted(&facing) }),
         };

@@ -2,6 +2,7 @@
 
 use crate::geometry::Plane;
 use crate::optics::fresnel::FresnelCoefficients;
+use crate::optics::snell::Snell;
 use crate::optics::stokes::Stokes;
 use glam::DVec3;
 
@@ -86,12 +87,13 @@ pub fn trace(
         ray.point -= normal * planes[facet].signed_distance(ray.point);
         let absorbed = ray.absorb(distance);
         let cos_inside = ray.direction.dot(normal).clamp(0.0, 1.0);
-        let facing = FresnelCoefficients::new(cos_inside, 1.0 / ray.index);
+        let law = Snell::new(cos_inside, ray.index);
+        let facing = FresnelCoefficients::of(&law);
         let cos_outside = facing.cos_t;
         ray.stokes = ray.stokes.map(|light| light.about_incidence(ray.direction, normal).reflected(&facing));
         let kept = ray.stokes.map_or(ray.power * facing.unpolarised_reflectance(), |light| light.i);
         let direction = if cos_outside > 0.0 {
-            ray.direction * ray.index + normal * (cos_outside - ray.index * cos_inside)
+            law.refracted(ray.direction.into(), normal.into()).into()
         } else {
             DVec3::ZERO
         };

@@ -5,6 +5,7 @@ use super::girdle::{GirdleFacets, PlaneBlock16};
 use super::packet::Refraction;
 use crate::geometry::{Plane, Polyhedron};
 use crate::optics::fresnel::FresnelCoefficients;
+use crate::optics::snell::Snell;
 use glam::{DVec3, Vec3};
 
 /// A convex stone in its trace frame: centred on its box and scaled so that its farthest corner
@@ -94,7 +95,8 @@ impl ConvexStone {
     pub fn refract_into(&self, facet: usize, direction: Vec3, index: f32) -> Refraction {
         let normal = self.normals[facet];
         let cos_outside = (-direction.dot(normal)).clamp(0.0, 1.0);
-        let facing = FresnelCoefficients::new(cos_outside.into(), index.into());
+        let law = Snell::new(cos_outside.into(), 1.0 / f64::from(index));
+        let facing = FresnelCoefficients::of(&law);
         let (reflectance, cos_inside) = (facing.unpolarised_reflectance() as f32, facing.cos_t as f32);
         let polarisation = (0.5 * (facing.r_p - facing.r_s)) as f32; // T_s − T_p over 2
         let across = direction.cross(normal);
@@ -103,8 +105,7 @@ impl ConvexStone {
         } else {
             across.normalize()
         };
-        let eta = 1.0 / index;
-        let inside = direction * eta + normal * (eta * cos_outside - cos_inside);
+        let inside = Vec3::from(law.to_f32().refracted(direction.into(), (-normal).into()));
         Refraction { direction: inside.normalize(), reflectance, cos_outside, cos_inside, polarisation, axis }
     }
 

@@ -1,5 +1,6 @@
 //! Requests for tables: their canonical JSON is their identity, and no field can be left out of it.
 
+use cutlab::ReportRequest;
 use cutlab::advanced::batch::fingerprint::{Fingerprint, canonical};
 use cutlab::advanced::batch::request::{
     ComparisonTable, ScoreTable, SortRequest, SweepTable, TableRequest, TiltRange,
@@ -83,6 +84,23 @@ fn every_field_changes_the_identity() {
             *changed.pointer_mut(&path).expect("a leaf") = json!("another value");
             assert_ne!(identity(&changed), identity(&request), "{path}");
         }
+    }
+}
+
+#[test]
+fn every_field_of_a_report_changes_its_identity() {
+    let [TableRequest::Score(ScoreTable { stones, options, .. }), ..] = requests() else {
+        panic!("the first is of scores");
+    };
+    let report = ReportRequest { stones, options, polarised: false, seed: 7, error: Some(0.01), width: 320 };
+    let whole = canonical(&report);
+    let mut paths = Vec::new();
+    leaves(&whole, String::new(), &mut paths);
+    assert!(paths.contains(&"/polarised".to_string()) && paths.len() > 7, "{paths:?}");
+    for path in paths {
+        let mut changed = whole.clone();
+        *changed.pointer_mut(&path).expect("a leaf") = json!("another value");
+        assert_ne!(identity(&changed), identity(&whole), "{path}");
     }
 }
 

@@ -94,6 +94,27 @@ fn a_mesh_with_a_dent_is_scored_as_far_as_it_can_be() {
     assert!(text(&out.stderr).contains("2 separate closed"), "{}", text(&out.stderr));
 }
 
+/// Pages show proportions, a cutting diagram and a scene, which only convex stones have: a mesh with a dent is
+/// refused before anything is made, in one line that says what takes it.
+#[test]
+fn a_page_of_a_mesh_with_a_dent_is_refused_with_what_takes_it() {
+    let bench = Bench::new();
+    let dented = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bad/dented.obj");
+    let dented = dented.display().to_string();
+    for (command, what) in [
+        (["report", &dented, "-o", "out"].as_slice(), "a report needs one"),
+        (["compare", "tolkowsky", &dented, "-o", "out"].as_slice(), "a comparison needs one"),
+    ] {
+        let said = bench.bad(command);
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(
+            said.contains("not convex") && said.contains(what) && said.contains("cutlab score"),
+            "{said}"
+        );
+        assert!(!bench.path("out").exists(), "nothing is made");
+    }
+}
+
 #[test]
 fn a_mesh_that_is_no_convex_stone_is_written_as_a_mesh() {
     let bench = Bench::new();

@@ -32,7 +32,7 @@ pub struct ScoringArgs {
     observer: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
-    polarisation: bool,
+    pub polarisation: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
     pub seed: u64,

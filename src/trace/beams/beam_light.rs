@@ -1,6 +1,7 @@
 //! Light of a beam: a power, a Stokes vector, or either with a record of the strongest exit.
 
 use crate::optics::fresnel::FresnelCoefficients;
+use crate::optics::snell::Snell;
 use crate::optics::stokes::Stokes;
 use glam::DVec3;
 
@@ -20,19 +21,19 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// A facet before unit `direction`, between indices of which `eta` is behind / before.
+    /// A facet before unit `direction`, between indices of which `ratio` is before / behind.
     #[inline(always)]
-    pub(super) fn new(direction: DVec3, normal: DVec3, eta: f64, leaves: bool) -> Interface {
+    pub(super) fn new(direction: DVec3, normal: DVec3, ratio: f64, leaves: bool) -> Interface {
         let cos_i = direction.dot(normal).clamp(0.0, 1.0);
-        let facing = FresnelCoefficients::new(cos_i, eta);
-        let passes = facing.cos_t > 0.0;
-        let passed = (direction - normal * cos_i) / eta + normal * facing.cos_t;
+        let law = Snell::new(cos_i, ratio);
+        let fresnel = FresnelCoefficients::of(&law);
+        let refracted = DVec3::from(law.refracted(direction.into(), normal.into()));
         Interface {
             direction,
             normal,
-            transmitted: if passes { passed } else { DVec3::ZERO },
+            transmitted: if fresnel.cos_t > 0.0 { refracted } else { DVec3::ZERO },
             is_exit: leaves,
-            fresnel: facing,
+            fresnel,
         }
     }
 }

@@ -169,7 +169,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
     fn enter(&mut self, origin: BeamOrigin) {
         let BeamOrigin { entrance, density } = &origin;
         let (facets, normal) = (self.facets, entrance.plane.normal);
-        let met = self.lit.indices.map(|n| Interface::new(self.lit.direction, -normal, n, false));
+        let met = self.lit.indices.map(|n| Interface::new(self.lit.direction, -normal, 1.0 / n, false));
         let frames = met.map(|at| entrance.coords(at.transmitted));
         let (inside, reflected) = self.light.split(&met[0]);
         let share = density * facets.area(entrance.facet);
@@ -297,7 +297,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
     #[inline(always)]
     fn interact(&mut self, beam: &mut Beam<L, K>, facet: usize, footprint: &[DVec2]) -> Option<f64> {
         let plane = &self.facets.planes[facet];
-        let at = Interface::new(beam.frames[0].direction, plane.normal, 1.0 / self.lit.indices[0], true);
+        let at = Interface::new(beam.frames[0].direction, plane.normal, self.lit.indices[0], true);
         let (out, kept) = beam.light.split(&at);
         beam.bounces += 1;
         if at.fresnel.cos_t > 0.0 {

@@ -43,7 +43,7 @@ pub struct BeamExit<'a, L, const K: usize> {
 impl<L, const K: usize> BeamExit<'_, L, K> {
     /// Unit direction outside of line `k`; none if that line is reflected totally.
     pub fn direction_of(&self, k: usize) -> Option<DVec3> {
-        let at = Interface::new(self.coords[k].direction, self.normal, 1.0 / self.indices[k], true);
+        let at = Interface::new(self.coords[k].direction, self.normal, self.indices[k], true);
         (at.fresnel.cos_t > 0.0).then_some(at.transmitted)
     }
 }
