@@ -144,6 +144,7 @@ const SAMPLES: &[Sample] = &[
     ("render", "scene", &[&["scene.toml"], &["table"], &["daylight"]]),
     ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),
     ("render", "width", &[&["16"], &["24"]]),
+    ("report", "width", &[&["64"], &["96"]]),
     ("render", "height", &[&["18"]]),
     ("render", "spp", &[&["1"], &["2"]]),
     ("render", "photons", &[&["100"], &["200"]]),

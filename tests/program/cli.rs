@@ -301,7 +301,7 @@ fn report_leaves_everything_about_a_stone() {
     for metric in cutlab::advanced::metrics::METRICS.iter() {
         assert!(page.contains(metric.name), "{}", metric.name);
     }
-    assert!(page.contains("cutlab report round-brilliant -o out"));
+    assert!(page.contains("cutlab report round-brilliant --width 160 --error 0.01 -o out"));
 }
 
 #[test]

@@ -183,5 +183,5 @@ fn designs_in_and_out() {
 #[ignore = "ten kills: .ci/run runs it"]
 fn a_report() {
     let report = ["report", "octahedron", "--width", "64", "--error", "0.1", "-o", "out"];
-    survives("report", 0, &report, nothing, 9);
+    survives("report", 0, &report, nothing, 10);
 }

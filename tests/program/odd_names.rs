@@ -28,7 +28,7 @@ fn numbers_are_refused_with_what_is_needed() {
         ("show cube --carat 200mg", "give carats, as 1"),
         ("show cube --size 8µm", "give millimetres, as 0.008"),
         ("score cube --tilt 10:20:0", "the step is 0"),
-        ("report cube -o x --error 0.1", "unexpected argument '--error'"),
+        ("report cube -o x --exact", "unexpected argument '--exact'"),
         ("generate cube -o - -o -", "standard output is given for two outputs"),
         ("list cuts nosuch", "all: cutlab list cuts"),
         ("show plain.obj:ri=1,5", "write decimals with a point, as ri=1.5"),
