@@ -8,6 +8,8 @@ use crate::stone::StoneError;
 #[cfg(feature = "files")]
 use crate::storage::atomic_write::WriteError;
 #[cfg(feature = "files")]
+use crate::storage::find_files::FindError;
+#[cfg(feature = "files")]
 use std::io::ErrorKind as IoErrorKind;
 
 /// What went wrong: one sentence that names the file, line, facet or option, what was expected and what was
@@ -95,9 +97,14 @@ fn of_stone(error: &StoneError) -> ErrorKind {
     match error {
         #[cfg(feature = "files")]
         StoneError::Format(error) => of_format(error),
-        StoneError::NoSuchStone { .. } | StoneError::NoSuchFile { .. } | StoneError::Impossible { .. } => {
-            ErrorKind::NotFound
-        }
+        #[cfg(feature = "files")]
+        StoneError::Find(FindError::Read { cause, .. }) => of_reading(cause),
+        #[cfg(feature = "files")]
+        StoneError::Find(FindError::NoMatch(_)) => ErrorKind::NotFound,
+        StoneError::NoSuchStone { .. }
+        | StoneError::NoSuchFile { .. }
+        | StoneError::NoStones { .. }
+        | StoneError::Impossible { .. } => ErrorKind::NotFound,
         _ => ErrorKind::Invalid,
     }
 }
@@ -105,19 +112,33 @@ fn of_stone(error: &StoneError) -> ErrorKind {
 #[cfg(feature = "files")]
 fn of_format(error: &FormatError) -> ErrorKind {
     match error {
-        FormatError::Read { cause, .. } if cause.kind() == IoErrorKind::NotFound => ErrorKind::NotFound,
-        FormatError::Read { .. } | FormatError::Write(_) => ErrorKind::Io,
+        FormatError::Read { cause, .. } => of_reading(cause),
+        FormatError::Write(_) => ErrorKind::Io,
         FormatError::Limit { .. } | FormatError::TooLarge { .. } => ErrorKind::Limit,
         _ => ErrorKind::Invalid,
     }
 }
 
+/// A name that leads to no file is to be mended; a file that is there and cannot be read is not.
+#[cfg(feature = "files")]
+fn of_reading(cause: &std::io::Error) -> ErrorKind {
+    match cause.kind() {
+        IoErrorKind::NotFound | IoErrorKind::NotADirectory | IoErrorKind::IsADirectory => ErrorKind::NotFound,
+        _ => ErrorKind::Io,
+    }
+}
+
 #[cfg(feature = "render")]
 fn of_render(error: &crate::render::RenderError) -> ErrorKind {
+    use crate::photons::map_file::MapFileError;
     use crate::render::RenderError;
+    use crate::scene::SceneError;
     match error {
         RenderError::Stone(error) => of_stone(error),
-        RenderError::Write(_) => ErrorKind::Io,
+        RenderError::Scene(SceneError::Read { cause, .. })
+        | RenderError::PhotonMap(MapFileError::Read { cause, .. }) => of_reading(cause),
+        RenderError::Scene(SceneError::Limit { .. }) => ErrorKind::Limit,
+        RenderError::Write(_) | RenderError::PhotonMap(MapFileError::Write(_)) => ErrorKind::Io,
         RenderError::Cancelled => ErrorKind::Cancelled,
         _ => ErrorKind::Invalid,
     }

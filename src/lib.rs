@@ -60,6 +60,8 @@ mod cli;
 
 #[cfg(feature = "files")]
 pub use batch::request::{ComparisonTable, ScoreTable, SweepTable, TableRequest};
+#[cfg(feature = "files")]
+pub use batch::stone_files::expand_stones;
 pub use color::Illuminant;
 pub use design::{Design, LengthUnit};
 pub use error::{Error, ErrorKind};

@@ -3,14 +3,16 @@
 mod text;
 
 use super::args::scoring::ScoringArgs;
-use super::args::{inputs, stone, tables};
+use super::args::{stone, tables};
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use crate::batch::fingerprint::Fingerprint;
 use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
+use crate::batch::stone_files::expand_stones;
 use crate::batch::table::TableFormat;
+use crate::cli::limits::limits;
 use crate::render::record;
 use crate::report::{ReportInput, comparison_page};
 use crate::sampling::stats::Estimate;
@@ -83,7 +85,7 @@ struct Differs<'a> {
 /// Compares the stones.
 pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let plan = args.scoring.plan();
-    let specs = inputs::expanded(&args.stones)?;
+    let specs = expand_stones(&args.stones, limits())?;
     if specs.len() < 2 {
         return Err(CliError::input("a comparison needs two stones or more"));
     }

@@ -9,6 +9,7 @@ use crate::render::RenderError;
 use crate::scene::SceneError;
 use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
+use crate::storage::find_files::FindError;
 use crate::storage::terminal::one_line;
 pub use crate::storage::terminal::printable;
 use crate::storage::text::display_name;
@@ -189,6 +190,9 @@ impl From<StoneError> for CliError {
     fn from(error: StoneError) -> CliError {
         match error {
             StoneError::Format(error) => (*error).into(),
+            StoneError::Find(FindError::Read { ref cause, .. }) => {
+                CliError::new(code_of(cause), error.to_string())
+            }
             StoneError::NotConvex(ref cause) => {
                 let shape = if let StoneError::Format(cause) = &**cause { shape_of(cause) } else { None };
                 CliError { shape: shape.map(Box::new), ..CliError::input(error.to_string()) }

@@ -1,7 +1,5 @@
 //! `cutlab import`: any format in, any format out, whole folders at once.
 
-pub mod plan;
-
 use super::args::stone;
 use super::args::stone::{OrientationArgs, StoneArgs};
 use super::console::Console;
@@ -10,6 +8,8 @@ use super::form::TargetFormat;
 use super::outputs::{self, Outputs};
 use super::terminal_table;
 use super::weight;
+use crate::batch::output_places::{self, Job};
+use crate::cli::limits::limits;
 use crate::formats::{self, Encoded};
 use crate::materials::weight::Weight;
 use crate::report::diagram::Paper;
@@ -17,7 +17,6 @@ use crate::stone::grammar;
 use crate::storage::terminal::in_line;
 use crate::storage::{atomic_write, output_path};
 use comfy_table::{Cell, CellAlignment};
-use plan::Job;
 use serde::Serialize;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -167,7 +166,7 @@ fn plan(args: &ImportArgs) -> Result<(Vec<Job>, TargetFormat), CliError> {
             |stone: &OsString| Job { stone: stone.clone(), target: args.output.clone(), by_chance: false };
         return Ok((args.files.iter().map(job).collect(), form));
     }
-    Ok((plan::into_folder(&args.files, &args.output, form.extension())?, form))
+    Ok((output_places::into_folder(&args.files, &args.output, form.extension(), limits())?, form))
 }
 
 fn import(

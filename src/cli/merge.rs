@@ -1,15 +1,15 @@
 //! `cutlab merge`: the parts of a table, joined.
 
-use super::args::inputs;
 use super::args::stone;
 use super::args::tables;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
 use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
-use crate::batch::merge::{MergeError, TablePart, TableParts};
+use crate::batch::merge::{self, MergeError, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
+use crate::stone::StoneError;
 use crate::storage::atomic_write;
 use crate::storage::journal::Journal;
 use std::ffi::OsString;
@@ -43,7 +43,7 @@ pub struct MergeArgs {
 /// Joins the parts.
 pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let form = tables::format_of(&args.output, console)?;
-    let tables = inputs::parts(&args.parts)?;
+    let tables = merge::part_files(&args.parts, limits())?;
     let mut outputs = Outputs::new(console);
     for table in &tables {
         outputs.reads(table);
@@ -83,6 +83,7 @@ impl From<MergeError> for CliError {
         match error {
             MergeError::Read { path, cause } => CliError::reading(&stone::display_name(&path), &cause),
             MergeError::Write(cause) => cause.into(),
+            MergeError::Find(cause) => StoneError::from(cause).into(),
             other => CliError::input(other.to_string()),
         }
     }

@@ -1,14 +1,15 @@
 //! `cutlab report`: everything about one stone, on one page.
 
-use super::args::inputs;
 use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use super::args::values;
 use super::console::Console;
 use super::exit_code::{CliError, ExitStatus};
-use super::import::plan;
 use super::outputs::Outputs;
 use super::terminal_table;
 use crate::batch::fingerprint::Fingerprint;
+use crate::batch::output_places;
+use crate::batch::stone_files::expand_stones;
+use crate::cli::limits::limits;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
 use crate::report::estimates::estimate_text;
@@ -70,10 +71,10 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
         options: args.stone_args.options(args.size),
         seed: args.seed,
     };
-    let specs = inputs::expanded(&args.stones)?;
+    let specs = expand_stones(&args.stones, limits())?;
     let folders: Vec<PathBuf> = match &args.stones[..] {
         [stone] if specs.len() == 1 && specs[0] == *stone => vec![args.output.clone()],
-        _ => plan::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
+        _ => output_places::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
     };
     let mut outputs = Outputs::reading_stones(&specs, console);
     // every place is tried before the first report, which takes half a minute

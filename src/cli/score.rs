@@ -1,6 +1,5 @@
 //! `cutlab score`: a table of scores, one row a stone, or one a stone and tilt.
 
-use super::args::inputs;
 use super::args::scoring::{self, ScoringArgs};
 use super::args::stone::{self, DEFAULT_STONE};
 use super::args::tables::{TableArgs, TableCommand};
@@ -10,9 +9,11 @@ use super::outputs::Outputs;
 use super::plot_output::{Look, Plots};
 use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
 use crate::batch::score_rows::ScoreRows;
+use crate::batch::stone_files::expand_stones;
 use crate::batch::sweep::Steps;
 use crate::batch::table_job::Order;
 use crate::batch::table_rows::TILT;
+use crate::cli::limits::limits;
 use crate::metrics::Metric;
 use crate::parse;
 use crate::parse::NumberUnit;
@@ -73,7 +74,7 @@ pub struct ScoreArgs {
 pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let scores = args.scoring.plan();
     let sort = sort(args, &scores.metrics)?;
-    let stones = inputs::expanded(&args.stones)?;
+    let stones = expand_stones(&args.stones, limits())?;
     let mut outputs = Outputs::reading_stones(&stones, console);
     let azimuths = match (&args.tilt_axis[..], args.plot.is_empty()) {
         ([], true) => vec![0.0],

@@ -5,13 +5,14 @@ mod mesh;
 mod sheet;
 mod tiers;
 
-use super::args::inputs;
 use super::args::stone::{self, StoneArgs};
 use super::console::Console;
 use super::diagram_output::{self, DiagramFormat};
 use super::exit_code::{CliError, ExitStatus, MeshFacts};
 use super::outputs::{self, Outputs};
 use super::weight;
+use crate::batch::stone_files::expand_stones;
+use crate::cli::limits::limits;
 use crate::design::gia_envelopes;
 use crate::design::proportions::{self, Ratios};
 use crate::design::round_brilliant_measures::FacetLengths;
@@ -164,7 +165,7 @@ pub fn run(args: &ShowArgs, console: &Console) -> Result<ExitStatus, CliError> {
             "one drawing at a time goes to standard output: name a file for the other",
         ));
     }
-    let stones = inputs::expanded(&args.stones)?;
+    let stones = expand_stones(&args.stones, limits())?;
     let mut outputs = Outputs::reading_stones(&stones, console);
     let drawings = [(&args.diagram, draw_diagram as DrawFn), (&args.beams, draw_beams)];
     let given = drawings.into_iter().filter_map(|(path, draw)| Some((path.as_ref()?, draw)));
