@@ -1,8 +1,10 @@
 //! Tables of many stones: rows, shards, sweeps, merging; and the check against reference figures.
 
+pub mod comparison;
+pub mod comparison_table;
 pub mod fingerprint;
 pub mod finished_row;
-mod input_files;
+pub mod input_files;
 pub mod merge;
 pub mod output_places;
 mod proportion_columns;

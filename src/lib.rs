@@ -59,6 +59,8 @@ mod report;
 mod cli;
 
 #[cfg(feature = "files")]
+pub use batch::comparison::{ComparisonError, StoneComparison};
+#[cfg(feature = "files")]
 pub use batch::request::{ComparisonTable, ScoreTable, SweepTable, TableRequest};
 #[cfg(feature = "files")]
 pub use batch::stone_files::expand_stones;

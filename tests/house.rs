@@ -18,9 +18,9 @@ const ROWS: &[&[&str]] = &[
     &["photons", "batch"],
     &["integrators"],
     &["render"],
+    &["report", "manual"],
     &["error"],
     &["prelude"],
-    &["report", "manual"],
     &["cli"],
     &["advanced"],
 ];

@@ -1,6 +1,6 @@
 //! Cutting diagrams as files: SVG, and PDF or PNG of the same page.
 
-use super::exit_code::CliError;
+use super::error::CliError;
 use crate::design::Design;
 use crate::report::diagram::Paper;
 use crate::report::{diagram, pdf, raster};

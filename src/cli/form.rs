@@ -2,7 +2,7 @@
 
 use super::args::stone;
 use super::diagram_output::{self, DiagramFormat};
-use super::exit_code::CliError;
+use super::error::CliError;
 use crate::design::Design;
 use crate::formats::{self, Encoded, Format, FormatError};
 use crate::materials::Material;

@@ -3,13 +3,13 @@
 use super::args::stone;
 use super::args::tables;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
-use crate::batch::merge::{self, MergeError, TablePart, TableParts};
+use crate::batch::merge::{self, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
-use crate::stone::StoneError;
 use crate::storage::atomic_write;
 use crate::storage::journal::Journal;
 use std::ffi::OsString;
@@ -76,15 +76,4 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
     files.insert(0, args.output.clone());
     tables::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
     Ok(tables::code(&parts.meta.summary))
-}
-
-impl From<MergeError> for CliError {
-    fn from(error: MergeError) -> CliError {
-        match error {
-            MergeError::Read { path, cause } => CliError::reading(&stone::display_name(&path), &cause),
-            MergeError::Write(cause) => cause.into(),
-            MergeError::Find(cause) => StoneError::from(cause).into(),
-            other => CliError::input(other.to_string()),
-        }
-    }
 }

@@ -8,7 +8,7 @@
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::CliError;
+use super::error::CliError;
 use crate::stone::StoneSpec;
 use crate::storage::atomic_write;
 use crate::storage::bounded_read;

@@ -4,7 +4,7 @@ mod look;
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::CliError;
+use super::error::CliError;
 use super::outputs::Outputs;
 use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};

@@ -3,10 +3,10 @@
 use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use super::args::values;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::terminal_table;
-use crate::batch::fingerprint::Fingerprint;
 use crate::batch::output_places;
 use crate::batch::stone_files::expand_stones;
 use crate::cli::limits::limits;
@@ -15,7 +15,7 @@ use crate::render::record;
 use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
-use crate::report::{self, ReportError, ReportInput, ReportRequest};
+use crate::report::{self, ReportInput, ReportRequest};
 use crate::sampling::stats::Estimate;
 use crate::storage::journal::Journal;
 use serde::Serialize;
@@ -77,15 +77,16 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
         _ => output_places::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
     };
     let mut outputs = Outputs::reading_stones(&specs, console);
+    let identity = format!("report {}", request.identity(&specs));
     // every place is tried before the first report, which takes half a minute
     for folder in &folders {
-        claim(folder, &request, &mut outputs)?;
+        claim(folder, &identity, &mut outputs)?;
     }
     let range = args.stone_args.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
-        let result = one(stone, folder, &request, console);
+        let result = one(stone, folder, (&request, &identity), console);
         if let (Err(failure), true) = (&result, specs.len() > 1) {
             console.complain(&failure.message());
         }
@@ -104,15 +105,12 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     Ok(stone::code(&results))
 }
 
-/// What is kept of a report while its files are written.
-fn identity(request: &ReportRequest) -> String {
-    format!("report {}", Fingerprint::of_request(request).hex())
-}
-
 /// Takes the places of all files of the report in a folder.
-fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Result<(), CliError> {
+///
+/// - `identity`: what is kept of a report while its files are written
+fn claim(folder: &Path, identity: &str, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
-    let begun = Journal::belongs_to(&Journal::path_for(&page), &identity(request));
+    let begun = Journal::belongs_to(&Journal::path_for(&page), identity);
     let is_own = begun || record::is_of(&page, &record::own_command());
     stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
@@ -121,19 +119,12 @@ fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Resul
 fn one(
     stone: &OsStr,
     folder: &Path,
-    request: &ReportRequest,
+    (request, identity): (&ReportRequest, &str),
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
     let stone = request.open(stone)?;
-    let design = stone.convex_design()?.clone();
     stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
-    let input = ReportInput {
-        stone: stone.name().into(),
-        design,
-        material: stone.material().clone(),
-        seed: request.seed,
-        command: record::command_line(),
-    };
+    let input = ReportInput::new(&stone, request.seed, record::command_line())?;
     let bar = console.steps(STEPS);
     let bundle = report::make(&input, &|what| {
         bar.set_message(what);
@@ -148,7 +139,7 @@ fn one(
     }
     // what a kill leaves of the files is known as this command's
     let progress = Journal::path_for(&folder.join("index.html"));
-    let progress = Journal::open(&progress, &identity(request), &|_| ())?;
+    let progress = Journal::open(&progress, identity, &|_| ())?;
     bundle.write(folder)?;
     progress.finish()?;
     if !console.json {
@@ -195,13 +186,4 @@ fn text(bundle: &StoneReport, folder: &Path) -> String {
     }
     let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
     text + &format!("{}: {}", stone::display_name(folder), names.join(", "))
-}
-
-impl From<ReportError> for CliError {
-    fn from(error: ReportError) -> CliError {
-        match error {
-            ReportError::Format(error) => error.into(),
-            _ => CliError::input(error.to_string()),
-        }
-    }
 }

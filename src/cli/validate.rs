@@ -3,7 +3,8 @@
 use super::args::stone;
 use super::args::values;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::terminal_table;
 use crate::batch::validate;

@@ -1,5 +1,6 @@
 //! A request for a report, and a stone of it as it is reported on.
 
+use crate::batch::input_files::InputFiles;
 use crate::design::Design;
 use crate::materials::Material;
 use crate::stone::{Stone, StoneError, StoneOptions};
@@ -36,9 +37,14 @@ impl Default for ReportRequest {
 impl ReportRequest {
     /// Opens one of its stones: a convex one, as wide as it is asked for, as it is, or as stones usually are.
     pub fn open(&self, stone: impl AsRef<OsStr>) -> Result<Stone, StoneError> {
-        let stone = Stone::open(stone, &self.options)?.with_usual_width()?;
-        stone.convex_design()?;
-        Ok(stone)
+        Stone::open(stone, &self.options)?.convex_in_mm()
+    }
+
+    /// Fingerprint of the request and of what the files hold that it names: stones, and materials of one's own.
+    ///
+    /// - `stones`: those of the request, one by one ([`crate::batch::stone_files::expand_stones`])
+    pub fn identity<S: AsRef<OsStr>>(&self, stones: &[S]) -> String {
+        InputFiles::new(self, &self.options, stones.iter().map(AsRef::as_ref)).identity
     }
 }
 
@@ -55,4 +61,18 @@ pub struct ReportInput {
     pub seed: u64,
     /// The command as typed, for the page.
     pub command: String,
+}
+
+impl ReportInput {
+    /// Of a convex stone in millimetres ([`Stone::convex_in_mm`]).
+    pub fn new(stone: &Stone, seed: u64, command: String) -> Result<ReportInput, StoneError> {
+        let design = stone.convex_design()?.clone();
+        Ok(ReportInput {
+            stone: stone.name().into(),
+            design,
+            material: stone.material().clone(),
+            seed,
+            command,
+        })
+    }
 }

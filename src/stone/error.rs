@@ -2,7 +2,7 @@
 
 use crate::design::design_file::DocumentError;
 #[cfg(feature = "files")]
-use crate::formats::FormatError;
+use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::parse::did_you_mean;
@@ -138,6 +138,19 @@ impl StoneError {
             return !matches!(cause.kind(), NotFound | NotADirectory | IsADirectory);
         }
         false
+    }
+
+    /// What is known of a file that was understood but holds no convex stone; none for every other error.
+    #[cfg(feature = "files")]
+    pub fn mesh_facts(&self) -> Option<MeshFacts> {
+        match self {
+            StoneError::Format(error) => error.mesh_facts(),
+            StoneError::NotConvex(cause) => match &**cause {
+                StoneError::Format(error) => error.mesh_facts(),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     #[cfg(feature = "files")]

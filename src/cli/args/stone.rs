@@ -2,7 +2,8 @@
 
 use super::material::material;
 use crate::cli::console::Console;
-use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::error::CliError;
+use crate::cli::exit_code::ExitStatus;
 use crate::cli::limits::limits;
 use crate::materials::Material;
 use crate::parse;

@@ -5,24 +5,24 @@ use crate::batch::merge::TablePart;
 use crate::batch::request::TableRequest;
 use crate::batch::shard::Shard;
 use crate::batch::sidecar::TableMeta;
-use crate::batch::table::{NumericColumns, TableError, TableFormat};
-use crate::batch::table_job::{JobEvent, TableJob, TableJobError, TableSummary};
+use crate::batch::table::{NumericColumns, TableFormat};
+use crate::batch::table_job::{JobEvent, TableJob, TableSummary};
 use crate::batch::table_rows::TableRows;
 use crate::cli::console::Console;
-use crate::cli::exit_code;
-use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::error::CliError;
+use crate::cli::exit_code::ExitStatus;
+use crate::cli::interrupt;
 use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
-use crate::cli::terminal_table;
+use crate::cli::score_text;
+use crate::progress::SaidOnce;
 use crate::storage::atomic_write;
 use crate::storage::journal::JournalRemark;
 use indicatif::ProgressBar;
-use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// The options of a table.
 #[derive(Debug, Clone, clap::Args)]
@@ -84,7 +84,7 @@ impl TableCommand<'_> {
         let form = table.format(console)?;
         plots.claim(&self.request.command(), outputs)?;
         let bar = console.progress(0, self.what);
-        let noted = Mutex::new(BTreeSet::new());
+        let noted = SaidOnce::default();
         let waited = AtomicBool::new(false);
         let tell = |event: JobEvent| match event {
             JobEvent::Remark(JournalRemark::Waiting) => bar.suspend(|| {
@@ -108,7 +108,7 @@ impl TableCommand<'_> {
                     bar.suspend(|| console.complain(complaint));
                 }
                 if let Some(note) = &line.note
-                    && noted.lock().unwrap_or_else(PoisonError::into_inner).insert(kind_of(note).to_owned())
+                    && noted.is_new(kind_of(note))
                 {
                     bar.suspend(|| console.note(&format!("note: {note}")));
                 }
@@ -136,7 +136,7 @@ impl TableCommand<'_> {
         if let Some(part) = self.already(table, begun, console) {
             return self.reused(&part, plots, console);
         }
-        exit_code::mark_resumable();
+        interrupt::mark_resumable();
         let progress = batch.begin(output)?;
         if waited.load(Ordering::Relaxed) {
             // the other process may have put a table there, its own or this one
@@ -178,11 +178,7 @@ impl TableCommand<'_> {
         let bytes = copied.copy.unwrap_or_default();
         if to_read {
             let table = NumericColumns::read(&bytes, batch.form, limits())?;
-            console.print(&terminal_table::text(
-                self.rows.columns(),
-                &table,
-                &self.request.scores().metrics,
-            ))?;
+            console.print(&score_text::text(self.rows.columns(), &table, &self.request.scores().metrics))?;
         }
         let drawn = self.draw(plots, || Ok(bytes), batch.form)?;
         drawn.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
@@ -321,21 +317,6 @@ pub fn code(summary: &TableSummary) -> ExitStatus {
         n if n < summary.rows => ExitStatus::SomeFailed,
         n if n == summary.unreadable => ExitStatus::Io,
         _ => ExitStatus::NoGoodInput,
-    }
-}
-
-impl From<TableError> for CliError {
-    fn from(error: TableError) -> CliError {
-        CliError::input(error.to_string())
-    }
-}
-
-impl From<TableJobError> for CliError {
-    fn from(error: TableJobError) -> CliError {
-        match error {
-            TableJobError::Write(error) => error.into(),
-            TableJobError::Table(error) => error.into(),
-        }
     }
 }
 
