@@ -126,6 +126,8 @@ impl Error {
             #[cfg(feature = "report")]
             Error::Report(ReportError::Format(error)) => of_format(error),
             #[cfg(feature = "report")]
+            Error::Report(ReportError::Write(_)) => ErrorKind::Io,
+            #[cfg(feature = "report")]
             Error::Report(_) => ErrorKind::Invalid,
             #[cfg(feature = "files")]
             Error::Comparison(ComparisonError::Cancelled) => ErrorKind::Cancelled,
@@ -149,6 +151,8 @@ impl Error {
             Error::Render(RenderError::Write(error) | RenderError::PhotonMap(MapFileError::Write(error))) => {
                 Some(error)
             }
+            #[cfg(feature = "report")]
+            Error::Report(ReportError::Write(error)) => Some(error),
             _ => None,
         }
     }

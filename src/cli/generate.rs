@@ -8,10 +8,10 @@ use super::args::stone;
 use super::console::Console;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
-use super::form::TargetFormat;
 use super::outputs::{self, Outputs};
 use crate::design::families;
 use crate::formats::Encoded;
+use crate::report::target_format::TargetFormat;
 use crate::stone::grammar;
 use crate::storage::atomic_write;
 pub use options::GenerateArgs;
@@ -74,7 +74,7 @@ fn forms(args: &GenerateArgs) -> Result<Vec<TargetFormat>, CliError> {
         // beside a stream --to is the stream's
         false => TargetFormat::from_path(file, to.filter(|_| !to_stream)),
     };
-    args.output.iter().map(form).collect()
+    Ok(args.output.iter().map(form).collect::<Result<_, _>>()?)
 }
 
 /// Takes the place of every file, says the notes, and writes.

@@ -6,13 +6,14 @@ mod rows;
 
 use super::args::stone;
 use super::console::Console;
+use super::each_stone;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
-use super::form::TargetFormat;
 use super::interrupt;
 use super::outputs::Outputs;
 use crate::batch::output_places::{self, Job};
 use crate::cli::limits::limits;
+use crate::report::target_format::TargetFormat;
 use crate::stone::StoneError;
 use crate::storage::{atomic_write, output_path};
 pub use options::{GenerateSettings, ImportArgs};
@@ -33,7 +34,7 @@ pub fn run(args: &ImportArgs, console: &Console) -> Result<ExitStatus, CliError>
         interrupt::mark_resumable();
     }
     let work = |job: &Job| one_file::import(job, args, form, &outputs, console);
-    let mut results = stone::open_each(&jobs, console, "importing", work);
+    let mut results = each_stone::open_each(&jobs, console, "importing", work);
     let row = |(job, result): (&Job, &Result<ImportRow, CliError>)| match result {
         Ok(row) => row.clone(),
         Err(failure) => ImportRow::failed(&job.stone, failure),
@@ -55,7 +56,7 @@ pub fn run(args: &ImportArgs, console: &Console) -> Result<ExitStatus, CliError>
         let place = args.files.iter().map(stone::display_name).collect::<Vec<_>>().join(", ");
         return Err(StoneError::NoStones { place }.into());
     }
-    Ok(stone::code(&results))
+    Ok(each_stone::code(&results))
 }
 
 /// What is to be imported, and the format to write it in.

@@ -1,68 +1,26 @@
 //! `cutlab report`: everything about one stone, on one page.
 
-use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
-use super::args::values;
+mod options;
+mod summary;
+
+use super::args::stone;
 use super::console::Console;
+use super::each_stone;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use super::terminal_table;
 use crate::batch::output_places;
 use crate::batch::stone_files::expand_stones;
 use crate::cli::limits::limits;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
-use crate::report::estimates::estimate_text;
-use crate::report::page::Section;
-use crate::report::stone_report::{self, STEPS, StoneReport};
+use crate::report::stone_report::{self, STEPS};
 use crate::report::{self, ReportInput, ReportRequest};
-use crate::sampling::stats::Estimate;
 use crate::storage::journal::Journal;
-use serde::Serialize;
-use std::collections::BTreeMap;
-use std::ffi::{OsStr, OsString};
+pub use options::ReportArgs;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Examples:
-  cutlab report tolkowsky -o out       writes into out/
-  cutlab report designs/ -o out        every design of a folder, each into a folder of its own in out/
-
-index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
-the cutting diagram, every score beside five reference stones of the same material, scores against the
-tilt, and for round brilliants their place on the map of light return. Beside it stand the pictures
-(table.png, aset.png, ideal-scope.png, windows.png, brightness.png), diagram.svg, scores.csv, stone.obj and
-stone.toml. Each picture from above is of the same light and stone as the scores beside it.")]
-pub struct ReportArgs {
-    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
-    /// of several, each has a folder of its own in -o
-    #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
-    stones: Vec<OsString>,
-    /// The folder to write into; it is made
-    #[arg(long, short, value_name = "DIR")]
-    output: PathBuf,
-    /// Girdle width in millimetres [the stone's own, or 6.5]
-    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
-    size: Option<f64>,
-    #[command(flatten)]
-    stone_args: StoneArgs,
-    /// Seed of the random streams
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
-    seed: u64,
-}
-
-/// The numbers that matter, for `--json`.
-#[derive(Serialize)]
-struct ReportSummary {
-    folder: String,
-    files: Vec<String>,
-    scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
-    /// `more` or `less` for scores of which either is better by itself.
-    better: BTreeMap<String, &'static str>,
-    /// Why scores that are null are.
-    left_out: BTreeMap<String, String>,
-}
+use summary::ReportSummary;
 
 /// Makes the reports and writes them.
 pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError> {
@@ -102,7 +60,7 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     if console.json {
         console.print_json(&results.iter().flatten().collect::<Vec<_>>())?;
     }
-    Ok(stone::code(&results))
+    Ok(each_stone::code(&results))
 }
 
 /// Takes the places of all files of the report in a folder.
@@ -143,47 +101,7 @@ fn one(
     bundle.write(folder)?;
     progress.finish()?;
     if !console.json {
-        console.print(&text(&bundle, folder))?;
+        console.print(&summary::text(&bundle, folder))?;
     }
-    let scores = bundle
-        .sections
-        .iter()
-        .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
-    let every = bundle.sections.iter().flat_map(|s| &s.scores);
-    let better = every.clone().map(|score| (score.name.clone(), score.better.word()));
-    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out.clone()?)));
-    Ok(ReportSummary {
-        better: better.filter(|(_, word)| !word.is_empty()).collect(),
-        left_out: left_out.collect(),
-        folder: stone::display_name(folder),
-        files: bundle.files.iter().map(|(name, _)| stone::display_name(folder.join(name))).collect(),
-        scores: scores.collect(),
-    })
-}
-
-/// The numbers that matter, and the files.
-fn text(bundle: &StoneReport, folder: &Path) -> String {
-    let mut lines: Vec<(String, String)> = Vec::new();
-    for section in bundle.sections.iter().filter(|s| s.large > 0) {
-        lines.push((section.head.into(), String::new()));
-        for score in section.scores.iter().take(section.large) {
-            let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(estimate_text) {
-                Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
-                Some((value, None)) => format!("{value}{unit}"),
-                None => terminal_table::NONE.into(),
-            };
-            let better = match score.better.said() {
-                "" => String::new(),
-                said => format!("  ({said})"),
-            };
-            lines.push((format!("  {}", score.name), value + &better));
-        }
-    }
-    let mut text = terminal_table::labelled(lines, 0, 0);
-    for said in bundle.sections.iter().filter_map(Section::omissions) {
-        text += &format!("{said}\n");
-    }
-    let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", stone::display_name(folder), names.join(", "))
+    Ok(ReportSummary::new(&bundle, folder))
 }

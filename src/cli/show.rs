@@ -12,6 +12,7 @@ mod tiers;
 
 use super::args::stone;
 use super::console::Console;
+use super::each_stone;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
@@ -36,7 +37,7 @@ pub fn run(args: &ShowArgs, console: &Console) -> Result<ExitStatus, CliError> {
     if drawings.take_stdout() {
         return Ok(ExitStatus::Done); // standard output is the drawing
     }
-    let results = stone::open_each(&stones, console, "reading", |spec| Shown::new(spec, args));
+    let results = each_stone::open_each(&stones, console, "reading", |spec| Shown::new(spec, args));
     if console.json {
         let names = stones.iter().map(stone::display_name);
         let entries: Vec<ShownEntry> =
@@ -49,5 +50,5 @@ pub fn run(args: &ShowArgs, console: &Console) -> Result<ExitStatus, CliError> {
         }
         results.iter().filter_map(|r| r.as_ref().err()).for_each(|f| console.complain(&f.message()));
     }
-    Ok(stone::code(&results))
+    Ok(each_stone::code(&results))
 }

@@ -3,7 +3,7 @@
 use crate::cli::args::family::FamilyArgs;
 use crate::cli::args::stone::{self, DEFAULT_STONE, StoneArgs};
 use crate::cli::args::values;
-use crate::cli::{diagram_output, weight};
+use crate::cli::weight;
 use crate::report::diagram::Paper;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<String>,
     /// Paper of the cutting diagram
-    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = diagram_output::paper)]
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = values::paper)]
     pub paper: Paper,
     /// What the stone is made of: the index of refraction that design files state and the material in
     /// glTF

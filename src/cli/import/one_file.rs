@@ -6,12 +6,12 @@ use crate::batch::output_places::Job;
 use crate::cli::args::stone::{self, StoneArgs};
 use crate::cli::console::Console;
 use crate::cli::error::CliError;
-use crate::cli::form::TargetFormat;
 use crate::cli::outputs::{self, Outputs};
 use crate::cli::weight;
 use crate::formats::{self, Encoded};
 use crate::materials::weight::Weight;
 use crate::report::diagram::Paper;
+use crate::report::target_format::TargetFormat;
 use crate::stone::{Stone, grammar};
 use crate::storage::{atomic_write, output_path};
 

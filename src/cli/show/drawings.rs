@@ -3,10 +3,10 @@
 use super::options::ShowArgs;
 use crate::cli::args::stone;
 use crate::cli::console::Console;
-use crate::cli::diagram_output::DiagramFormat;
 use crate::cli::error::CliError;
 use crate::cli::outputs::{self, Outputs};
-use crate::materials::Material;
+use crate::report::drawing_format::DrawingFormat;
+use crate::report::target_format::TargetFormat;
 use crate::report::virtual_facets;
 use crate::storage::atomic_write;
 use crate::trace::ConvexStone;
@@ -67,9 +67,9 @@ fn only<'a>(args: &'a ShowArgs, option: &str) -> Result<&'a OsStr, CliError> {
 /// Draws the cutting diagram of the only stone.
 fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     let spec = only(args, "--diagram")?;
-    let drawing = match DiagramFormat::from_path(path) {
+    let drawing = match DrawingFormat::from_path(path) {
         Some(drawing) => drawing,
-        None if atomic_write::is_stream(path) => DiagramFormat::Svg,
+        None if atomic_write::is_stream(path) => DrawingFormat::Svg,
         None => {
             let path = stone::display_name(path);
             return Err(CliError::input(format!("{path}: --diagram draws .svg, .pdf or .png")));
@@ -77,8 +77,8 @@ fn draw_diagram(args: &ShowArgs, path: &Path) -> Result<Drawn, CliError> {
     };
     let stone = args.stone_args.open(spec)?;
     let design = stone.convex_design()?;
-    let asked = stone.given_material().map(Material::index_d);
-    let bytes = drawing.bytes(design, asked.or(design.refractive_index), args.paper)?;
+    let target = TargetFormat::Drawing(drawing);
+    let bytes = target.encoded(design, stone.given_material(), args.paper)?.bytes;
     Ok(Drawn { path: path.into(), bytes, said: format!("wrote {}", stone::display_name(path)) })
 }
 

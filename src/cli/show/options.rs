@@ -1,7 +1,8 @@
 //! Options of `cutlab show`.
 
 use crate::cli::args::stone::{self, StoneArgs};
-use crate::cli::{diagram_output, weight};
+use crate::cli::args::values;
+use crate::cli::weight;
 use crate::report::diagram::Paper;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -35,6 +36,6 @@ pub struct ShowArgs {
     #[arg(long, value_name = "DIAGRAM.svg")]
     pub diagram: Option<PathBuf>,
     /// Paper of the cutting diagram
-    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = diagram_output::paper)]
+    #[arg(long, value_name = "a4|letter", default_value = "a4", value_parser = values::paper)]
     pub paper: Paper,
 }
