@@ -30,6 +30,8 @@ mod score;
 mod score_text;
 mod show;
 mod sweep;
+mod table_command;
+mod table_files;
 mod terminal_table;
 mod threads;
 mod usage;

@@ -127,8 +127,7 @@ impl StoneComparison {
             let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
             let columns = COLUMNS.map(String::from).into();
             let meta = TableMeta { crc32, ..TableMeta::new(&self.request, self.identity.clone(), columns) };
-            let meta = meta.bytes().map_err(|e| TableError::Row(e.to_string()))?;
-            atomic_write::write(&TableMeta::path_for(path), &meta)?;
+            meta.write_for(path)?;
         }
         Ok(atomic_write::write(path, &bytes)?)
     }

@@ -7,6 +7,7 @@ use super::error::CliError;
 use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
+use super::table_files;
 use crate::batch::merge::{self, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
@@ -67,13 +68,13 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
     if atomic_write::is_stream(&args.output) {
         parts.write(form, &args.output)?;
         drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
-        return Ok(tables::code(&parts.meta.summary));
+        return Ok(table_files::code(&parts.meta.summary));
     }
     let begun = Journal::belongs_to(&Journal::path_for(&args.output), &parts.identity());
-    tables::claim_table(&args.output, &|meta| meta.is_table_of(&parts.meta), None, begun, &mut outputs)?;
+    table_files::claim(&args.output, &|meta| meta.is_table_of(&parts.meta), None, begun, &mut outputs)?;
     let mut files = drawn(&parts)?;
     parts.publish(form, &args.output)?;
     files.insert(0, args.output.clone());
-    tables::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
-    Ok(tables::code(&parts.meta.summary))
+    table_files::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
+    Ok(table_files::code(&parts.meta.summary))
 }

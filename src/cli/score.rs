@@ -3,12 +3,12 @@
 mod options;
 
 use super::args::stone;
-use super::args::tables::TableCommand;
 use super::console::Console;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::Plots;
+use super::table_command::TableCommand;
 use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
 use crate::batch::score_rows::ScoreRows;
 use crate::batch::stone_files::expand_stones;

@@ -8,6 +8,7 @@ use crate::cli::args::{stone, tables};
 use crate::cli::console::Console;
 use crate::cli::error::CliError;
 use crate::cli::outputs::Outputs;
+use crate::cli::table_files;
 use crate::render::record;
 use crate::report::{ReportInput, comparison_page};
 use crate::stone::StoneError;
@@ -70,7 +71,7 @@ impl ComparisonFormat {
                 outputs.claim(path, |there| record::is_of(there, command))
             }
             ComparisonFormat::Table(path, _) => {
-                tables::claim_table(path, &|meta| meta.is_of(request), None, false, outputs)
+                table_files::claim(path, &|meta| meta.is_of(request), None, false, outputs)
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What cannot be swept or drawn is refused before anything is scored.
 
-use super::SweepArgs;
+use super::options::SweepArgs;
 use crate::batch::sweep::{INDEX, MOST_SCATTERED, SIZE, SweptParameter};
 use crate::cli::args::stone;
 use crate::cli::error::CliError;
