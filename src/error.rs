@@ -64,11 +64,11 @@ pub enum Error {
     /// Of a report.
     #[cfg(feature = "report")]
     #[error(transparent)]
-    Report(#[from] ReportError),
+    Report(Box<ReportError>),
     /// Of stones beside each other.
     #[cfg(feature = "files")]
     #[error(transparent)]
-    Comparison(ComparisonError),
+    Comparison(Box<ComparisonError>),
     /// Of a table.
     #[cfg(feature = "files")]
     #[error(transparent)]
@@ -76,7 +76,7 @@ pub enum Error {
     /// Of the parts of a table.
     #[cfg(feature = "files")]
     #[error(transparent)]
-    Merge(#[from] MergeError),
+    Merge(Box<MergeError>),
     /// Of planes that bound no solid.
     #[error(transparent)]
     Solid(#[from] SolidError),
@@ -124,15 +124,18 @@ impl Error {
             #[cfg(feature = "render")]
             Error::Render(error) => of_render(error),
             #[cfg(feature = "report")]
-            Error::Report(ReportError::Format(error)) => of_format(error),
-            #[cfg(feature = "report")]
-            Error::Report(ReportError::Write(_)) => ErrorKind::Io,
-            #[cfg(feature = "report")]
-            Error::Report(_) => ErrorKind::Invalid,
+            Error::Report(error) => match &**error {
+                ReportError::Format(error) => of_format(error),
+                ReportError::Write(_) => ErrorKind::Io,
+                _ => ErrorKind::Invalid,
+            },
             #[cfg(feature = "files")]
-            Error::Comparison(ComparisonError::Cancelled) => ErrorKind::Cancelled,
+            Error::Comparison(error) => match **error {
+                ComparisonError::Cancelled => ErrorKind::Cancelled,
+                _ => ErrorKind::Invalid,
+            },
             #[cfg(feature = "files")]
-            Error::Comparison(_) | Error::Table(_) => ErrorKind::Invalid,
+            Error::Table(_) => ErrorKind::Invalid,
             #[cfg(feature = "files")]
             Error::Merge(error) => of_parts(error),
         }
@@ -144,15 +147,20 @@ impl Error {
     /// The file that could not be written, if that is what went wrong.
     pub fn not_written(&self) -> Option<&WriteError> {
         match self {
-            Error::Write(error)
-            | Error::Format(FormatError::Write(error))
-            | Error::Merge(MergeError::Write(error)) => Some(error),
+            Error::Write(error) | Error::Format(FormatError::Write(error)) => Some(error),
+            Error::Merge(error) => match &**error {
+                MergeError::Write(error) => Some(error),
+                _ => None,
+            },
             #[cfg(feature = "render")]
             Error::Render(RenderError::Write(error) | RenderError::PhotonMap(MapFileError::Write(error))) => {
                 Some(error)
             }
             #[cfg(feature = "report")]
-            Error::Report(ReportError::Write(error)) => Some(error),
+            Error::Report(error) => match &**error {
+                ReportError::Write(error) => Some(error),
+                _ => None,
+            },
             _ => None,
         }
     }
@@ -172,12 +180,26 @@ impl From<FindError> for Error {
 }
 
 #[cfg(feature = "files")]
+impl From<MergeError> for Error {
+    fn from(error: MergeError) -> Error {
+        Error::Merge(Box::new(error))
+    }
+}
+
+#[cfg(feature = "report")]
+impl From<ReportError> for Error {
+    fn from(error: ReportError) -> Error {
+        Error::Report(Box::new(error))
+    }
+}
+
+#[cfg(feature = "files")]
 impl From<ComparisonError> for Error {
     fn from(error: ComparisonError) -> Error {
         match error {
             ComparisonError::Stone(error) => error.into(),
             ComparisonError::Score(error) => error.into(),
-            other => Error::Comparison(other),
+            other => Error::Comparison(Box::new(other)),
         }
     }
 }
