@@ -3,16 +3,18 @@
 //! A new subcommand is one file in `cli/`, one line in `Command` and one in its `run`.
 
 mod args;
+mod arguments;
 mod compare;
 mod completions;
 mod console;
-mod diagram_output;
+mod each_stone;
+mod error;
 mod exit_code;
-mod form;
 mod generate;
 mod heartbeat;
 mod help;
 mod import;
+mod interrupt;
 mod limits;
 mod list;
 mod man;
@@ -21,12 +23,18 @@ mod merge;
 mod outputs;
 mod plot;
 mod plot_output;
+mod progress;
 mod render;
 mod report;
 mod score;
+mod score_text;
 mod show;
 mod sweep;
+mod table_command;
+mod table_files;
 mod terminal_table;
+mod threads;
+mod usage;
 mod validate;
 mod weight;
 mod wrap;
@@ -34,9 +42,8 @@ mod wrap;
 use crate::manual::TOPICS;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
-use exit_code::{CliError, ExitStatus};
-use std::collections::BTreeSet;
-use std::ffi::OsString;
+use error::CliError;
+use exit_code::ExitStatus;
 use std::process::ExitCode;
 
 /// A laboratory for gem cuts: models them, traces light through them, pictures and scores them.
@@ -129,55 +136,24 @@ pub fn command() -> clap::Command {
     Cli::command().after_help(after_help()).mut_args(valued).mut_subcommands(|sub| sub.mut_args(valued))
 }
 
-/// The arguments, with a number that follows an option joined to it where it may be taken for something else.
-///
-/// - after an option whose value may be left out: `--glare 8` is `--glare=8`, and in `--glare a.asc` what
-///   follows is a stone
-/// - below 0 with its unit: `--size -3mm` is `--size=-3mm`, for the option's reader to say what is wrong
-fn joined(arguments: impl Iterator<Item = OsString>, command: &clap::Command) -> Vec<OsString> {
-    let all = || command.get_arguments().chain(command.get_subcommands().flat_map(|sub| sub.get_arguments()));
-    let named = |wanted: fn(&clap::Arg) -> bool| -> BTreeSet<OsString> {
-        let long = all().filter(|arg| wanted(arg)).filter_map(clap::Arg::get_long);
-        long.map(|long| format!("--{long}").into()).collect()
-    };
-    let optional = named(clap::Arg::is_require_equals_set);
-    let valued = named(|arg| arg.get_action().takes_values());
-    let mut joined: Vec<OsString> = Vec::new();
-    for argument in arguments {
-        let text = argument.to_str().unwrap_or_default();
-        let is_number = text.parse::<f64>().is_ok();
-        let is_below_0 = text
-            .strip_prefix('-')
-            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
-        match joined.last_mut() {
-            Some(last) if is_number && optional.contains(last) || is_below_0 && valued.contains(last) => {
-                last.push("=");
-                last.push(argument);
-            }
-            _ => joined.push(argument),
-        }
-    }
-    joined
-}
-
 /// Runs the program on the process's arguments and gives its exit code.
 ///
 /// Errors are one line on standard error; a reader that goes away (`| head`) ends the program
 /// quietly; an interrupt ends it with 130. Checked in `tests/program/cli.rs` and `tests/program/exits.rs`.
 pub fn run() -> ExitCode {
     // if the handler cannot be set the system's own takes its place: the program still stops
-    let _ = ctrlc::set_handler(|| exit_code::interrupted());
+    let _ = ctrlc::set_handler(|| interrupt::interrupted());
     if let Err(problem) = limits::asked() {
         return CliError::input(problem.to_string()).report();
     }
     let mut command = command();
-    let arguments = joined(std::env::args_os(), &command);
+    let arguments = arguments::joined(std::env::args_os(), &command);
     let read = command.try_get_matches_from_mut(arguments).and_then(|found| Cli::from_arg_matches(&found));
     let cli = match read {
         Ok(cli) => cli,
-        Err(error) => return exit_code::usage(&error, &self::command()),
+        Err(error) => return usage::usage(&error, &self::command()),
     };
-    cli.console.start_threads();
+    threads::start(cli.console.threads, &cli.console);
     match cli.command.run(&cli.console) {
         Ok(code) => code.into(),
         Err(failure) => failure.report(),
@@ -187,16 +163,6 @@ pub fn run() -> ExitCode {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_number_after_an_option_that_may_stand_alone_is_its_value() {
-        let said = |line: &str| joined(line.split(' ').map(OsString::from), &command());
-        assert_eq!(said("cutlab render --glare 8 cube"), ["cutlab", "render", "--glare=8", "cube"]);
-        assert_eq!(said("cutlab render --glare cube"), ["cutlab", "render", "--glare", "cube"]);
-        assert_eq!(said("cutlab render --width 8"), ["cutlab", "render", "--width", "8"]);
-        assert_eq!(said("cutlab show a --size -3mm"), ["cutlab", "show", "a", "--size=-3mm"]);
-        assert_eq!(said("cutlab score -j -2 --exact -3"), ["cutlab", "score", "-j", "-2", "--exact", "-3"]);
-    }
 
     #[test]
     fn the_command_line_is_consistent() {

@@ -1,12 +1,32 @@
 //! The one error of the library's root, and its kinds.
 
 #[cfg(feature = "files")]
+use crate::batch::comparison::ComparisonError;
+#[cfg(feature = "files")]
+use crate::batch::merge::MergeError;
+#[cfg(feature = "files")]
+use crate::batch::table::TableError;
+#[cfg(feature = "files")]
+use crate::batch::table_job::TableJobError;
+use crate::design::CutError;
+#[cfg(feature = "files")]
 use crate::formats::FormatError;
+use crate::geometry::SolidError;
 use crate::materials::NoSuchMaterial;
+#[cfg(feature = "render")]
+use crate::photons::map_file::MapFileError;
+#[cfg(feature = "render")]
+use crate::render::RenderError;
+#[cfg(feature = "report")]
+use crate::report::ReportError;
+#[cfg(feature = "render")]
+use crate::scene::SceneError;
 use crate::scoring::ScoreError;
 use crate::stone::StoneError;
 #[cfg(feature = "files")]
 use crate::storage::atomic_write::WriteError;
+#[cfg(feature = "files")]
+use crate::storage::find_files::FindError;
 #[cfg(feature = "files")]
 use std::io::ErrorKind as IoErrorKind;
 
@@ -40,7 +60,29 @@ pub enum Error {
     /// Of a picture.
     #[cfg(feature = "render")]
     #[error(transparent)]
-    Render(#[from] crate::render::RenderError),
+    Render(#[from] RenderError),
+    /// Of a report.
+    #[cfg(feature = "report")]
+    #[error(transparent)]
+    Report(Box<ReportError>),
+    /// Of stones beside each other.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Comparison(Box<ComparisonError>),
+    /// Of a table.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// Of the parts of a table.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Merge(Box<MergeError>),
+    /// Of planes that bound no solid.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// Of parameters that no cut has.
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// A material that there is not.
     #[error(transparent)]
     Material(#[from] NoSuchMaterial),
@@ -74,13 +116,52 @@ impl Error {
         match self {
             Error::Stone(error) => of_stone(error),
             Error::Score(ScoreError::NoSuchMetric { .. }) | Error::Material(_) => ErrorKind::NotFound,
-            Error::Score(_) => ErrorKind::Invalid,
+            Error::Score(_) | Error::Solid(_) | Error::Cut(_) => ErrorKind::Invalid,
             #[cfg(feature = "files")]
             Error::Format(error) => of_format(error),
             #[cfg(feature = "files")]
             Error::Write(_) => ErrorKind::Io,
             #[cfg(feature = "render")]
             Error::Render(error) => of_render(error),
+            #[cfg(feature = "report")]
+            Error::Report(error) => match &**error {
+                ReportError::Format(error) => of_format(error),
+                ReportError::Write(_) => ErrorKind::Io,
+                _ => ErrorKind::Invalid,
+            },
+            #[cfg(feature = "files")]
+            Error::Comparison(error) => match **error {
+                ComparisonError::Cancelled => ErrorKind::Cancelled,
+                _ => ErrorKind::Invalid,
+            },
+            #[cfg(feature = "files")]
+            Error::Table(_) => ErrorKind::Invalid,
+            #[cfg(feature = "files")]
+            Error::Merge(error) => of_parts(error),
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+impl Error {
+    /// The file that could not be written, if that is what went wrong.
+    pub fn not_written(&self) -> Option<&WriteError> {
+        match self {
+            Error::Write(error) | Error::Format(FormatError::Write(error)) => Some(error),
+            Error::Merge(error) => match &**error {
+                MergeError::Write(error) => Some(error),
+                _ => None,
+            },
+            #[cfg(feature = "render")]
+            Error::Render(RenderError::Write(error) | RenderError::PhotonMap(MapFileError::Write(error))) => {
+                Some(error)
+            }
+            #[cfg(feature = "report")]
+            Error::Report(error) => match &**error {
+                ReportError::Write(error) => Some(error),
+                _ => None,
+            },
+            _ => None,
         }
     }
 }
@@ -91,13 +172,72 @@ impl From<StoneError> for Error {
     }
 }
 
+#[cfg(feature = "files")]
+impl From<FindError> for Error {
+    fn from(error: FindError) -> Error {
+        StoneError::from(error).into()
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<MergeError> for Error {
+    fn from(error: MergeError) -> Error {
+        Error::Merge(Box::new(error))
+    }
+}
+
+#[cfg(feature = "report")]
+impl From<ReportError> for Error {
+    fn from(error: ReportError) -> Error {
+        Error::Report(Box::new(error))
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<ComparisonError> for Error {
+    fn from(error: ComparisonError) -> Error {
+        match error {
+            ComparisonError::Stone(error) => error.into(),
+            ComparisonError::Score(error) => error.into(),
+            other => Error::Comparison(Box::new(other)),
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+impl From<TableJobError> for Error {
+    fn from(error: TableJobError) -> Error {
+        match error {
+            TableJobError::Write(error) => error.into(),
+            TableJobError::Table(error) => error.into(),
+        }
+    }
+}
+
+#[cfg(feature = "render")]
+impl From<SceneError> for Error {
+    fn from(error: SceneError) -> Error {
+        Error::Render(error.into())
+    }
+}
+
+#[cfg(feature = "render")]
+impl From<MapFileError> for Error {
+    fn from(error: MapFileError) -> Error {
+        Error::Render(error.into())
+    }
+}
+
 fn of_stone(error: &StoneError) -> ErrorKind {
     match error {
         #[cfg(feature = "files")]
         StoneError::Format(error) => of_format(error),
-        StoneError::NoSuchStone { .. } | StoneError::NoSuchFile { .. } | StoneError::Impossible { .. } => {
-            ErrorKind::NotFound
-        }
+        #[cfg(feature = "files")]
+        StoneError::Find(error) => of_search(error),
+        StoneError::NoSuchStone { .. }
+        | StoneError::NoSuchFile { .. }
+        | StoneError::NoStones { .. }
+        | StoneError::Impossible { .. } => ErrorKind::NotFound,
         _ => ErrorKind::Invalid,
     }
 }
@@ -105,19 +245,50 @@ fn of_stone(error: &StoneError) -> ErrorKind {
 #[cfg(feature = "files")]
 fn of_format(error: &FormatError) -> ErrorKind {
     match error {
-        FormatError::Read { cause, .. } if cause.kind() == IoErrorKind::NotFound => ErrorKind::NotFound,
-        FormatError::Read { .. } | FormatError::Write(_) => ErrorKind::Io,
+        FormatError::Read { cause, .. } => of_reading(cause),
+        FormatError::Write(_) => ErrorKind::Io,
         FormatError::Limit { .. } | FormatError::TooLarge { .. } => ErrorKind::Limit,
         _ => ErrorKind::Invalid,
     }
 }
 
+#[cfg(feature = "files")]
+fn of_search(error: &FindError) -> ErrorKind {
+    match error {
+        FindError::Read { cause, .. } => of_reading(cause),
+        FindError::NoMatch(_) => ErrorKind::NotFound,
+        FindError::NotUtf8(_) | FindError::Broken(_) => ErrorKind::Invalid,
+    }
+}
+
+#[cfg(feature = "files")]
+fn of_parts(error: &MergeError) -> ErrorKind {
+    match error {
+        MergeError::Read { cause, .. } => of_reading(cause),
+        MergeError::Write(_) => ErrorKind::Io,
+        MergeError::Find(error) => of_search(error),
+        MergeError::NoPart(_) | MergeError::Missing(..) => ErrorKind::NotFound,
+        _ => ErrorKind::Invalid,
+    }
+}
+
+/// A name that leads to no file is to be mended; a file that is there and cannot be read is not.
+#[cfg(feature = "files")]
+fn of_reading(cause: &std::io::Error) -> ErrorKind {
+    match cause.kind() {
+        IoErrorKind::NotFound | IoErrorKind::NotADirectory | IoErrorKind::IsADirectory => ErrorKind::NotFound,
+        _ => ErrorKind::Io,
+    }
+}
+
 #[cfg(feature = "render")]
-fn of_render(error: &crate::render::RenderError) -> ErrorKind {
-    use crate::render::RenderError;
+fn of_render(error: &RenderError) -> ErrorKind {
     match error {
         RenderError::Stone(error) => of_stone(error),
-        RenderError::Write(_) => ErrorKind::Io,
+        RenderError::Scene(SceneError::Read { cause, .. })
+        | RenderError::PhotonMap(MapFileError::Read { cause, .. }) => of_reading(cause),
+        RenderError::Scene(SceneError::Limit { .. }) => ErrorKind::Limit,
+        RenderError::Write(_) | RenderError::PhotonMap(MapFileError::Write(_)) => ErrorKind::Io,
         RenderError::Cancelled => ErrorKind::Cancelled,
         _ => ErrorKind::Invalid,
     }

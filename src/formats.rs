@@ -20,6 +20,7 @@ mod glb_write;
 mod include;
 pub mod input;
 pub mod mesh_export;
+pub mod mesh_facts;
 mod mesh_import;
 mod obj;
 mod perfect_diamond;
@@ -36,6 +37,7 @@ pub use format::{Format, Parsed, ParsedShape, Writer};
 use format::{ReadOutcome, read_file, within_limit};
 pub use input::Input;
 pub use mesh_export::MeshExport;
+pub use mesh_facts::MeshFacts;
 
 use crate::design::{Design, LengthUnit, USUAL_WIDTH_MM};
 use crate::geometry::ClosedMesh;

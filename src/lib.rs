@@ -59,7 +59,11 @@ mod report;
 mod cli;
 
 #[cfg(feature = "files")]
+pub use batch::comparison::{ComparisonError, StoneComparison};
+#[cfg(feature = "files")]
 pub use batch::request::{ComparisonTable, ScoreTable, SweepTable, TableRequest};
+#[cfg(feature = "files")]
+pub use batch::stone_files::expand_stones;
 pub use color::Illuminant;
 pub use design::{Design, LengthUnit};
 pub use error::{Error, ErrorKind};

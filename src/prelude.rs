@@ -14,9 +14,12 @@
 //!
 //! The programs in `tools/examples/` show more, and the tests run them.
 
+#[cfg(feature = "files")]
+pub use crate::batch::stone_files::expand_stones;
 pub use crate::design::{Design, LengthUnit};
 pub use crate::error::{Error, ErrorKind};
 pub use crate::geometry::{Plane, Polyhedron};
+pub use crate::limits::Limits;
 pub use crate::materials::Material;
 pub use crate::metrics::Metric;
 pub use crate::progress::Progress;

@@ -1,5 +1,8 @@
 //! Progress of long work, as it is told to whoever waits for it; and whether it is to end early.
 
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
 /// Hears how long work goes on, and may end it. Every method has a default that does nothing.
 ///
 /// It is called from all threads. `()` hears nothing and ends nothing.
@@ -59,3 +62,30 @@ pub trait Progress: Sync {
 }
 
 impl Progress for () {}
+
+/// What has been said already, of what is said once for many stones.
+#[derive(Debug, Default)]
+pub struct SaidOnce(Mutex<BTreeSet<String>>);
+
+impl SaidOnce {
+    /// Whether nothing of this key has been said; from now on it has.
+    pub fn is_new(&self, key: &str) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_owned())
+    }
+
+    /// Notes something once.
+    ///
+    /// - `key`: what tells it from other things
+    pub fn note(&self, progress: &dyn Progress, text: &str, key: &str) {
+        if self.is_new(key) {
+            progress.note(text);
+        }
+    }
+
+    /// Notes something of one stone, once for all stones of which the same is to be said.
+    ///
+    /// - `key`: what is the same
+    pub fn note_of_one(&self, progress: &dyn Progress, text: &str, key: &str) {
+        self.note(progress, &format!("note: {text} (not said of others)"), key);
+    }
+}

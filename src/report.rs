@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod comparison_page;
 pub mod diagram;
+pub mod drawing_format;
 pub mod estimates;
 mod html;
 pub mod page;
@@ -14,6 +15,8 @@ mod request;
 pub mod sections;
 pub mod stone_report;
 pub mod svg_canvas;
+pub mod table_plots;
+pub mod target_format;
 pub mod tilt_curves;
 pub mod validation;
 pub mod viewer_images;

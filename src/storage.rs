@@ -3,6 +3,7 @@
 pub mod atomic_write;
 pub mod bounded_read;
 pub mod checkpoint;
+pub mod find_files;
 pub mod include;
 pub mod journal;
 pub mod lock;

@@ -6,8 +6,10 @@ use super::table::{RowReader, TableError, TableFormat};
 use super::table_job::TableSummary;
 use crate::limits::{self, Limits};
 use crate::storage::atomic_write::{self, WriteError};
+use crate::storage::find_files::{self, FindError};
 use crate::storage::journal::Journal;
 use crate::storage::{bounded_read, text};
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -68,6 +70,34 @@ pub enum MergeError {
     /// A row that cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// A pattern that cannot be searched for, or that no name matches.
+    #[error(transparent)]
+    Find(#[from] FindError),
+    /// A pattern that matches no part.
+    #[error("no part of a table matches {0}")]
+    NoPart(String),
+}
+
+/// The tables that are to be joined: a pattern of names is replaced by what it matches, but for sidecars and whole
+/// tables; a name stays as it is.
+pub fn part_files(names: &[OsString], limits: Limits) -> Result<Vec<PathBuf>, MergeError> {
+    let is_whole = |table: &Path| {
+        TableMeta::read(&TableMeta::find_for(table), limits).is_ok_and(|meta| meta.shard.is_none())
+    };
+    let mut all = Vec::new();
+    for name in names {
+        if find_files::is_pattern(name) {
+            let mut found = find_files::matching(name)?;
+            found.retain(|table| !TableMeta::is_sidecar(table) && !is_whole(table));
+            if found.is_empty() {
+                return Err(MergeError::NoPart(text::display_name(name)));
+            }
+            all.extend(found);
+        } else {
+            all.push(name.into());
+        }
+    }
+    Ok(all)
 }
 
 /// `shard 2/4 is missing: rows 2, 6, 10 … (25 of 100)`

@@ -39,7 +39,8 @@ fn measured_cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Opt
     if to_mm.is_some()
         && let Some(note) = weight.note()
     {
-        maker.say_of_one(&format!("weight of {}: {note}", stone.name()), &note);
+        let said = format!("weight of {}: {note}", stone.name());
+        maker.said.note_of_one(maker.progress, &said, &note);
     }
     let number = |x: Option<f64>| x.map_or(TableCell::Empty(()), TableCell::number);
     Some(vec![

@@ -3,14 +3,12 @@
 use super::input_files::InputFiles;
 use super::table::{self, TableCell, TableError, TableFormat};
 use super::table_job::{FinishedRow, RowStatus};
-use crate::progress::Progress;
+use crate::progress::{Progress, SaidOnce};
 use crate::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Tilt, score};
 use crate::stone::{Stone, StoneError, StoneOptions, StoneSpec};
 use crate::storage::terminal::one_line;
 use crate::storage::text::display_name;
-use std::collections::BTreeSet;
 use std::ffi::OsStr;
-use std::sync::Mutex;
 
 /// Makes the rows of a table.
 pub struct RowMaker<'a> {
@@ -22,7 +20,8 @@ pub struct RowMaker<'a> {
     pub columns: Vec<String>,
     /// Hears what is to be said of stones.
     pub progress: &'a dyn Progress,
-    said: Mutex<BTreeSet<String>>,
+    /// What of them has been said.
+    pub said: SaidOnce,
 }
 
 impl<'a> RowMaker<'a> {
@@ -34,30 +33,14 @@ impl<'a> RowMaker<'a> {
         progress: &'a dyn Progress,
     ) -> RowMaker<'a> {
         let columns = table::columns(leading, &scores.metrics);
-        RowMaker { scores, inputs, columns, progress, said: Mutex::new(BTreeSet::new()) }
-    }
-
-    /// Says something once.
-    ///
-    /// - `key`: what tells it from other things
-    fn say_once(&self, text: &str, key: &str) {
-        if self.said.lock().is_ok_and(|mut said| said.insert(key.to_owned())) {
-            self.progress.note(text);
-        }
-    }
-
-    /// Says something of one stone, once for all of which the same is to be said.
-    ///
-    /// - `key`: what is the same
-    pub fn say_of_one(&self, text: &str, key: &str) {
-        self.say_once(&format!("note: {text} (not said of others)"), key);
+        RowMaker { scores, inputs, columns, progress, said: SaidOnce::default() }
     }
 
     /// The stone that STONE names: as large as it is asked for, or as its colour needs it.
     fn open(&self, spec: &OsStr, options: &StoneOptions) -> Result<Stone, StoneError> {
         let stone = Stone::open(spec, options)?;
         if let Some(doubt) = stone.orientation_doubt() {
-            self.say_once(&format!("note: {}: {doubt}", stone.name()), stone.name());
+            self.said.note(self.progress, &format!("note: {}: {doubt}", stone.name()), stone.name());
         }
         if stone.lacks_size() { stone.with_usual_width() } else { Ok(stone) }
     }
@@ -91,7 +74,7 @@ impl<'a> RowMaker<'a> {
         };
         let (row, outcome) = self.inputs.checked(file, (row, outcome));
         if let Some(note) = row.note {
-            self.say_of_one(&format!("{}: {note}", display_name(spec)), note);
+            self.said.note_of_one(self.progress, &format!("{}: {note}", display_name(spec)), note);
         }
         (row, outcome)
     }

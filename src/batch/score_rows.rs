@@ -43,7 +43,7 @@ impl<'a> ScoreRows<'a> {
             let about = |&azimuth: &f64| range.degrees.values().map(move |degrees| Tilt { degrees, azimuth });
             tilts = range.azimuths.iter().flat_map(about).collect();
         }
-        let inputs = InputFiles::new(request, stones.iter().map(OsString::as_os_str));
+        let inputs = InputFiles::new(request, &table.options, stones.iter().map(OsString::as_os_str));
         let maker = RowMaker::new(&leading, &table.scores, inputs, progress);
         ScoreRows { table, stones, tilts, maker }
     }

@@ -10,6 +10,7 @@ use super::table::TableFormat;
 use super::table_job::TableSummary;
 use crate::limits::{self, Limits};
 use crate::scoring::score::ScoreRequest;
+use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::{bounded_read, text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -196,6 +197,14 @@ impl TableMeta {
                 source: m.source.into(),
             })
             .collect()
+    }
+
+    /// Writes the sidecar of `table`.
+    pub fn write_for(&self, table: &Path) -> Result<(), WriteError> {
+        let path = TableMeta::path_for(table);
+        let fail = |cause: serde_json::Error| WriteError { path: path.clone(), cause: cause.into() };
+        let bytes = self.bytes().map_err(fail)?;
+        atomic_write::write(&path, &bytes)
     }
 
     /// As the bytes of the sidecar.

@@ -42,7 +42,7 @@ impl<'a> SweepRows<'a> {
         let opened = Stone::open(stone, &StoneOptions { size_mm: None, ..table.options.clone() })?;
         let is_diamond =
             Weight::new(opened.material()).is_diamond() && table.vary.iter().all(|v| v.key != INDEX);
-        let inputs = InputFiles::new(request, [stone].into_iter());
+        let inputs = InputFiles::new(request, &table.options, [stone]);
         let maker = RowMaker::new(&leading, &table.scores, inputs, progress);
         Ok(Some(SweepRows { table, stone, sweep, total, is_diamond, maker }))
     }

@@ -8,6 +8,7 @@ mod check;
 mod context;
 mod faceters;
 mod facets;
+mod figure_rows;
 pub mod figures;
 mod fire;
 mod geometry;
@@ -20,8 +21,9 @@ pub use check::{
 };
 use check::{Measured, TRACER};
 pub use context::{CheckContext, CheckError};
+pub use figure_rows::{FigureRow, csv};
 
-use super::table::TableError;
+use crate::progress::Progress;
 
 /// Every check, in the order of the table.
 pub fn catalogue() -> Vec<Check> {
@@ -39,55 +41,17 @@ pub fn only(checks: Vec<Check>, part: &str) -> Vec<Check> {
     checks.into_iter().filter(keeps).collect()
 }
 
-/// The columns of the table.
-const COLUMNS: [&str; 11] = [
-    "subject",
-    "figure",
-    "source",
-    "kind",
-    "relation",
-    "expected",
-    "tolerance",
-    "unit",
-    "ours",
-    "ours_se",
-    "verdict",
-];
-
-/// The table as CSV, the last column `why`.
-pub fn csv<'a>(outcomes: impl Iterator<Item = &'a FigureOutcome>) -> Result<Vec<u8>, TableError> {
-    let fail = |e: csv::Error| TableError::Row(e.to_string());
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(COLUMNS.iter().chain(&["why"])).map_err(fail)?;
-    for o in outcomes {
-        let f = &o.figure;
-        let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{}", (x * 1e9).round() / 1e9));
-        let [kind, verdict] = [f.source.kind.to_string(), o.verdict.to_string()];
-        let [expected, tolerance] = [Some(f.expected.value()), f.expected.tolerance()].map(exactly);
-        let [ours, error] = [o.ours.map(|e| e.value), o.ours.map(|e| e.error)].map(number);
-        table
-            .write_record([
-                o.subject,
-                &f.name,
-                f.source.name,
-                &kind,
-                f.expected.relation(),
-                &expected,
-                &tolerance,
-                f.unit,
-                &ours,
-                &error,
-                &verdict,
-                &o.why,
-            ])
-            .map_err(fail)?;
-    }
-    table.into_inner().map_err(|e| TableError::Row(e.to_string()))
-}
-
-/// A number of the catalogue as it is written there.
-fn exactly(x: Option<f64>) -> String {
-    x.map_or(String::new(), |x| if x != 0.0 && x.abs() < 1e-4 { format!("{x:e}") } else { format!("{x}") })
+/// Runs the checks, one after the other.
+pub fn run(checks: Vec<Check>, context: &CheckContext, progress: &dyn Progress) -> Vec<CheckReport> {
+    progress.begin("validating", checks.len() as u64);
+    let run = |check: Check| {
+        let report = check.run(context);
+        progress.advance(1);
+        report
+    };
+    let reports = checks.into_iter().map(run).collect();
+    progress.end();
+    reports
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Arguments that several commands share, each group a file.
 
 pub(in crate::cli) mod family;
-pub(in crate::cli) mod inputs;
 pub(in crate::cli) mod material;
 pub(in crate::cli) mod scoring;
 pub(in crate::cli) mod stone;

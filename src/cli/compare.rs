@@ -1,26 +1,26 @@
 //! `cutlab compare`: stones beside each other, with differences and what they are worth.
 
+mod entries;
+mod format;
 mod text;
 
 use super::args::scoring::ScoringArgs;
-use super::args::{inputs, stone, tables};
+use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use crate::batch::fingerprint::Fingerprint;
+use super::progress::BarProgress;
+use crate::batch::comparison::{ComparisonError, StoneComparison};
 use crate::batch::request::{ComparisonTable, TableRequest};
-use crate::batch::sidecar::TableMeta;
-use crate::batch::table::TableFormat;
+use crate::batch::stone_files::expand_stones;
+use crate::cli::limits::limits;
 use crate::render::record;
-use crate::report::{ReportInput, USUAL_WIDTH, comparison_page};
-use crate::sampling::stats::Estimate;
-use crate::scoring::comparison::{Comparison, RUNS, compare};
-use crate::scoring::score::{ScoreInput, ScoreRequest, Target};
 use crate::storage::atomic_write;
-use serde::Serialize;
-use std::ffi::{OsStr, OsString};
-use std::path::{Path, PathBuf};
-use text::Compared;
+use format::ComparisonFormat;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use text::ComparisonText;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -47,220 +47,56 @@ pub struct CompareArgs {
     scoring: ScoringArgs,
 }
 
-/// One metric of all stones, for `--json`.
-#[derive(Serialize)]
-struct MetricEntry<'a> {
-    metric: &'static str,
-    unit: &'static str,
-    /// `more` or `less`, if either is better by itself.
-    better: Option<&'static str>,
-    /// Differences up to this are never significant.
-    negligible: f64,
-    scores: Vec<Scored<'a>>,
-    differences: Vec<Differs<'a>>,
-}
-
-#[derive(Serialize)]
-struct Scored<'a> {
-    stone: &'a str,
-    material: &'a str,
-    #[serde(flatten)]
-    score: Option<Estimate>,
-    /// Why there is no score.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    left_out: Option<&'a str>,
-}
-
-#[derive(Serialize)]
-struct Differs<'a> {
-    stone: &'a str,
-    from: &'a str,
-    #[serde(flatten)]
-    difference: Option<Estimate>,
-    significant: Option<bool>,
-}
-
 /// Compares the stones.
 pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let plan = args.scoring.plan();
-    let specs = inputs::expanded(&args.stones)?;
-    if specs.len() < 2 {
-        return Err(CliError::input("a comparison needs two stones or more"));
+    let stones = expand_stones(&args.stones, limits())?;
+    if stones.len() < 2 {
+        return Err(ComparisonError::TooFew.into());
     }
     let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
-    let mut outputs = Outputs::reading_stones(&specs, console);
     let command = record::own_command();
-    let request = TableRequest::Compare(ComparisonTable {
+    let table = ComparisonTable {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.scoring.options(),
-        scores: plan.clone(),
-    });
-    match &output {
-        Some(ComparisonFormat::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
-        Some(ComparisonFormat::Markdown(path)) => {
-            outputs.claim(path, |there| record::is_of(there, &command))?
-        }
-        Some(ComparisonFormat::Table(path, _)) => {
-            tables::claim_table(path, &|meta| meta.is_of(&request), None, false, &mut outputs)?
-        }
-        None => (),
-    }
-    let requests: Vec<ReportInput> =
-        specs.iter().map(|s| report_request(s, args, console)).collect::<Result<_, _>>()?;
-    let subject = |r: &ReportInput| {
-        let shape = Ok(r.design.solid()?.into());
-        Ok(ScoreInput { stone: r.stone.clone(), material: r.material.clone(), shape, tilt: None })
+        scores: args.scoring.plan(),
     };
-    let subjects: Vec<ScoreInput> = requests.iter().map(subject).collect::<Result<_, CliError>>()?;
-    args.scoring.notes(false).iter().for_each(|note| console.note(note));
-    let bar = console.progress(if args.scoring.is_exact() { 1 } else { RUNS as usize }, "comparing");
-    let comparison = compare(&subjects, &plan, &|| bar.inc(1));
-    bar.finish_and_clear();
-    let mut short = false;
-    for row in &comparison.rows {
-        if let Some(error) = &row.error {
-            console.complain(&format!("{}: {error}", row.stone));
-            short = true;
-            if row.scores.iter().all(Option::is_none) {
-                return Ok(ExitStatus::NoGoodInput);
-            }
-        }
+    if let Some(output) = &output {
+        let request = TableRequest::Compare(table.clone());
+        output.claim(&request, &command, &mut Outputs::reading_stones(&stones, console))?;
     }
-    let compared = Compared { requests: &requests, comparison: &comparison, plan: &plan };
+    let opened = table.open(&stones, console).map_err(|error| match error {
+        ComparisonError::Stone(error) => CliError::needs_convex("a comparison", error),
+        error => error.into(),
+    })?;
+    args.scoring.notes(false).iter().for_each(|note| console.note(note));
+    let compared = opened.run(&BarProgress::new(console))?;
+    let status = complain(&compared, console);
+    if status == ExitStatus::NoGoodInput {
+        return Ok(status);
+    }
     let table_is_printed = output.as_ref().is_some_and(|o| atomic_write::is_stdout(o.path()));
     if !table_is_printed && console.json {
-        console.print_json(&entries(&comparison, &plan))?;
+        console.print_json(&entries::of(&compared))?;
     } else if !table_is_printed {
-        console.print(&compared.text())?;
+        console.print(&ComparisonText(&compared).text())?;
     }
     if let Some(output) = &output {
-        let path = output.path();
-        match output {
-            ComparisonFormat::Page(_) => {
-                let bar = console.steps(comparison_page::STEPS * requests.len());
-                let page = comparison_page::html(&requests, &comparison, &plan, &|what| {
-                    bar.set_message(what);
-                    bar.inc(1);
-                });
-                bar.finish_and_clear();
-                atomic_write::write(path, record::recorded(page?, &command).as_bytes())?;
-            }
-            ComparisonFormat::Markdown(_) => {
-                atomic_write::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
-            }
-            ComparisonFormat::Table(_, form) => {
-                compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));
-                write_table(&compared, path, *form, &request)?;
+        output.write(&compared, &command, console)?;
+    }
+    Ok(status)
+}
+
+/// Says what went wrong with each stone, up to one that has no scores at all.
+fn complain(compared: &StoneComparison, console: &Console) -> ExitStatus {
+    let mut status = ExitStatus::Done;
+    for row in &compared.comparison.rows {
+        if let Some(error) = &row.error {
+            console.complain(&format!("{}: {error}", row.stone));
+            status = ExitStatus::SomeFailed;
+            if row.scores.iter().all(Option::is_none) {
+                return ExitStatus::NoGoodInput;
             }
         }
-        if !atomic_write::is_stdout(path) {
-            console.note(&format!("wrote {}", stone::display_name(path)));
-        }
     }
-    Ok(if short { ExitStatus::SomeFailed } else { ExitStatus::Done })
-}
-
-/// What `-o` asks for, by its extension.
-enum ComparisonFormat {
-    /// A page in a folder.
-    Page(PathBuf),
-    /// The table for people.
-    Markdown(PathBuf),
-    /// The table with a row for each metric and stone.
-    Table(PathBuf, TableFormat),
-}
-
-impl ComparisonFormat {
-    fn from_path(path: &Path, console: &Console) -> Result<ComparisonFormat, CliError> {
-        let path = path.to_owned();
-        let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
-        if atomic_write::is_stream(&path) && !is_markdown {
-            let form = tables::format_of(&path, console)?;
-            return Ok(ComparisonFormat::Table(path, form));
-        }
-        let extension = path.extension().filter(|_| !path.is_dir());
-        Ok(match extension {
-            Some(_) if is_markdown => ComparisonFormat::Markdown(path),
-            Some(_) => {
-                let form = TableFormat::from_path(&path).map_err(|_| {
-                    let path = stone::display_name(&path);
-                    CliError::input(format!("{path}: a comparison is .csv, .jsonl, .json, .md or a folder"))
-                })?;
-                ComparisonFormat::Table(path, form)
-            }
-            None => ComparisonFormat::Page(path.join("index.html")),
-        })
-    }
-
-    fn path(&self) -> &Path {
-        match self {
-            ComparisonFormat::Page(path)
-            | ComparisonFormat::Markdown(path)
-            | ComparisonFormat::Table(path, _) => path,
-        }
-    }
-}
-
-/// Writes the table, after its sidecar.
-fn write_table(
-    compared: &Compared,
-    path: &Path,
-    form: TableFormat,
-    request: &TableRequest,
-) -> Result<(), CliError> {
-    let bytes = compared.table(form)?;
-    if !atomic_write::is_stream(path) {
-        let (study, columns) =
-            (Fingerprint::of_request(request).hex(), text::COLUMNS.map(String::from).into());
-        let crc32 = format!("{:08x}", crc32fast::hash(&bytes));
-        let meta = TableMeta { crc32, ..TableMeta::new(request, study, columns) };
-        let meta = meta.bytes().map_err(|e| CliError::input(e.to_string()))?;
-        atomic_write::write(&TableMeta::path_for(path), &meta)?;
-    }
-    Ok(atomic_write::write(path, &bytes)?)
-}
-
-fn report_request(stone: &OsStr, args: &CompareArgs, console: &Console) -> Result<ReportInput, CliError> {
-    let stone = args.scoring.open(stone, console)?.with_usual_width()?;
-    let design = stone.convex_design().map_err(|error| CliError::needs_convex("a comparison", error))?;
-    Ok(ReportInput {
-        stone: stone.name().into(),
-        design: design.clone(),
-        material: stone.material().clone(),
-        polarised: args.scoring.polarisation,
-        seed: args.scoring.seed,
-        target: Target::default(),
-        width: USUAL_WIDTH,
-        command: record::command_line(),
-    })
-}
-
-fn entries<'a>(comparison: &'a Comparison, plan: &ScoreRequest) -> Vec<MetricEntry<'a>> {
-    let rows = &comparison.rows;
-    let entry = |(m, metric): (usize, &&'static crate::metrics::Metric)| MetricEntry {
-        metric: metric.name,
-        unit: metric.unit,
-        better: Some(metric.better.word()).filter(|word| !word.is_empty()),
-        negligible: comparison.negligible[m],
-        scores: rows
-            .iter()
-            .map(|r| Scored {
-                stone: &r.stone,
-                material: &r.material,
-                score: r.scores[m],
-                left_out: r.why_left_out(metric),
-            })
-            .collect(),
-        differences: rows[1..]
-            .iter()
-            .enumerate()
-            .map(|(other, row)| Differs {
-                stone: &row.stone,
-                from: &rows[0].stone,
-                difference: comparison.differences[other][m],
-                significant: comparison.is_significant(other, m),
-            })
-            .collect(),
-    };
-    plan.metrics.iter().enumerate().map(entry).collect()
+    status
 }

@@ -1,7 +1,8 @@
 //! `cutlab completions`: scripts by which shells complete commands and options.
 
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use crate::storage::atomic_write;
 use clap_complete::Shell;
 use std::path::Path;

@@ -2,14 +2,13 @@
 //! error.
 
 use super::args::values;
-use super::exit_code::{CliError, complain};
+use super::error::{CliError, complain};
 use super::heartbeat;
+use super::threads::MOST_THREADS;
 use crate::progress::Progress;
 use crate::storage::terminal::{in_line, printable, printable_json};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::collections::BTreeSet;
 use std::io::Write;
-use std::sync::{Arc, Mutex};
 
 /// The options that every command has.
 #[derive(Debug, Clone, clap::Args)]
@@ -26,16 +25,8 @@ pub struct Console {
     /// Work on this many threads [RAYON_NUM_THREADS, or one for each processor]; the results are the
     /// same on any number
     #[arg(long, short = 'j', global = true, display_order = 1000, value_name = "N", value_parser = values::whole_number(1..=MOST_THREADS, "threads are a whole number"))]
-    threads: Option<u32>,
-    /// What was said already, of what is said once.
-    #[arg(skip)]
-    said: Arc<Mutex<BTreeSet<String>>>,
+    pub threads: Option<u32>,
 }
-
-/// More threads than that only take memory, and minutes to start.
-const MOST_THREADS: u32 = 256;
-/// How many threads there are, if `--threads` does not say.
-const THREADS: &str = "RAYON_NUM_THREADS";
 
 /// What work tells without a bar: its notes.
 impl Progress for Console {
@@ -45,20 +36,6 @@ impl Progress for Console {
 }
 
 impl Console {
-    /// Starts the threads that work is done on, as many as were asked for but no more than
-    /// [`MOST_THREADS`].
-    pub fn start_threads(&self) {
-        let asked = std::env::var(THREADS).ok().and_then(|n| n.trim().parse::<u64>().ok()).unwrap_or(0);
-        if self.threads.is_none() && asked > u64::from(MOST_THREADS) {
-            self.note(&format!(
-                "note: {THREADS}={asked}: {MOST_THREADS} threads are used, the most there can be"
-            ));
-        }
-        let threads = self.threads.map_or(asked.min(MOST_THREADS.into()), u64::from);
-        // there is no pool yet, so it can only fail for want of threads: then fewer are started on demand
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global();
-    }
-
     /// A result: standard output, without what a terminal would obey.
     pub fn print(&self, text: &str) -> Result<(), CliError> {
         self.write(&printable(text))
@@ -86,22 +63,6 @@ impl Console {
         if !self.quiet {
             let _ = writeln!(std::io::stderr(), "{}", in_line(text));
         }
-    }
-
-    /// A remark that is made once.
-    ///
-    /// - `key`: what tells it from others
-    pub fn note_once(&self, text: &str, key: &str) {
-        if self.said.lock().is_ok_and(|mut said| said.insert(key.to_owned())) {
-            self.note(text);
-        }
-    }
-
-    /// A remark about one stone, made once for all stones of which the same is to be said.
-    ///
-    /// - `key`: what is the same
-    pub fn note_of_one(&self, said: &str, key: &str) {
-        self.note_once(&format!("note: {said} (not said of others)"), key);
     }
 
     /// Something went wrong with one stone of several: one line on standard error.

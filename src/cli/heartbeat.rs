@@ -1,6 +1,6 @@
 //! Progress of long work where there is no terminal: a line on standard error every half minute.
 
-use super::exit_code::printable;
+use crate::storage::terminal::printable;
 use indicatif::{HumanDuration, ProgressBar, WeakProgressBar};
 use std::io::Write;
 use std::sync::{Mutex, Once, PoisonError};

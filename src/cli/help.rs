@@ -1,7 +1,8 @@
 //! `cutlab help`: the help of a command, or a topic of the manual.
 
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::markdown;
 use crate::manual::{TOPICS, Topic};
 use crate::parse;

@@ -4,7 +4,8 @@ mod catalogue_entry;
 mod entries;
 
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::terminal_table;
 use crate::manual::SCENE_GRAMMAR;
 use crate::parse;

@@ -2,7 +2,8 @@
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use crate::render::record;
 use crate::storage::atomic_write;

@@ -1,13 +1,14 @@
 //! `cutlab merge`: the parts of a table, joined.
 
-use super::args::inputs;
 use super::args::stone;
 use super::args::tables;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
-use crate::batch::merge::{MergeError, TablePart, TableParts};
+use super::table_files;
+use crate::batch::merge::{self, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
 use crate::storage::atomic_write;
@@ -43,7 +44,7 @@ pub struct MergeArgs {
 /// Joins the parts.
 pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let form = tables::format_of(&args.output, console)?;
-    let tables = inputs::parts(&args.parts)?;
+    let tables = merge::part_files(&args.parts, limits())?;
     let mut outputs = Outputs::new(console);
     for table in &tables {
         outputs.reads(table);
@@ -67,23 +68,13 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
     if atomic_write::is_stream(&args.output) {
         parts.write(form, &args.output)?;
         drawn(&parts)?.iter().for_each(|file| console.note(&format!("wrote {}", stone::display_name(file))));
-        return Ok(tables::code(&parts.meta.summary));
+        return Ok(table_files::code(&parts.meta.summary));
     }
     let begun = Journal::belongs_to(&Journal::path_for(&args.output), &parts.identity());
-    tables::claim_table(&args.output, &|meta| meta.is_table_of(&parts.meta), None, begun, &mut outputs)?;
+    table_files::claim(&args.output, &|meta| meta.is_table_of(&parts.meta), None, begun, &mut outputs)?;
     let mut files = drawn(&parts)?;
     parts.publish(form, &args.output)?;
     files.insert(0, args.output.clone());
-    tables::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
-    Ok(tables::code(&parts.meta.summary))
-}
-
-impl From<MergeError> for CliError {
-    fn from(error: MergeError) -> CliError {
-        match error {
-            MergeError::Read { path, cause } => CliError::reading(&stone::display_name(&path), &cause),
-            MergeError::Write(cause) => cause.into(),
-            other => CliError::input(other.to_string()),
-        }
-    }
+    table_files::tell_written(&files, &parts.meta.summary, &format!(" of {count} parts"), console)?;
+    Ok(table_files::code(&parts.meta.summary))
 }

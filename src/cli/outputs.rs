@@ -6,9 +6,10 @@
 //!   ([`crate::render::record`]), or in a table's sidecar.
 //! - Every place is tried before anything is computed ([`output_path::check_writable`]).
 
-use super::args::{inputs, stone};
+use super::args::stone;
 use super::console::Console;
-use super::exit_code::CliError;
+use super::error::CliError;
+use crate::stone::StoneSpec;
 use crate::storage::atomic_write;
 use crate::storage::bounded_read;
 use crate::storage::output_path::{self, FileId};
@@ -38,7 +39,7 @@ impl Outputs {
     ) -> Outputs {
         let mut outputs = Outputs::new(console);
         for stone in stones {
-            if let Some(file) = inputs::file_of(stone.as_ref()) {
+            if let Some(file) = StoneSpec::parse(stone).ok().and_then(|spec| spec.file()) {
                 outputs.reads(&file);
             }
         }

@@ -2,7 +2,8 @@
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::TablePart;

@@ -1,36 +1,28 @@
-//! Plots of a table's scores: where each is written, and what stands along its axes.
+//! Plots of a table's scores: options about them, and where each is written.
 
 mod look;
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::CliError;
+use super::error::CliError;
 use super::outputs::Outputs;
 use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};
 use crate::cli::limits::limits;
 use crate::metrics::Metric;
 use crate::render::record;
-use crate::report::plot::{Axis, ScorePlot, Style};
-use crate::report::{pdf, raster};
-use crate::stone::grammar;
-use crate::storage::atomic_write;
+use crate::report::plot::Style;
+use crate::report::table_plots::TablePlots;
 use std::path::{Path, PathBuf};
 
 pub use look::Look;
 
-/// Plots to be drawn: each file with its score.
+/// Plots to be drawn.
 #[derive(Debug, Clone)]
-pub struct Plots {
-    files: Vec<(PathBuf, &'static Metric)>,
-    style: Style,
-    /// Pixels across those that are pictures.
-    width: u32,
-}
+pub struct Plots(TablePlots);
 
 impl Plots {
-    /// The files of the plots asked for. One that is called as a metric shows that metric; of any
-    /// other name there is one for each, NAME-METRIC.svg.
+    /// The plots asked for.
     ///
     /// - `axes`: columns along the axes
     pub fn new(
@@ -42,44 +34,21 @@ impl Plots {
         if let (true, Some(option)) = (paths.is_empty(), look.given()) {
             return Err(CliError::input(format!("{option} is about plots: --plot FILE draws one")));
         }
-        let mut files = Vec::new();
-        for path in paths {
-            let Some(extension) = ending_of(path) else {
-                return Err(CliError::input(format!(
-                    "{}: plots are .svg, .pdf or .png",
-                    stone::display_name(path)
-                )));
-            };
-            let stem = stone::display_name(path.file_stem().unwrap_or_default());
-            let own = metrics.iter().find(|m| m.name == stem);
-            match (own, metrics) {
-                (Some(metric), _) | (None, [metric]) => files.push((path.clone(), *metric)),
-                _ if atomic_write::is_stream(path) => {
-                    return Err(CliError::input(format!(
-                        "{} takes one plot, and there are {} scores: name a file",
-                        stone::display_name(path),
-                        metrics.len()
-                    )));
-                }
-                _ => files.extend(metrics.iter().map(|metric| {
-                    let name = format!("{stem}-{}.{extension}", metric.name);
-                    (path.with_file_name(name), *metric)
-                })),
-            }
-        }
-        Ok(Plots { files, style: look.style(metrics, axes)?, width: look.width() })
+        // a wrong file is told before a wrong range
+        let plain = TablePlots::new(paths, metrics, Style::default(), look.width())?;
+        Ok(Plots(plain.with_style(look.style(metrics, axes)?)))
     }
 
     /// Whether there is none to be drawn.
     pub fn is_empty(&self) -> bool {
-        self.files.is_empty()
+        self.0.files().next().is_none()
     }
 
     /// Takes the places of all files.
     ///
     /// - `command`: that makes the table
     pub fn claim(&self, command: &str, outputs: &mut Outputs) -> Result<(), CliError> {
-        self.files.iter().try_for_each(|(file, _)| outputs.claim(file, |there| record::is_of(there, command)))
+        self.0.files().try_for_each(|file| outputs.claim(file, |there| record::is_of(there, command)))
     }
 
     /// Draws the plots of a table; their files.
@@ -95,27 +64,8 @@ impl Plots {
         if self.is_empty() {
             return Ok(Vec::new());
         }
-        let table = NumericColumns::read(bytes, form, limits())?;
-        let family = grammar::family(&layout.stone);
-        let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::new(key, family)).collect();
-        for (path, metric) in &self.files {
-            let (stone, is_diamond, style) = (&layout.stone, layout.is_diamond, &self.style);
-            let drawing = ScorePlot { metric, axes: &axes, stone, family, is_diamond, style, own: None };
-            let svg = drawing.svg(&table, layout.scattered, &layout.curves);
-            let bytes = match ending_of(path) {
-                Some("svg") => record::recorded(svg, command).into_bytes(),
-                Some("pdf") => {
-                    let page = pdf::pdf(&svg).map_err(|e| CliError::input(e.to_string()))?;
-                    record::in_pdf(page, command)
-                }
-                _ => {
-                    let png = raster::png_of(&svg, self.width, Some(command));
-                    png.map_err(|e| CliError::input(e.to_string()))?
-                }
-            };
-            atomic_write::write(path, &bytes)?;
-        }
-        Ok(self.files.iter().map(|(path, _)| path.clone()).collect())
+        self.0.draw(&NumericColumns::read(bytes, form, limits())?, layout, command)?;
+        Ok(self.0.files().map(Path::to_owned).collect())
     }
 }
 
@@ -138,12 +88,6 @@ pub fn layout_of(table: &Path, meta: &TableMeta) -> Result<TableLayout, CliError
 /// The metrics of a table.
 pub fn metrics_of(meta: &TableMeta) -> Vec<&'static Metric> {
     meta.metrics.iter().filter_map(|m| Metric::by_name(&m.name)).collect()
-}
-
-/// `svg`, `pdf` or `png`, by the file's extension.
-fn ending_of(path: &Path) -> Option<&'static str> {
-    let extension = path.extension()?.to_string_lossy().to_lowercase();
-    ["svg", "pdf", "png"].into_iter().find(|e| *e == extension)
 }
 
 /// Says which files were drawn.

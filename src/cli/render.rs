@@ -2,30 +2,29 @@
 
 mod choices;
 mod command;
+mod default_name;
 mod options;
-mod progress;
+mod stones;
 
 use super::args::stone;
 use super::console::Console;
-use super::exit_code::{self, CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
+use super::interrupt;
 use super::outputs::Outputs;
+use super::progress::BarProgress;
 use crate::batch::fingerprint::Fingerprint;
 use crate::cli::limits::limits;
-use crate::design::USUAL_WIDTH_MM;
 use crate::photons::map_file;
 use crate::render::{self, OutputTarget, Provenances, record, request};
-use crate::scene::SceneFile;
-use crate::stone::{Stone, StoneSpec, grammar};
 use crate::storage::atomic_write;
 pub use options::RenderArgs;
-use progress::PictureProgress;
-use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
 /// Takes the picture or pictures.
 pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let file = request::open_scene(&args.scene, limits())?;
-    let output = args.output.clone().unwrap_or_else(|| default_name(args, &file).into());
+    let output = args.output.clone().unwrap_or_else(|| default_name::default_name(args, &file).into());
     let target = OutputTarget::new(&output, args.frames.is_some(), args.passes)?;
     let mut request = args.request();
     let photon_map = args.photon_map.as_deref();
@@ -45,17 +44,17 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
     for file in target.files(args.frames, args.passes) {
         outputs.claim(&file, |there| record::is_of(there, &command))?;
     }
-    request.opened = open_stones(args, console)?;
+    request.opened = stones::open(args, console)?;
     let scene = request.build(&file, size)?;
     // what another version made, or was made of files that have changed since, is of no use
     let asked = Fingerprint::of_request(&request).hex();
     let identity = format!("{command} # request {asked}, scene {:08x}", map_file::checksum(&scene));
     let is_kept = args.frames.is_some() || (args.stops.progressive && !atomic_write::is_stream(&output));
     if is_kept {
-        exit_code::mark_resumable();
+        interrupt::mark_resumable();
     }
     let made = Provenances { command: &command, identity: &identity };
-    let progress = PictureProgress::new(console);
+    let progress = BarProgress::new(console);
     let files =
         render::to_files(&request, (&scene, size), &target, (photon_map, args.passes), made, &progress)?;
     if atomic_write::is_stdout(&output) {
@@ -69,75 +68,8 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
     Ok(ExitStatus::Done)
 }
 
-/// A name that tells the stones with their parameters, what they are made of, their size and the scene:
-/// pictures of different things have different names.
-fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
-    let first = args.stones.is_empty().then(|| file.first_cut()).flatten();
-    let stones = args.stones.iter().map(OsString::as_os_str).chain(first.map(OsStr::new));
-    let mut parts: Vec<OsString> = stones.map(stone_name).collect();
-    parts.extend(args.stone_args.material.as_ref().map(|m| m.name.as_ref().into()));
-    parts.extend(args.stone_args.ri.map(|n| format!("n{n}").into()));
-    parts.extend(args.size.map(|mm| format!("{mm}mm").into()));
-    parts.push(file.name.clone().into());
-    let mut name = parts.join(OsStr::new("-"));
-    name.push(if args.frames.is_some() { ".gif" } else { ".png" });
-    name
-}
-
-/// `round-brilliant:table=60` as `round-brilliant-table60`, `D.asc:material=topaz` as `D-materialtopaz`.
-fn stone_name(spec: &OsStr) -> OsString {
-    let text = spec.to_str().filter(|_| grammar::is_cut(spec));
-    let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
-    let of_file = || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
-    let given = parameters.unwrap_or_else(of_file);
-    let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
-    let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
-    let told = told.filter(|p| !p.is_empty()).map(OsString::from);
-    std::iter::once(grammar::file_stem(spec)).chain(told).collect::<Vec<_>>().join(OsStr::new("-"))
-}
-
-/// The stones, opened, with what is to be said of them.
-fn open_stones(args: &RenderArgs, console: &Console) -> Result<Vec<Stone>, CliError> {
-    let open = |spec: &OsString| {
-        let stone = Stone::open(spec, &args.stone_args.options(args.size))?;
-        stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
-        if stone.given_material().is_none() && stone.material().bare_index().is_some() {
-            let why = stone.material().no_dispersion();
-            console.note_of_one(
-                &format!("{}: a picture without fire and colour, for {why}", stone.name()),
-                &why,
-            );
-        }
-        if !stone.lacks_size() {
-            return Ok(stone);
-        }
-        console.note(&format!(
-            "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
-            stone.convex_design()?.name
-        ));
-        Ok(stone.with_usual_width()?)
-    };
-    args.stones.iter().map(open).collect()
-}
-
 /// `--glare 8`: the number counts as a STONE.
 fn glare_without_equals(args: &RenderArgs) -> Option<String> {
     let number = args.stones.iter().filter_map(|s| s.to_str()).find(|s| s.parse::<f32>().is_ok())?;
     args.glare.is_some().then(|| format!("--glare takes its number after '=': --glare={number}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_tell_parameters() {
-        assert_eq!(stone_name(OsStr::new("round-brilliant")), "round-brilliant");
-        assert_eq!(
-            stone_name(OsStr::new("round-brilliant:table=60, crown-angle=34.5")),
-            "round-brilliant-table60-crown-angle34.5"
-        );
-        // a file's own name is no parameter: all of it tells
-        assert_eq!(stone_name(OsStr::new("designs/my:stone=1.asc")), "my:stone=1");
-    }
 }

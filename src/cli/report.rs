@@ -1,80 +1,26 @@
 //! `cutlab report`: everything about one stone, on one page.
 
-use super::args::stone::{self, DEFAULT_STONE, StoneArgs};
-use super::args::values;
-use super::args::{inputs, scoring};
+mod options;
+mod summary;
+
+use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
-use super::import::plan;
+use super::each_stone;
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use super::terminal_table;
-use crate::batch::fingerprint::Fingerprint;
+use crate::batch::output_places;
+use crate::batch::stone_files::expand_stones;
+use crate::cli::limits::limits;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
-use crate::report::estimates::estimate_text;
-use crate::report::page::Section;
-use crate::report::stone_report::{self, STEPS, StoneReport};
-use crate::report::{self, LEAST_WIDTH, ReportError, ReportInput, ReportRequest, USUAL_WIDTH};
-use crate::sampling::stats::Estimate;
-use crate::scene::scene_file::MOST_PIXELS;
-use crate::scoring::score::Target;
+use crate::report::stone_report::{self, STEPS};
+use crate::report::{self, ReportRequest};
 use crate::storage::journal::Journal;
-use serde::Serialize;
-use std::collections::BTreeMap;
-use std::ffi::{OsStr, OsString};
+pub use options::ReportArgs;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Examples:
-  cutlab report tolkowsky -o out       writes into out/
-  cutlab report designs/ -o out        every design of a folder, each into a folder of its own in out/
-
-index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
-the cutting diagram, every score beside five reference stones of the same material, scores against the
-tilt, and for round brilliants their place on the map of light return. Beside it stand the pictures
-(table.png, aset.png, ideal-scope.png, windows.png, brightness.png), diagram.svg, scores.csv, stone.obj and
-stone.toml. Each picture from above is of the same light and stone as the scores beside it.")]
-pub struct ReportArgs {
-    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
-    /// of several, each has a folder of its own in -o
-    #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
-    stones: Vec<OsString>,
-    /// The folder to write into; it is made
-    #[arg(long, short, value_name = "DIR")]
-    output: PathBuf,
-    /// Girdle width in millimetres [the stone's own, or 6.5]
-    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
-    size: Option<f64>,
-    #[command(flatten)]
-    stone_args: StoneArgs,
-    /// Whether light keeps its polarisation from facet to facet, in scores and pictures; off takes it as
-    /// unpolarised at each
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
-    polarisation: bool,
-    /// Trace every score until its standard error is below this times the metric's scale [a number of samples
-    /// that leaves about 0.0005 for fractions]
-    #[arg(long, value_name = "E", value_parser = scoring::error)]
-    error: Option<f64>,
-    /// Pixels across the picture on the table; the others are as high as it is
-    #[arg(long, value_name = "PIXELS", default_value_t = USUAL_WIDTH, value_parser = values::whole_number(LEAST_WIDTH..=MOST_PIXELS, "a width is a whole number of pixels"))]
-    width: u32,
-    /// Seed of the random streams
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
-    seed: u64,
-}
-
-/// The numbers that matter, for `--json`.
-#[derive(Serialize)]
-struct ReportSummary {
-    folder: String,
-    files: Vec<String>,
-    scores: BTreeMap<&'static str, BTreeMap<String, Option<Estimate>>>,
-    /// `more` or `less` for scores of which either is better by itself.
-    better: BTreeMap<String, &'static str>,
-    /// Why scores that are null are.
-    left_out: BTreeMap<String, String>,
-}
+use summary::ReportSummary;
 
 /// Makes the reports and writes them.
 pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError> {
@@ -86,21 +32,22 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
         error: args.error,
         width: args.width,
     };
-    let specs = inputs::expanded(&args.stones)?;
+    let specs = expand_stones(&args.stones, limits())?;
     let folders: Vec<PathBuf> = match &args.stones[..] {
         [stone] if specs.len() == 1 && specs[0] == *stone => vec![args.output.clone()],
-        _ => plan::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
+        _ => output_places::places_of(&specs).into_iter().map(|place| args.output.join(place)).collect(),
     };
     let mut outputs = Outputs::reading_stones(&specs, console);
+    let identity = format!("report {}", request.identity(&specs));
     // every place is tried before the first report, which takes half a minute
     for folder in &folders {
-        claim(folder, &request, &mut outputs)?;
+        claim(folder, &identity, &mut outputs)?;
     }
     let range = args.stone_args.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
     let mut results: Vec<Result<ReportSummary, CliError>> = Vec::new();
     for (stone, folder) in specs.iter().zip(&folders) {
-        let result = one(stone, folder, &request, console);
+        let result = one(stone, folder, (&request, &identity), console);
         if let (Err(failure), true) = (&result, specs.len() > 1) {
             console.complain(&failure.message());
         }
@@ -116,18 +63,15 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     if console.json {
         console.print_json(&results.iter().flatten().collect::<Vec<_>>())?;
     }
-    Ok(stone::code(&results))
-}
-
-/// What is kept of a report while its files are written.
-fn identity(request: &ReportRequest) -> String {
-    format!("report {}", Fingerprint::of_request(request).hex())
+    Ok(each_stone::code(&results))
 }
 
 /// Takes the places of all files of the report in a folder.
-fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Result<(), CliError> {
+///
+/// - `identity`: what is kept of a report while its files are written
+fn claim(folder: &Path, identity: &str, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
-    let begun = Journal::belongs_to(&Journal::path_for(&page), &identity(request));
+    let begun = Journal::belongs_to(&Journal::path_for(&page), identity);
     let is_own = begun || record::is_of(&page, &record::own_command());
     stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
@@ -136,22 +80,12 @@ fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Resul
 fn one(
     stone: &OsStr,
     folder: &Path,
-    request: &ReportRequest,
+    (request, identity): (&ReportRequest, &str),
     console: &Console,
 ) -> Result<ReportSummary, CliError> {
     let stone = request.open(stone).map_err(|error| CliError::needs_convex("a report", error))?;
-    let design = stone.convex_design()?.clone();
     stone.warnings().iter().for_each(|w| console.note(&format!("note: {w}")));
-    let input = ReportInput {
-        stone: stone.name().into(),
-        design,
-        material: stone.material().clone(),
-        polarised: request.polarised,
-        seed: request.seed,
-        target: request.error.map_or_else(Target::default, Target::Error),
-        width: request.width,
-        command: record::command_line(),
-    };
+    let input = request.input(&stone, record::command_line())?;
     let bar = console.steps(STEPS);
     let bundle = report::make(&input, &|what| {
         bar.set_message(what);
@@ -166,60 +100,11 @@ fn one(
     }
     // what a kill leaves of the files is known as this command's
     let progress = Journal::path_for(&folder.join("index.html"));
-    let progress = Journal::open(&progress, &identity(request), &|_| ())?;
+    let progress = Journal::open(&progress, identity, &|_| ())?;
     bundle.write(folder)?;
     progress.finish()?;
     if !console.json {
-        console.print(&text(&bundle, folder))?;
+        console.print(&summary::text(&bundle, folder))?;
     }
-    let scores = bundle
-        .sections
-        .iter()
-        .map(|s| (s.head, s.scores.iter().map(|score| (score.name.clone(), score.value)).collect()));
-    let every = bundle.sections.iter().flat_map(|s| &s.scores);
-    let better = every.clone().map(|score| (score.name.clone(), score.better.word()));
-    let left_out = every.filter_map(|score| Some((score.name.clone(), score.left_out.clone()?)));
-    Ok(ReportSummary {
-        better: better.filter(|(_, word)| !word.is_empty()).collect(),
-        left_out: left_out.collect(),
-        folder: stone::display_name(folder),
-        files: bundle.files.iter().map(|(name, _)| stone::display_name(folder.join(name))).collect(),
-        scores: scores.collect(),
-    })
-}
-
-/// The numbers that matter, and the files.
-fn text(bundle: &StoneReport, folder: &Path) -> String {
-    let mut lines: Vec<(String, String)> = Vec::new();
-    for section in bundle.sections.iter().filter(|s| s.large > 0) {
-        lines.push((section.head.into(), String::new()));
-        for score in section.scores.iter().take(section.large) {
-            let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(estimate_text) {
-                Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
-                Some((value, None)) => format!("{value}{unit}"),
-                None => terminal_table::NONE.into(),
-            };
-            let better = match score.better.said() {
-                "" => String::new(),
-                said => format!("  ({said})"),
-            };
-            lines.push((format!("  {}", score.name), value + &better));
-        }
-    }
-    let mut text = terminal_table::labelled(lines, 0, 0);
-    for said in bundle.sections.iter().filter_map(Section::omissions) {
-        text += &format!("{said}\n");
-    }
-    let names: Vec<&str> = bundle.files.iter().rev().map(|(name, _)| *name).collect();
-    text + &format!("{}: {}", stone::display_name(folder), names.join(", "))
-}
-
-impl From<ReportError> for CliError {
-    fn from(error: ReportError) -> CliError {
-        match error {
-            ReportError::Format(error) => error.into(),
-            _ => CliError::input(error.to_string()),
-        }
-    }
+    Ok(ReportSummary::new(&bundle, folder))
 }

@@ -1,79 +1,28 @@
 //! `cutlab score`: a table of scores, one row a stone, or one a stone and tilt.
 
-use super::args::inputs;
-use super::args::scoring::{self, ScoringArgs};
-use super::args::stone::{self, DEFAULT_STONE};
-use super::args::tables::{TableArgs, TableCommand};
+mod options;
+
+use super::args::stone;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use super::plot_output::{Look, Plots};
+use super::plot_output::Plots;
+use super::table_command::TableCommand;
 use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
 use crate::batch::score_rows::ScoreRows;
-use crate::batch::sweep::Steps;
+use crate::batch::stone_files::expand_stones;
 use crate::batch::table_job::Order;
 use crate::batch::table_rows::TILT;
+use crate::cli::limits::limits;
 use crate::metrics::Metric;
-use crate::parse;
-use crate::parse::NumberUnit;
-use std::ffi::OsString;
-use std::path::PathBuf;
-
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Examples:
-  cutlab score                                       the reference brilliant, to be read, or CSV in a pipe
-  cutlab score designs/ '*.gem' -o scores.csv        every design of a folder, and what matches
-  cutlab score designs/ --metrics iso,cos --sort iso --top 10 --proportions -o best.csv
-  cutlab score tolkowsky --metrics wlr,fire_streak --error 0.001
-  cutlab score D.asc:material=quartz D.asc:material=topaz
-  cutlab score tolkowsky --metrics wlr --tilt -30:30:5 --plot tilt.svg    curves about both axes
-  cutlab score designs/ --shard 2/8 -o part2.csv     the second of eight machines; cutlab merge")]
-pub struct ScoreArgs {
-    /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files,
-    /// patterns as 'designs/*.asc'; each may say its material, as designs/:material=topaz
-    #[arg(default_value = DEFAULT_STONE, value_name = "STONE")]
-    stones: Vec<OsString>,
-    #[command(flatten)]
-    table: TableArgs,
-    #[command(flatten)]
-    scoring: ScoringArgs,
-    /// Add columns of each stone's name, proportions and weight
-    #[arg(long)]
-    proportions: bool,
-    /// Sort the rows by a metric, the greatest first; -METRIC the least first
-    #[arg(long, value_name = "METRIC", value_parser = parse_sort, allow_hyphen_values = true)]
-    sort: Option<SortRequest>,
-    /// Keep the first N rows of the sorted table
-    #[arg(long, value_name = "N", requires = "sort", value_parser = parse_top)]
-    top: Option<u64>,
-    /// Turn the stone before viewer and light, one row a tilt, in degrees
-    #[arg(long, value_name = "FROM:TO:STEP", value_parser = tilt, allow_hyphen_values = true)]
-    tilt: Option<Steps>,
-    /// Azimuth of the horizontal axis to tilt about, in degrees from +x; several with commas [0; with
-    /// --plot 0,90]
-    #[arg(
-        long,
-        value_name = "AZIMUTH,…",
-        value_delimiter = ',',
-        value_parser = azimuth,
-        allow_hyphen_values = true,
-        requires = "tilt"
-    )]
-    tilt_axis: Vec<f64>,
-    /// Draw the scores against the tilt, a curve for each stone and axis, .svg, .pdf or .png; a file called
-    /// METRIC.svg shows that metric, of any other name one is drawn for each, NAME-METRIC.svg
-    #[arg(long, value_name = "FILE", requires = "tilt", conflicts_with_all = ["shard", "sort"])]
-    plot: Vec<PathBuf>,
-    #[command(flatten)]
-    look: Look,
-}
+pub use options::ScoreArgs;
 
 /// Scores every stone and writes the table.
 pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let scores = args.scoring.plan();
     let sort = sort(args, &scores.metrics)?;
-    let stones = inputs::expanded(&args.stones)?;
+    let stones = expand_stones(&args.stones, limits())?;
     let mut outputs = Outputs::reading_stones(&stones, console);
     let azimuths = match (&args.tilt_axis[..], args.plot.is_empty()) {
         ([], true) => vec![0.0],
@@ -108,32 +57,3 @@ fn sort(args: &ScoreArgs, metrics: &[&'static Metric]) -> Result<Option<SortRequ
     }
     Ok(Some(SortRequest { order: Order { top: args.top, ..sort.order }, ..sort }))
 }
-
-/// Value parser of `--sort`.
-fn parse_sort(text: &str) -> Result<SortRequest, String> {
-    let name = text.strip_prefix('-').unwrap_or(text);
-    let order = Order { ascending: text.starts_with('-'), top: None };
-    Ok(SortRequest { metric: scoring::metric(name)?, order })
-}
-
-/// Value parser of `--top`.
-fn parse_top(text: &str) -> Result<u64, String> {
-    parse::parse_whole_number(text, 1..=u64::MAX, "--top takes a whole number of rows")
-}
-
-/// Value parser of `--tilt-axis`.
-fn azimuth(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::Degrees, -360.0..=360.0, "an azimuth is a number of degrees")
-}
-
-/// Value parser of `--tilt`.
-fn tilt(text: &str) -> Result<Steps, String> {
-    let steps = Steps::parse(text, NumberUnit::Degrees)?;
-    match steps.from.abs().max(steps.to.abs()) <= MOST_TILT {
-        true => Ok(steps),
-        false => Err(format!("a stone can be tilted by up to {MOST_TILT}°")),
-    }
-}
-
-/// Steeper than this the silhouette of a flat stone has hardly any width left.
-const MOST_TILT: f64 = 89.9;

@@ -1,17 +1,19 @@
 //! `cutlab validate`: published and derivable figures against what this program computes.
 
+mod text;
+
 use super::args::stone;
 use super::args::values;
 use super::console::Console;
-use super::exit_code::{CliError, ExitStatus};
+use super::error::CliError;
+use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use super::terminal_table;
+use super::progress::BarProgress;
 use crate::batch::validate;
-use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
+use crate::batch::validate::{CheckContext, FigureRow, Verdict};
 use crate::render::record;
-use crate::report::validation::{self, count, expectation, written};
+use crate::report::validation::{self, count};
 use crate::storage::atomic_write;
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// Where the table and the page go unless a folder is named.
@@ -39,23 +41,6 @@ pub struct ValidateArgs {
     seed: u64,
 }
 
-/// A figure, for `--json`.
-#[derive(Serialize)]
-struct FigureEntry<'a> {
-    subject: &'a str,
-    figure: &'a str,
-    source: &'a str,
-    kind: String,
-    relation: &'a str,
-    expected: f64,
-    tolerance: Option<f64>,
-    unit: &'a str,
-    ours: Option<f64>,
-    ours_se: Option<f64>,
-    verdict: String,
-    why: &'a str,
-}
-
 /// Runs the checks and writes what they give.
 pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let mut checks = validate::catalogue();
@@ -77,23 +62,16 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
             .try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))?;
     }
     let lab = CheckContext { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
-    let bar = console.progress(checks.len(), "validating");
-    let run = |check: validate::Check| {
-        let report = check.run(&lab);
-        bar.inc(1);
-        report
-    };
-    let reports: Vec<CheckReport> = checks.into_iter().map(run).collect();
-    bar.finish_and_clear();
+    let reports = validate::run(checks, &lab, &BarProgress::new(console));
     let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
     if console.json {
-        console.print_json(&outcomes().map(entry).collect::<Vec<_>>())?;
+        console.print_json(&outcomes().map(FigureRow::new).collect::<Vec<_>>())?;
     } else {
-        console.print(&text(&reports))?;
+        console.print(&text::text(&reports))?;
     }
     if let Some(folder) = folder {
         let page = record::recorded(validation::html(&reports, args.seed, &record::command_line()), &command);
-        let table = validate::csv(outcomes()).map_err(|e| CliError::input(e.to_string()))?;
+        let table = validate::csv(outcomes())?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);
             atomic_write::write(&path, bytes)?;
@@ -101,53 +79,4 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         }
     }
     Ok(if count(&reports, Verdict::Failed) == 0 { ExitStatus::Done } else { ExitStatus::SomeFailed })
-}
-
-fn entry(o: &FigureOutcome) -> FigureEntry<'_> {
-    FigureEntry {
-        subject: o.subject,
-        figure: &o.figure.name,
-        source: o.figure.source.name,
-        kind: o.figure.source.kind.to_string(),
-        relation: o.figure.expected.relation(),
-        expected: o.figure.expected.value(),
-        tolerance: o.figure.expected.tolerance(),
-        unit: o.figure.unit,
-        ours: o.ours.map(|e| e.value),
-        ours_se: o.ours.map(|e| e.error),
-        verdict: o.verdict.to_string(),
-        why: &o.why,
-    }
-}
-
-/// The table for people; under it what explains the figures that did not come out.
-fn text(reports: &[CheckReport]) -> String {
-    let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
-    let mut table = terminal_table::new();
-    table.set_header(["figure", "kind", "expected", "ours", "", "verdict", "source"]);
-    table.add_rows(outcomes().map(|o| {
-        let ours = o.ours.map_or("–".into(), |e| written(e, o.figure.expected.tolerance()));
-        let f = &o.figure;
-        [
-            f.name.clone(),
-            f.source.kind.to_string(),
-            expectation(f),
-            ours,
-            f.unit.into(),
-            o.verdict.to_string(),
-            f.source.name.into(),
-        ]
-    }));
-    let mut out = terminal_table::lines(&table);
-    out += "\n";
-    for o in outcomes().filter(|o| o.verdict == Verdict::Failed && !o.why.is_empty()) {
-        out += &format!("{}: {}\n", o.figure.name, o.why);
-    }
-    let mut skipped: Vec<&str> =
-        outcomes().filter(|o| o.verdict == Verdict::Skipped).map(|o| o.why.as_str()).collect();
-    skipped.dedup();
-    skipped.iter().for_each(|why| out += &format!("skipped: {why}\n"));
-    let [passed, failed, skipped] =
-        [Verdict::Passed, Verdict::Failed, Verdict::Skipped].map(|v| count(reports, v));
-    out + &format!("{passed} passed, {failed} failed, {skipped} skipped\n{}\n", validation::rule())
 }

@@ -1,6 +1,6 @@
 //! Weights in carats on the command line.
 
-use super::exit_code::CliError;
+use super::error::CliError;
 use crate::design::Design;
 use crate::materials::weight::Weight;
 use crate::parse;

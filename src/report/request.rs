@@ -1,5 +1,6 @@
 //! A request for a report, and a stone of it as it is reported on.
 
+use crate::batch::input_files::InputFiles;
 use crate::design::Design;
 use crate::materials::Material;
 use crate::scoring::score::Target;
@@ -59,9 +60,27 @@ impl Default for ReportRequest {
 impl ReportRequest {
     /// Opens one of its stones: a convex one, as wide as it is asked for, as it is, or as stones usually are.
     pub fn open(&self, stone: impl AsRef<OsStr>) -> Result<Stone, StoneError> {
-        let stone = Stone::open(stone, &self.options)?.with_usual_width()?;
-        stone.convex_design()?;
-        Ok(stone)
+        Stone::open(stone, &self.options)?.convex_in_mm()
+    }
+
+    /// One of its stones, opened, as its pages take it.
+    ///
+    /// - `command`: as typed, for the page
+    pub fn input(&self, stone: &Stone, command: String) -> Result<ReportInput, StoneError> {
+        Ok(ReportInput {
+            polarised: self.polarised,
+            seed: self.seed,
+            target: self.error.map_or_else(Target::default, Target::Error),
+            width: self.width,
+            ..ReportInput::new(stone, command)?
+        })
+    }
+
+    /// Fingerprint of the request and of what the files hold that it names: stones, and materials of one's own.
+    ///
+    /// - `stones`: those of the request, one by one ([`crate::batch::stone_files::expand_stones`])
+    pub fn identity<S: AsRef<OsStr>>(&self, stones: &[S]) -> String {
+        InputFiles::new(self, &self.options, stones.iter().map(AsRef::as_ref)).identity
     }
 }
 
@@ -84,4 +103,21 @@ pub struct ReportInput {
     pub width: u32,
     /// The command as typed, for the page.
     pub command: String,
+}
+
+impl ReportInput {
+    /// Of a convex stone in millimetres ([`Stone::convex_in_mm`]), with what [`ReportRequest::default`] has.
+    pub fn new(stone: &Stone, command: String) -> Result<ReportInput, StoneError> {
+        let design = stone.convex_design()?.clone();
+        Ok(ReportInput {
+            stone: stone.name().into(),
+            design,
+            material: stone.material().clone(),
+            polarised: true,
+            seed: 1,
+            target: Target::default(),
+            width: USUAL_WIDTH,
+            command,
+        })
+    }
 }

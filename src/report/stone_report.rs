@@ -1,6 +1,8 @@
 //! Everything about one stone: the files of `cutlab report`.
 
 use super::page::{Page, Section};
+use super::pdf::PdfError;
+use super::raster::RasterError;
 use super::references::References;
 use super::request::ReportInput;
 use super::viewer_images::ViewerImageError;
@@ -52,6 +54,38 @@ pub enum ReportError {
     /// The stone cannot be lit.
     #[error("{0}")]
     Scores(String),
+    /// A drawing that could not become a PDF.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
+    /// A drawing that could not become a picture.
+    #[error(transparent)]
+    Raster(#[from] RasterError),
+    /// A file that could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A file whose extension is of another format than the one asked for.
+    #[error("{file} is {own} by its ending, not {asked}: leave out --to {to}, or name another file")]
+    OtherEnding {
+        /// The file.
+        file: String,
+        /// The format of its extension.
+        own: String,
+        /// The format asked for.
+        asked: String,
+        /// As it was asked for.
+        to: String,
+    },
+    /// A plot whose extension is of no drawing.
+    #[error("{0}: plots are .svg, .pdf or .png")]
+    NoPlot(String),
+    /// A stream for several plots.
+    #[error("{path} takes one plot, and there are {scores} scores: name a file")]
+    OnePlot {
+        /// The stream.
+        path: String,
+        /// How many metrics the table has.
+        scores: usize,
+    },
 }
 
 /// A finished report, in memory.

@@ -69,27 +69,72 @@ fn is_for_long_runs(metric: &Metric) -> bool {
 /// With exact metrics there is one run, and errors of differences are those of both scores together; so
 /// it is for medians, which have a run of their own. Checked in `tests/program/compare.rs`.
 pub fn compare(subjects: &[ScoreInput], plan: &ScoreRequest, step: &dyn Fn()) -> Comparison {
-    let runs = if plan.exact { 1 } else { RUNS };
+    let each = runs_while(subjects, plan, &|| {
+        step();
+        true
+    });
+    together(subjects, plan, &each)
+}
+
+/// As [`compare`], for work that may be ended early; none if it was.
+///
+/// - `goes_on`: called after each run; whether there is to be another
+pub fn compare_while(
+    subjects: &[ScoreInput],
+    plan: &ScoreRequest,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Comparison> {
+    let each = runs_while(subjects, plan, goes_on);
+    (each.len() as u64 == runs(plan)).then(|| together(subjects, plan, &each))
+}
+
+/// How many runs a comparison has.
+pub fn runs(plan: &ScoreRequest) -> u64 {
+    if plan.exact { 1 } else { RUNS }
+}
+
+/// The metrics of the one long run, and those of the short ones.
+fn long_and_short(plan: &ScoreRequest) -> (Vec<&'static Metric>, Vec<&'static Metric>) {
+    plan.metrics.iter().copied().partition(|m| !plan.exact && is_for_long_runs(m))
+}
+
+fn scores_of_all(subjects: &[ScoreInput], plan: ScoreRequest) -> Vec<ScoreRow> {
+    subjects.iter().map(|s| score(s, &plan)).collect()
+}
+
+/// The short runs, up to the one after which `goes_on` says no.
+fn runs_while(
+    subjects: &[ScoreInput],
+    plan: &ScoreRequest,
+    goes_on: &dyn Fn() -> bool,
+) -> Vec<Vec<ScoreRow>> {
+    let runs = runs(plan);
     let effort = match plan.target {
         Target::Samples(n) => Target::Samples((n / runs).max(1)),
         Target::Error(e) => Target::Error(e * (runs as f64).sqrt()),
     };
-    let (long, short): (Vec<&Metric>, Vec<&Metric>) =
-        plan.metrics.iter().copied().partition(|m| !plan.exact && is_for_long_runs(m));
-    let all = |plan: ScoreRequest| subjects.iter().map(|s| score(s, &plan)).collect::<Vec<ScoreRow>>();
-    let each: Vec<Vec<ScoreRow>> = (0..runs)
-        .map(|run| {
-            let seed = plan.seed.wrapping_mul(RUNS).wrapping_add(run);
-            let rows = all(ScoreRequest { seed, target: effort, metrics: short.clone(), ..plan.clone() });
-            step();
-            rows
-        })
-        .collect();
-    let once = [all(ScoreRequest { metrics: long.clone(), ..plan.clone() })];
+    let (_, metrics) = long_and_short(plan);
+    let mut each = Vec::new();
+    for run in 0..runs {
+        let seed = plan.seed.wrapping_mul(RUNS).wrapping_add(run);
+        let run = ScoreRequest { seed, target: effort, metrics: metrics.clone(), ..plan.clone() };
+        each.push(scores_of_all(subjects, run));
+        if !goes_on() {
+            break;
+        }
+    }
+    each
+}
+
+/// The scores and differences of all runs.
+fn together(subjects: &[ScoreInput], plan: &ScoreRequest, each: &[Vec<ScoreRow>]) -> Comparison {
+    let runs = each.len() as u64;
+    let (long, short) = long_and_short(plan);
+    let once = [scores_of_all(subjects, ScoreRequest { metrics: long.clone(), ..plan.clone() })];
     // where a metric's runs are, and its column there
     let place = |m: &Metric| {
         let (metrics, runs) =
-            if long.iter().any(|l| l.name == m.name) { (&long, &once[..]) } else { (&short, &each[..]) };
+            if long.iter().any(|l| l.name == m.name) { (&long, &once[..]) } else { (&short, each) };
         (runs, metrics.iter().position(|o| o.name == m.name).unwrap_or_default())
     };
     let mean = |runs: &[Vec<ScoreRow>], of: &dyn Fn(&[ScoreRow]) -> Option<Estimate>| -> Option<Estimate> {

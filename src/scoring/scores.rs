@@ -156,6 +156,13 @@ impl ScoreRequest {
         self
     }
 
+    /// Whether every metric that was asked for by name exists.
+    pub fn check(&self) -> Result<(), ScoreError> {
+        let Some(name) = self.unknown.first() else { return Ok(()) };
+        let nearest = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
+        Err(ScoreError::NoSuchMetric { name: name.clone(), nearest })
+    }
+
     /// Scores a stone face-up. One whose colour depends on a size that nobody says is taken as wide as stones usually
     /// are.
     pub fn run(&self, stone: &Stone) -> Result<Scores, ScoreError> {
@@ -164,10 +171,7 @@ impl ScoreRequest {
 
     /// As [`ScoreRequest::run`], of a stone that is tilted.
     pub fn run_tilted(&self, stone: &Stone, tilt: Option<Tilt>) -> Result<Scores, ScoreError> {
-        if let Some(name) = self.unknown.first() {
-            let nearest = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
-            return Err(ScoreError::NoSuchMetric { name: name.clone(), nearest });
-        }
+        self.check()?;
         let failed = |why: String| ScoreError::NotScored { stone: stone.name().into(), why };
         let input = if stone.lacks_size() {
             let sized = stone.clone().with_usual_width().map_err(|e| failed(e.to_string()))?;

@@ -2,10 +2,12 @@
 
 use crate::design::design_file::DocumentError;
 #[cfg(feature = "files")]
-use crate::formats::FormatError;
+use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
 use crate::geometry::facet_recovery::RecoverError;
 use crate::parse::did_you_mean;
+#[cfg(feature = "files")]
+use crate::storage::find_files::FindError;
 use std::sync::Arc;
 
 /// A STONE that could not be opened: what was asked for, what was expected, what was found.
@@ -23,6 +25,16 @@ pub enum StoneError {
     #[cfg(feature = "files")]
     #[error(transparent)]
     Format(Box<FormatError>),
+    /// Files of a folder or a pattern that could not be found.
+    #[cfg(feature = "files")]
+    #[error(transparent)]
+    Find(#[from] FindError),
+    /// A folder without a stone.
+    #[error("no designs and no meshes in {place}")]
+    NoStones {
+        /// The folder, or several.
+        place: String,
+    },
     /// A cut with a wrong parameter.
     #[error("{spec}: {cause}")]
     Cut {
@@ -121,13 +133,36 @@ impl StoneError {
     /// argument instead.
     pub fn is_io(&self) -> bool {
         #[cfg(feature = "files")]
-        if let StoneError::Format(error) = self
-            && let FormatError::Read { cause, .. } = &**error
-        {
+        if let Some(cause) = self.io_cause() {
             use std::io::ErrorKind::{IsADirectory, NotADirectory, NotFound};
             return !matches!(cause.kind(), NotFound | NotADirectory | IsADirectory);
         }
         false
+    }
+
+    /// What is known of a file that was understood but holds no convex stone; none for every other error.
+    #[cfg(feature = "files")]
+    pub fn mesh_facts(&self) -> Option<MeshFacts> {
+        match self {
+            StoneError::Format(error) => error.mesh_facts(),
+            StoneError::NotConvex(cause) => match &**cause {
+                StoneError::Format(error) => error.mesh_facts(),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    #[cfg(feature = "files")]
+    fn io_cause(&self) -> Option<&std::io::Error> {
+        match self {
+            StoneError::Find(FindError::Read { cause, .. }) => Some(cause),
+            StoneError::Format(error) => match &**error {
+                FormatError::Read { cause, .. } => Some(cause),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 }
 

@@ -225,6 +225,13 @@ impl Stone {
         if self.unit == LengthUnit::Free { self.with_width(USUAL_WIDTH_MM) } else { Ok(self) }
     }
 
+    /// The stone for what needs a convex one of a size: as [`Stone::with_usual_width`].
+    pub fn convex_in_mm(self) -> Result<Stone, StoneError> {
+        let stone = self.with_usual_width()?;
+        stone.convex_design()?;
+        Ok(stone)
+    }
+
     /// The same stone turned by `rotation` about the origin; its indices and angles no longer hold and go.
     pub fn turned(mut self, rotation: DMat3) -> Result<Stone, StoneError> {
         self.shape = match self.shape {

@@ -18,9 +18,9 @@ const ROWS: &[&[&str]] = &[
     &["photons", "batch"],
     &["integrators"],
     &["render"],
+    &["report", "manual"],
     &["error"],
     &["prelude"],
-    &["report", "manual"],
     &["cli"],
     &["advanced"],
 ];
@@ -29,6 +29,9 @@ const ROWS: &[&[&str]] = &[
 const FOLDERS: &[&str] = &["cuts", "tools", "reports", "tests", "src"];
 
 const LONGEST: usize = 400;
+
+/// The most lines of a file directly in `src/cli`: the commands, and what they have in common.
+const LONGEST_COMMAND: usize = 120;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -150,6 +153,23 @@ fn every_file_has_a_header_and_is_short() {
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A command is its arguments and a few calls: what it is made of stands in the library, or in files of its folder.
+#[test]
+fn every_command_is_short() {
+    let folder = root().join("src/cli");
+    let mut wrong = Vec::new();
+    let mut commands = 0;
+    for path in rust_files(&folder).iter().filter(|path| path.parent() == Some(&folder)) {
+        let lines = fs::read_to_string(path).expect("a source file is UTF-8").lines().count();
+        if lines > LONGEST_COMMAND {
+            wrong.push(format!("{} has {lines} lines, more than {LONGEST_COMMAND}", path.display()));
+        }
+        commands += 1;
+    }
+    assert!(commands > 15, "the check sees {commands} files");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

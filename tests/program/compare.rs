@@ -224,3 +224,60 @@ fn what_a_table_leaves_out_has_its_reason_and_json_stands_alone() {
     assert!(why("fire_streak").contains("dispersion") && why("table").contains("no table"), "{rows:?}");
     assert_eq!(why("spread"), "");
 }
+
+/// A table belongs to what the files hold that it names: stones, and a material of one's own.
+#[test]
+fn a_table_belongs_to_what_its_files_hold() {
+    let bench = Bench::new();
+    let stone = |crown: &str| {
+        bench.good(&["generate", "-q", "--force", "--crown-angle", crown, "-o", "a.asc"]);
+    };
+    let material = |n: f64| {
+        std::fs::write(bench.path("m.toml"), format!("name = \"m\"\n[index]\nn-d = {n}\n")).expect("writes");
+    };
+    let made = || {
+        let stones = ["compare", "-q", "a.asc", "cube:material=m.toml", "-o", "c.csv"];
+        bench.good(&[&stones[..], &QUICK].concat());
+        let meta: serde_json::Value = serde_json::from_slice(&bench.read("c.csv.meta.json")).expect("JSON");
+        (meta["study"].to_string(), meta["command"].to_string(), bench::text(&bench.read("c.csv")))
+    };
+    stone("34");
+    material(1.6);
+    let first = made();
+    assert_eq!(made(), first);
+    stone("36");
+    let second = made();
+    material(1.7);
+    let third = made();
+    for (before, after) in [(&first, &second), (&second, &third)] {
+        assert_ne!(before.0, after.0, "the study is of the files");
+        assert_eq!(before.1, after.1, "the command is the same");
+        assert_ne!(before.2, after.2, "the table is made anew");
+    }
+}
+
+/// A comparison from the library is that of the command, and ends when it is asked to.
+#[test]
+fn the_library_compares_as_the_command_does() {
+    struct Stop;
+    impl cutlab::Progress for Stop {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let bench = Bench::new();
+    let (printed, _) = bench.ends(0, &[&["compare", "tolkowsky", "cube", "-o", "-"], &QUICK[..]].concat());
+    let scores = cutlab::ScoreRequest::new(["wlr", "spread"]).error(0.01);
+    let request = cutlab::ComparisonTable::new(["tolkowsky", "cube"], scores);
+    let compared = request.run(&()).expect("two stones");
+    let table = compared.table(cutlab::advanced::batch::table::TableFormat::Csv).expect("a table");
+    assert_eq!(bench::text(&table), printed);
+    let kind = |request: &cutlab::ComparisonTable, progress: &dyn cutlab::Progress| {
+        cutlab::Error::from(request.run(progress).expect_err("no comparison")).kind()
+    };
+    assert_eq!(kind(&request, &Stop), cutlab::ErrorKind::Cancelled);
+    let alone = cutlab::ComparisonTable { stones: vec!["cube".into()], ..request.clone() };
+    assert_eq!(kind(&alone, &()), cutlab::ErrorKind::Invalid);
+    let missing = cutlab::ComparisonTable { stones: vec!["nowhere/*.asc".into()], ..request };
+    assert_eq!(kind(&missing, &()), cutlab::ErrorKind::NotFound);
+}

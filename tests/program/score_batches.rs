@@ -33,6 +33,10 @@ fn folders_and_patterns_are_taken_in_order_and_a_bad_stone_keeps_its_row() {
         "no notes, nothing hidden"
     );
     assert!(said.contains("in/bad.asc") && said.lines().count() == 1, "{said}");
+    let found =
+        cutlab::expand_stones([bench.path("in")], cutlab::Limits::default()).expect("a folder of stones");
+    let expected: Vec<std::path::PathBuf> = firsts[1..].iter().map(|name| bench.path(name)).collect();
+    assert_eq!(found.iter().map(std::path::PathBuf::from).collect::<Vec<_>>(), expected);
     let bad: Vec<&str> = table.lines().nth(2).expect("its row").split(',').collect();
     assert!(bad[3].is_empty() && !bad[7].is_empty(), "{bad:?}");
     let (matched, _) = bench.ends(0, &score(&["in/*.[tg]*"], &["--error", "0.01"]));

@@ -11,9 +11,10 @@ pub fn main() -> Result<(), Error> {
     let folder = folder.unwrap_or_else(|| PathBuf::from(own));
     let request = ScoreRequest::new(["iso"]).samples(1 << 12);
     let mut ranked: Vec<(f64, String)> = Vec::new();
-    for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
-        // what is no stone, or has no such score, is not ranked
-        let Ok(stone) = Stone::open(entry.path(), &StoneOptions::default()) else { continue };
+    // what `cutlab score` takes of a folder
+    for spec in expand_stones([&folder], Limits::default())? {
+        // what has no such score is not ranked
+        let Ok(stone) = Stone::open(spec, &StoneOptions::default()) else { continue };
         let Ok(scores) = request.run(&stone) else { continue };
         ranked.extend(scores.get("iso").map(|iso| (iso.value, format!("{iso}  {}", stone.name()))));
     }

@@ -2,16 +2,13 @@
 
 use super::stone::{self, StoneArgs};
 use super::values;
-use crate::cli::console::Console;
-use crate::cli::exit_code::CliError;
 use crate::design::USUAL_WIDTH_MM;
 use crate::metrics::{METRICS, Metric};
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
 use crate::scoring::score::{ScoreRequest, Target};
-use crate::stone::{Stone, StoneOptions};
-use std::ffi::OsStr;
+use crate::stone::StoneOptions;
 
 #[derive(Debug, Clone, clap::Args)]
 pub struct ScoringArgs {
@@ -44,11 +41,6 @@ pub struct ScoringArgs {
 }
 
 impl ScoringArgs {
-    /// Whether beams were asked for.
-    pub fn is_exact(&self) -> bool {
-        self.exact
-    }
-
     /// What of the material asked for is a guess: its index, or the size of stones that have none.
     /// Commands say it once nothing is refused any more.
     ///
@@ -102,15 +94,6 @@ impl ScoringArgs {
     /// What is asked for of every stone.
     pub fn options(&self) -> StoneOptions {
         self.stone_args.options(self.size)
-    }
-
-    /// Opens a stone to be scored: as large as it is asked for, or as its colour needs it.
-    pub fn open(&self, spec: &OsStr, console: &Console) -> Result<Stone, CliError> {
-        let stone = Stone::open(spec, &self.options())?;
-        if let Some(doubt) = stone.orientation_doubt() {
-            console.note_once(&format!("note: {}: {doubt}", stone.name()), stone.name());
-        }
-        Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
     }
 }
 

@@ -1,14 +1,12 @@
 //! STONE arguments: opened in parallel, each on its own, and the options about them.
 
 use super::material::material;
-use crate::cli::console::Console;
-use crate::cli::exit_code::{CliError, ExitStatus};
+use crate::cli::error::CliError;
 use crate::cli::limits::limits;
 use crate::materials::Material;
 use crate::parse;
 use crate::stone::{Orientation, Stone, StoneOptions, UpAxis, grammar};
 pub use crate::storage::text::display_name;
-use rayon::prelude::*;
 use std::ffi::OsStr;
 
 /// The stone that every command takes when none is named.
@@ -71,39 +69,6 @@ impl StoneArgs {
     /// What to say if the index of the material asked for is a guess within `from`..=`to` (nm).
     pub fn range_note(&self, from: f64, to: f64) -> Option<String> {
         Some(format!("note: {}", self.material.as_ref()?.extrapolated(from, to)?))
-    }
-}
-
-/// Does `work` for every stone, in parallel; results in the order of `specs`. A stone that fails
-/// does not stop the rest.
-pub fn open_each<S: Sync, T: Send>(
-    specs: &[S],
-    console: &Console,
-    what: &'static str,
-    work: impl Fn(&S) -> Result<T, CliError> + Sync,
-) -> Vec<Result<T, CliError>> {
-    let bar = console.progress(specs.len(), what);
-    let results = specs
-        .par_iter()
-        .map(|spec| {
-            let result = work(spec);
-            bar.inc(1);
-            result
-        })
-        .collect();
-    bar.finish_and_clear();
-    results
-}
-
-/// The exit code of a batch: what went wrong with each stone is known, and how many were good.
-pub fn code<T>(results: &[Result<T, CliError>]) -> ExitStatus {
-    let failed: Vec<ExitStatus> =
-        results.iter().filter_map(|r| r.as_ref().err().map(CliError::code)).collect();
-    match (failed.len(), results.len()) {
-        (0, _) => ExitStatus::Done,
-        (bad, all) if bad < all => ExitStatus::SomeFailed,
-        _ if failed.iter().all(|c| *c == ExitStatus::Io) => ExitStatus::Io,
-        _ => ExitStatus::NoGoodInput,
     }
 }
 

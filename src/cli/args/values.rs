@@ -2,6 +2,7 @@
 
 use crate::parse;
 use crate::parse::NumberUnit;
+use crate::report::diagram::Paper;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
@@ -30,4 +31,13 @@ pub fn number(unit: NumberUnit) -> impl Fn(&str) -> Result<f64, String> + Clone 
 pub fn duration(text: &str) -> Result<Duration, String> {
     humantime::parse_duration(text.trim())
         .map_err(|_| "a time is given with its unit, e.g. 60s, 5min or 1h30m".into())
+}
+
+/// Value parser of `--paper`.
+pub fn paper(name: &str) -> Result<Paper, String> {
+    match &*name.to_lowercase() {
+        "a4" => Ok(Paper::A4),
+        "letter" => Ok(Paper::Letter),
+        _ => Err("paper is a4 or letter".into()),
+    }
 }

@@ -1,7 +1,7 @@
 //! Options about how plots look.
 
 use crate::cli::args::values;
-use crate::cli::exit_code::CliError;
+use crate::cli::error::CliError;
 use crate::metrics::Metric;
 use crate::parse;
 use crate::parse::NumberError;

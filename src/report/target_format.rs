@@ -1,13 +1,16 @@
-//! What a stone is written as: a format, or the cutting diagram.
+//! What a stone is written as: a format of designs and meshes, or the cutting diagram as a drawing.
 
-use super::args::stone;
-use super::diagram_output::{self, DiagramFormat};
-use super::exit_code::CliError;
+use super::diagram::{self, Paper};
+use super::drawing_format::DrawingFormat;
+use super::stone_report::ReportError;
 use crate::design::Design;
 use crate::formats::{self, Encoded, Format, FormatError};
 use crate::materials::Material;
-use crate::report::diagram::Paper;
+use crate::storage::text::display_name;
 use std::path::Path;
+
+/// Dots a millimetre of a diagram's PNG: 200 dpi.
+const DOTS_PER_MM: f64 = 200.0 / 25.4;
 
 /// A format or a drawing.
 #[derive(Clone, Copy)]
@@ -15,41 +18,41 @@ pub enum TargetFormat {
     /// Of a design or a mesh.
     Format(&'static Format),
     /// The cutting diagram.
-    Drawing(DiagramFormat),
+    Drawing(DrawingFormat),
 }
 
 impl TargetFormat {
     /// The one that is called so, by a name or an extension.
-    pub fn by_name(name: &str) -> Result<TargetFormat, CliError> {
-        match DiagramFormat::by_name(name) {
+    pub fn by_name(name: &str) -> Result<TargetFormat, ReportError> {
+        match DrawingFormat::by_name(name) {
             Some(drawing) => Ok(TargetFormat::Drawing(drawing)),
             None => Ok(TargetFormat::Format(formats::writer_named(name).map_err(with_drawings)?)),
         }
     }
 
-    /// The one of a file by its extension, or by `--to` where that goes with the extension or the extension says
+    /// The one of a file by its extension, or by `to` where that goes with the extension or the extension says
     /// nothing.
-    pub fn from_path(path: &Path, to: Option<&str>) -> Result<TargetFormat, CliError> {
-        let by_ending = match DiagramFormat::from_path(path) {
+    pub fn from_path(path: &Path, to: Option<&str>) -> Result<TargetFormat, ReportError> {
+        let by_ending = match DrawingFormat::from_path(path) {
             Some(drawing) => Ok(TargetFormat::Drawing(drawing)),
             None => formats::writer_for_path(path).map(TargetFormat::Format),
         };
         let Some(to) = to else { return by_ending.map_err(|e| with_drawings(e).into()) };
         let asked = TargetFormat::by_name(to)?;
         match by_ending {
-            Ok(own) if !asked.has_extension(path) => Err(CliError::input(format!(
-                "{} is {} by its ending, not {}: leave out --to {to}, or name another file",
-                stone::display_name(path),
-                own.name(),
-                asked.name()
-            ))),
+            Ok(own) if !asked.has_extension(path) => Err(ReportError::OtherEnding {
+                file: display_name(path),
+                own: own.name(),
+                asked: asked.name(),
+                to: to.into(),
+            }),
             _ => Ok(asked),
         }
     }
 
-    /// The one of a stream: by `--to`; without that by its name's extension, which a pipe may have; else the
+    /// The one of a stream: by `to`; without that by its name's extension, which a pipe may have; else the
     /// usual one.
-    pub fn for_stream(path: &Path, to: Option<&str>, usual: &str) -> Result<TargetFormat, CliError> {
+    pub fn for_stream(path: &Path, to: Option<&str>, usual: &str) -> Result<TargetFormat, ReportError> {
         match to {
             Some(to) => TargetFormat::by_name(to),
             None => TargetFormat::from_path(path, None).or_else(|_| TargetFormat::by_name(usual)),
@@ -76,9 +79,7 @@ impl TargetFormat {
     pub fn extension(self) -> &'static str {
         match self {
             TargetFormat::Format(format) => format.extensions.first().copied().unwrap_or(format.name),
-            TargetFormat::Drawing(DiagramFormat::Svg) => "svg",
-            TargetFormat::Drawing(DiagramFormat::Pdf) => "pdf",
-            TargetFormat::Drawing(DiagramFormat::Png) => "png",
+            TargetFormat::Drawing(drawing) => drawing.extension(),
         }
     }
 
@@ -90,12 +91,14 @@ impl TargetFormat {
         design: &Design,
         material: Option<&Material>,
         paper: Paper,
-    ) -> Result<Encoded, CliError> {
+    ) -> Result<Encoded, ReportError> {
         match self {
             TargetFormat::Format(format) => Ok(formats::encode_as(design, material, format.name)?),
             TargetFormat::Drawing(drawing) => {
                 let index = material.map(Material::index_d).or(design.refractive_index);
-                Ok(Encoded { bytes: drawing.bytes(design, index, paper)?, remarks: Vec::new() })
+                let svg = diagram::draw_on(design, index, paper)?;
+                let width = (DOTS_PER_MM * paper.size_mm().x).round() as u32;
+                Ok(Encoded { bytes: drawing.bytes(svg, width, None)?, remarks: Vec::new() })
             }
         }
     }
@@ -105,7 +108,7 @@ impl TargetFormat {
 fn with_drawings(error: FormatError) -> FormatError {
     match error {
         FormatError::NoWriter { asked, mut known } => {
-            known.extend(diagram_output::EXTENSIONS);
+            known.extend(DrawingFormat::ALL.map(|(name, _)| name));
             FormatError::NoWriter { asked, known }
         }
         error => error,

@@ -1,20 +1,20 @@
-//! Progress of pictures, as bars on a terminal.
+//! Progress of library work, as bars on a terminal.
 
-use crate::cli::console::Console;
+use super::console::Console;
 use crate::progress::Progress;
 use indicatif::ProgressBar;
 use std::sync::{Mutex, PoisonError};
 
 /// Shows each step as a bar, or as a clock where it has no count.
-pub struct PictureProgress<'a> {
+pub struct BarProgress<'a> {
     console: &'a Console,
     bar: Mutex<Option<ProgressBar>>,
 }
 
-impl<'a> PictureProgress<'a> {
+impl<'a> BarProgress<'a> {
     /// Of a command.
-    pub fn new(console: &'a Console) -> PictureProgress<'a> {
-        PictureProgress { console, bar: Mutex::new(None) }
+    pub fn new(console: &'a Console) -> BarProgress<'a> {
+        BarProgress { console, bar: Mutex::new(None) }
     }
 
     fn with_bar(&self, work: impl FnOnce(&ProgressBar)) {
@@ -24,7 +24,7 @@ impl<'a> PictureProgress<'a> {
     }
 }
 
-impl Progress for PictureProgress<'_> {
+impl Progress for BarProgress<'_> {
     fn begin(&self, what: &str, parts: u64) {
         let bar = match parts {
             0 => self.console.spinner(""),

@@ -1,17 +1,18 @@
-//! Which files an import takes, and where each is written.
+//! Places for files that are made of many stones, one each: no two the same.
 
-use crate::cli::args::inputs;
-use crate::cli::args::stone;
-use crate::cli::exit_code::CliError;
-use crate::stone::grammar;
+use super::stone_files;
+use crate::limits::Limits;
+use crate::stone::{StoneError, grammar};
+use crate::storage::find_files;
+use crate::storage::text::display_name;
 use std::collections::{HashMap, HashSet};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
-/// One file to be imported.
+/// A stone, and the file that is made of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Job {
-    /// The file, or a library stone.
+    /// The STONE.
     pub stone: OsString,
     /// Where to write it; `-` is standard output.
     pub target: PathBuf,
@@ -53,22 +54,35 @@ impl FoundStone {
     }
 }
 
-/// The jobs of an import into the folder `output`, folders taken with all that is in them.
+/// The files that are made of stones in the folder `output`, folders taken with all that is in them.
 ///
 /// No two jobs write to one place, also where capitals make no difference. Files that would get as
 /// much as needed of their own names into it: `a.asc` and `a.gem` become `a-asc.glb` and `a-gem.glb`,
 /// `x/a.asc` and `y/a.asc` become `x-a-asc.glb` and `y-a-asc.glb`; what is then left gets a number. A
 /// stone that is named twice is taken once. The output folder itself is not searched.
-pub fn into_folder(arguments: &[OsString], output: &Path, extension: &str) -> Result<Vec<Job>, CliError> {
+///
+/// - `extension`: of all files that are made
+/// - `limits`: on files that are read to tell whether they are stones
+pub fn into_folder(
+    arguments: &[OsString],
+    output: &Path,
+    extension: &str,
+    limits: Limits,
+) -> Result<Vec<Job>, StoneError> {
     let skipped = output.canonicalize().ok();
     let mut found: Vec<FoundStone> = Vec::new();
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
-            for file in inputs::files(path, skipped.as_deref())? {
+            for file in find_files::below(path, skipped.as_deref())? {
                 let below = file.strip_prefix(path).unwrap_or(&file).with_extension("");
-                let by_chance = !inputs::is_meant_as_stone(&file);
-                found.push(FoundStone { stone: inputs::as_stone(&file), below, folder: None, by_chance });
+                let by_chance = !stone_files::is_meant_as_stone(&file, limits);
+                found.push(FoundStone {
+                    stone: stone_files::as_stone(&file),
+                    below,
+                    folder: None,
+                    by_chance,
+                });
             }
         } else {
             let folder = path.parent().and_then(Path::file_name).map(OsStr::to_owned);
@@ -99,7 +113,7 @@ pub fn places_of(stones: &[OsString]) -> Vec<PathBuf> {
 
 /// A place for each, no two the same: each has the shortest name that no other would have as well.
 fn places(found: &[FoundStone]) -> Vec<PathBuf> {
-    let key = |name: &Path| stone::display_name(name).to_lowercase();
+    let key = |name: &Path| display_name(name).to_lowercase();
     let mut places: Vec<Option<PathBuf>> = found.iter().map(|f| f.by_chance.then(|| f.name(1))).collect();
     let mut taken: HashSet<String> = HashSet::new();
     let mut detail = 0;
@@ -136,7 +150,7 @@ mod tests {
             fs::write(folder.join(name), "x").expect("writes");
         }
         let output = folder.join("deep/out");
-        let jobs = into_folder(&[folder.clone().into()], &output, "glb").expect("plans");
+        let jobs = into_folder(&[folder.clone().into()], &output, "glb", Limits::default()).expect("plans");
         let named: Vec<_> = jobs
             .iter()
             .map(|j| (j.target.strip_prefix(&output).expect("inside").display().to_string(), j.by_chance))
@@ -157,7 +171,7 @@ mod tests {
     fn stones_of_one_name_are_told_apart_by_their_folders_then_by_numbers() {
         let plan = |arguments: &[&str]| {
             let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
-            let jobs = into_folder(&arguments, Path::new("o"), "glb").expect("plans");
+            let jobs = into_folder(&arguments, Path::new("o"), "glb", Limits::default()).expect("plans");
             jobs.iter().map(|j| j.target.display().to_string()).collect::<Vec<_>>()
         };
         assert_eq!(plan(&["x/y.asc"]), ["o/y.glb"]);
