@@ -49,6 +49,15 @@ const FIRST_COLUMNS: [&str; 35] = [
 ];
 
 /// Every metric, in the order of the columns.
+///
+/// ```
+/// use cutlab::METRICS;
+///
+/// assert_eq!(METRICS[0].name, "wlr");
+/// for metric in METRICS.iter().filter(|metric| metric.unit == "%") {
+///     println!("{}: {}", metric.name, metric.about_and_better());
+/// }
+/// ```
 pub static METRICS: LazyLock<Vec<&'static Metric>> = LazyLock::new(|| {
     let place = |m: &&Metric| FIRST_COLUMNS.iter().position(|name| *name == m.name);
     let mut all: Vec<&Metric> = ESTIMATORS.iter().flat_map(|e| e.kind.metrics()).collect();

@@ -11,6 +11,7 @@ mod progressive;
 pub mod record;
 mod remaining_time;
 pub mod request;
+mod request_builder;
 pub mod target;
 
 pub use background::Background;

@@ -6,7 +6,7 @@ mod brilliants;
 use bench::Bench;
 use brilliants::{SEED, diamond, named, plan, subject};
 use cutlab::advanced::scoring::comparison::{SIGNIFICANT, compare};
-use cutlab::advanced::scoring::score::{ScoreRequest, score};
+use cutlab::advanced::scoring::score::score;
 
 /// The difference of two stones is that of long runs of each, and sharper than their errors.
 #[test]
@@ -14,11 +14,7 @@ fn differences_are_right_and_sharper_than_the_scores() {
     let subjects = ["reference", "57"].map(|n| subject(n, &named(n), diamond()));
     let plan = plan(&["wlr", "leakage"], 1 << 16);
     let compared = compare(&subjects, &plan, &|| ());
-    let long = ScoreRequest {
-        target: cutlab::advanced::scoring::score::Target::Samples(1 << 20),
-        seed: SEED + 9,
-        ..plan
-    };
+    let long = plan.samples(1 << 20).seed(SEED + 9);
     let [a, b] = [0, 1].map(|i| score(&subjects[i], &long).scores);
     for m in 0..2 {
         let (a, b) = (a[m].expect("applies"), b[m].expect("applies"));
@@ -41,7 +37,7 @@ fn equal_stones_rarely_differ() {
         let angle = 0.01 + 0.03 * f64::from(run);
         let turned = still.clone().turned(glam::DMat3::from_rotation_z(angle));
         let subjects = [subject("a", &still, diamond()), subject("b", &turned, diamond())];
-        let plan = ScoreRequest { seed: SEED + run as u64, ..plan(&["wlr", "leakage", "glare"], 1 << 13) };
+        let plan = plan(&["wlr", "leakage", "glare"], 1 << 13).seed(SEED + run as u64);
         let compared = compare(&subjects, &plan, &|| ());
         found += (0..3).filter(|m| compared.is_significant(0, *m) == Some(true)).count();
     }

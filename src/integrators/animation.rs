@@ -10,8 +10,21 @@ use std::f32::consts::TAU;
 use std::io::Write;
 
 /// The moving part of a scene.
+///
+/// ```
+/// use cutlab::advanced::integrators::animation::scene_at;
+/// use cutlab::{RenderRequest, Turn};
+///
+/// let request = RenderRequest::scene("table")?;
+/// let scene = request.build(&request.scene_file()?, (64, 48))?;
+/// let half_way = scene_at(&scene, Turn::Camera, false, 1, 2);
+/// let (a, b) = (scene.camera.position - scene.camera.target, half_way.camera.position - scene.camera.target);
+/// assert!((a.truncate() + b.truncate()).length() < 1e-3); // on the other side of its target
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Turn {
     /// The camera goes around its target.
     #[default]

@@ -12,11 +12,12 @@ use std::ffi::OsStr;
 /// use cutlab::ReportRequest;
 ///
 /// let request: ReportRequest = serde_json::from_str(r#"{ "stones": ["tolkowsky"] }"#)?;
-/// assert_eq!((request.seed, request.options), (1, Default::default()));
+/// assert_eq!(request, ReportRequest::new(["tolkowsky"]).seed(1));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ReportRequest {
     /// The stones as they are named: cuts, files, folders, patterns.
     pub stones: Vec<String>,
@@ -34,6 +35,23 @@ impl Default for ReportRequest {
 }
 
 impl ReportRequest {
+    /// On these stones, as each is, with seed 1.
+    pub fn new<S: Into<String>>(stones: impl IntoIterator<Item = S>) -> ReportRequest {
+        ReportRequest { stones: stones.into_iter().map(Into::into).collect(), ..ReportRequest::default() }
+    }
+
+    /// With what is asked for of every stone.
+    pub fn options(mut self, options: StoneOptions) -> ReportRequest {
+        self.options = options;
+        self
+    }
+
+    /// With a seed of its random streams.
+    pub fn seed(mut self, seed: u64) -> ReportRequest {
+        self.seed = seed;
+        self
+    }
+
     /// Opens one of its stones: a convex one, as wide as it is asked for, as it is, or as stones usually are.
     pub fn open(&self, stone: impl AsRef<OsStr>) -> Result<Stone, StoneError> {
         let stone = Stone::open(stone, &self.options)?.with_usual_width()?;

@@ -23,7 +23,22 @@ const OF_STORAGE: f64 = 1e-6;
 const OF_TRACING: f64 = 1e-4;
 
 /// The scores of several stones.
+///
+/// ```
+/// use cutlab::advanced::scoring::ScoreInput;
+/// use cutlab::advanced::scoring::comparison::compare;
+/// use cutlab::{Comparison, ScoreRequest, Stone};
+///
+/// let deep = Stone::parse("round-brilliant:pavilion-angle=43")?;
+/// let stones = [Stone::parse("round-brilliant")?, deep].map(|stone| ScoreInput::from_stone(&stone, None));
+/// let request = ScoreRequest::new(["light_return"]).samples(1 << 14);
+/// let comparison: Comparison = compare(&stones, &request, &|| ());
+/// assert!(comparison.differences[0][0].is_some_and(|deeper| deeper.value < 0.0));
+/// assert_eq!(comparison.is_significant(0, 0), Some(true));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Comparison {
     /// One a stone: name, material and facets are of it; the scores are means over the runs.
     pub rows: Vec<ScoreRow>,

@@ -119,10 +119,28 @@ impl ScoreRequest {
         self
     }
 
+    /// With these metrics in place of its own.
+    pub fn metrics(mut self, metrics: impl IntoIterator<Item = &'static Metric>) -> ScoreRequest {
+        self.metrics = metrics.into_iter().collect();
+        self
+    }
+
+    /// Traced as far as `target` says.
+    pub fn target(mut self, target: Target) -> ScoreRequest {
+        self.target = target;
+        self
+    }
+
     /// Traced until every standard error is below `error` times the metric's scale: 1 for fractions and degrees, 100
     /// for percentages.
     pub fn error(mut self, error: f64) -> ScoreRequest {
         self.target = Target::Error(error);
+        self
+    }
+
+    /// With no estimator traced further than so many samples in pursuit of an error, dearer ones less far.
+    pub fn cap(mut self, samples: u64) -> ScoreRequest {
+        self.cap = samples;
         self
     }
 
