@@ -65,6 +65,16 @@ pub static METRICS: LazyLock<Vec<&'static Metric>> = LazyLock::new(|| {
     all
 });
 
+/// A name that no metric has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(*.nearest))]
+pub struct NoSuchMetric {
+    /// The name.
+    pub name: String,
+    /// The metric that is probably meant.
+    pub nearest: Option<&'static str>,
+}
+
 impl Metric {
     /// What it tells, and which values are the better.
     pub fn about_and_better(&self) -> String {
@@ -72,6 +82,13 @@ impl Metric {
             "" => self.about.into(),
             said => format!("{}; {said}", self.about),
         }
+    }
+
+    /// The metric called `name`; the error has the name that is probably meant.
+    pub fn named(name: &str) -> Result<&'static Metric, NoSuchMetric> {
+        let nearest = || parse::nearest_name(name, METRICS.iter().map(|m| m.name));
+        let none = || NoSuchMetric { name: name.trim().into(), nearest: nearest() };
+        Metric::by_name(name).ok_or_else(none)
     }
 
     /// The metric called `name`, or none.
@@ -84,8 +101,7 @@ impl Metric {
 impl<'de> Deserialize<'de> for &'static Metric {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<&'static Metric, D::Error> {
         let name = Cow::<str>::deserialize(deserializer)?;
-        Metric::by_name(&name)
-            .ok_or_else(|| serde::de::Error::custom(format!("no metric is called '{name}'")))
+        Metric::named(&name).map_err(serde::de::Error::custom)
     }
 }
 

@@ -88,7 +88,9 @@ fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
 fn stone_name(spec: &OsStr) -> OsString {
     let text = spec.to_str().filter(|_| grammar::is_cut(spec));
     let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
-    let of_file = || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
+    let of_file = || {
+        StoneSpec::parse_within(spec, limits()).map_or_else(|_| String::new(), |spec| spec.own().join(","))
+    };
     let given = parameters.unwrap_or_else(of_file);
     let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
     let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
@@ -108,14 +110,13 @@ fn open_stones(args: &RenderArgs, console: &Console) -> Result<Vec<Stone>, CliEr
                 &why,
             );
         }
-        if !stone.lacks_size() {
-            return Ok(stone);
+        if stone.lacks_size() {
+            console.note(&format!(
+                "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
+                stone.convex_design()?.name
+            ));
         }
-        console.note(&format!(
-            "note: {} has no size, which its colour depends on: taken as {USUAL_WIDTH_MM} mm wide; --size MM sets it",
-            stone.convex_design()?.name
-        ));
-        Ok(stone.with_usual_width()?)
+        Ok(stone.with_width_for_colour()?)
     };
     args.stones.iter().map(open).collect()
 }

@@ -11,7 +11,6 @@ use super::terminal_table;
 use crate::batch::fingerprint::Fingerprint;
 use crate::optics::dispersion::VISIBLE_NM;
 use crate::render::record;
-use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
 use crate::report::{self, ReportError, ReportInput, ReportRequest};
@@ -176,7 +175,7 @@ fn text(bundle: &StoneReport, folder: &Path) -> String {
         lines.push((section.head.into(), String::new()));
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(estimate_text) {
+            let value = match score.value.map(Estimate::text) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
                 None => terminal_table::NONE.into(),

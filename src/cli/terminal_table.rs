@@ -2,7 +2,6 @@
 
 use crate::batch::table::NumericColumns;
 use crate::metrics::Metric;
-use crate::report::estimates::estimate_text;
 use crate::sampling::stats::Estimate;
 use crate::storage::terminal::in_line;
 use comfy_table::presets::NOTHING;
@@ -59,10 +58,7 @@ pub const NONE: &str = "–";
 
 /// A score with its standard error.
 pub fn format_estimate(estimate: Estimate) -> String {
-    match estimate_text(estimate) {
-        (value, Some(error)) => format!("{value} ± {error}"),
-        (value, None) => value,
-    }
+    estimate.to_string()
 }
 
 /// An empty table without lines.

@@ -8,6 +8,7 @@ use super::outputs::Outputs;
 use super::terminal_table;
 use crate::batch::validate;
 use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
+use crate::cli::limits::limits;
 use crate::render::record;
 use crate::report::validation::{self, count, expectation, written};
 use crate::storage::atomic_write;
@@ -76,7 +77,8 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
             .iter()
             .try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))?;
     }
-    let lab = CheckContext { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
+    let corpus = std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from);
+    let lab = CheckContext { seed: args.seed, corpus, limits: limits() };
     let bar = console.progress(checks.len(), "validating");
     let run = |check: validate::Check| {
         let report = check.run(&lab);

@@ -189,10 +189,7 @@ impl RenderRequest {
         if !self.opened.is_empty() {
             return Ok(self.opened.clone());
         }
-        let open = |spec: &String| {
-            let stone = Stone::open(spec, &self.options)?;
-            Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
-        };
+        let open = |spec: &String| Ok(Stone::open(spec, &self.options)?.with_width_for_colour()?);
         self.stones.iter().map(open).collect()
     }
 

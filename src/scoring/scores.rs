@@ -2,7 +2,7 @@
 
 use super::score::score;
 use super::settings::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt};
-use crate::metrics::{METRICS, Metric};
+use crate::metrics::{Metric, NoSuchMetric};
 use crate::parse;
 use crate::sampling::stats::Estimate;
 use crate::stone::Stone;
@@ -21,13 +21,8 @@ use std::ops::Index;
 #[non_exhaustive]
 pub enum ScoreError {
     /// A name that no metric has.
-    #[error("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(*.nearest))]
-    NoSuchMetric {
-        /// The name.
-        name: String,
-        /// The metric that is probably meant.
-        nearest: Option<&'static str>,
-    },
+    #[error(transparent)]
+    NoSuchMetric(#[from] NoSuchMetric),
     /// A stone that has none of the scores asked for, or in which nothing can be traced.
     #[error("{stone}: {why}")]
     NotScored {
@@ -183,17 +178,11 @@ impl ScoreRequest {
     /// As [`ScoreRequest::run`], of a stone that is tilted.
     pub fn run_tilted(&self, stone: &Stone, tilt: Option<Tilt>) -> Result<Scores, ScoreError> {
         if let Some(name) = self.unknown.first() {
-            let nearest = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
-            return Err(ScoreError::NoSuchMetric { name: name.clone(), nearest });
+            Metric::named(name)?;
         }
         let failed = |why: String| ScoreError::NotScored { stone: stone.name().into(), why };
-        let input = if stone.lacks_size() {
-            let sized = stone.clone().with_usual_width().map_err(|e| failed(e.to_string()))?;
-            ScoreInput::from_stone(&sized, tilt)
-        } else {
-            ScoreInput::from_stone(stone, tilt)
-        };
-        let row = score(&input, self);
+        let sized = stone.clone().with_width_for_colour().map_err(|e| failed(e.to_string()))?;
+        let row = score(&ScoreInput::from_stone(&sized, tilt), self);
         match &row.error {
             Some(why) if row.scores.iter().all(Option::is_none) => Err(failed(why.clone())),
             _ => Ok(Scores { row, names: self.metrics.iter().map(|m| m.name).collect() }),

@@ -55,7 +55,7 @@ pub fn as_stone(file: &Path) -> OsString {
 pub fn expanded(arguments: &[OsString]) -> Result<Vec<OsString>, CliError> {
     let mut all = Vec::new();
     for argument in arguments {
-        let spec = StoneSpec::parse(argument)?;
+        let spec = StoneSpec::parse_within(argument, limits())?;
         let name = spec.base();
         let mut found = Vec::new();
         if is_pattern(name) {
@@ -178,5 +178,5 @@ fn designs(folder: &Path) -> Result<Vec<OsString>, CliError> {
 
 /// The file that a STONE is read from, if it is one.
 pub fn file_of(stone: &OsStr) -> Option<PathBuf> {
-    StoneSpec::parse(stone).ok()?.file()
+    StoneSpec::parse_within(stone, limits()).ok()?.file()
 }

@@ -5,7 +5,7 @@ use super::values;
 use crate::cli::console::Console;
 use crate::cli::exit_code::CliError;
 use crate::design::USUAL_WIDTH_MM;
-use crate::metrics::{METRICS, Metric};
+use crate::metrics::Metric;
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
@@ -110,7 +110,7 @@ impl ScoringArgs {
         if let Some(doubt) = stone.orientation_doubt() {
             console.note_once(&format!("note: {}: {doubt}", stone.name()), stone.name());
         }
-        Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
+        Ok(stone.with_width_for_colour()?)
     }
 }
 
@@ -119,11 +119,7 @@ const HIGH_INDEX: f64 = 4.0;
 
 /// Value parser of `--metrics`.
 pub fn metric(name: &str) -> Result<&'static Metric, String> {
-    Metric::by_name(name).ok_or_else(|| {
-        let near = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
-        let name = name.trim();
-        format!("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(near))
-    })
+    Metric::named(name).map_err(|e| e.to_string())
 }
 
 /// Tables have nine decimals.
