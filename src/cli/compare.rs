@@ -11,7 +11,7 @@ use crate::batch::fingerprint::Fingerprint;
 use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::sidecar::TableMeta;
 use crate::batch::table::TableFormat;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::report::{ReportInput, comparison_page};
 use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{Comparison, RUNS, compare};
@@ -89,17 +89,15 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
     }
     let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
     let mut outputs = Outputs::reading_stones(&specs, console);
-    let command = record::own_command();
     let request = TableRequest::Compare(ComparisonTable {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.scoring.options(),
         scores: plan.clone(),
     });
+    let record = Record::of_request(record::own_command(), &request);
     match &output {
-        Some(ComparisonFormat::Page(path)) => outputs.claim(path, |there| record::is_of(there, &command))?,
-        Some(ComparisonFormat::Markdown(path)) => {
-            outputs.claim(path, |there| record::is_of(there, &command))?
-        }
+        Some(ComparisonFormat::Page(path)) => outputs.claim(path, |there| record.matches(there))?,
+        Some(ComparisonFormat::Markdown(path)) => outputs.claim(path, |there| record.matches(there))?,
         Some(ComparisonFormat::Table(path, _)) => {
             tables::claim_table(path, &|meta| meta.is_of(&request), None, false, &mut outputs)?
         }
@@ -143,10 +141,10 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
                     bar.inc(1);
                 });
                 bar.finish_and_clear();
-                atomic_write::write(path, record::recorded(page?, &command).as_bytes())?;
+                atomic_write::write(path, record.in_markup(page?).as_bytes())?;
             }
             ComparisonFormat::Markdown(_) => {
-                atomic_write::write(path, record::recorded(compared.markdown(), &command).as_bytes())?;
+                atomic_write::write(path, record.in_markup(compared.markdown()).as_bytes())?;
             }
             ComparisonFormat::Table(_, form) => {
                 compared.weight_notes().iter().for_each(|said| console.note(&format!("note: {said}")));

@@ -10,7 +10,7 @@ use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};
 use crate::cli::limits::limits;
 use crate::metrics::Metric;
-use crate::render::record;
+use crate::render::Record;
 use crate::report::plot::{Axis, ScorePlot, Style};
 use crate::report::{pdf, raster};
 use crate::stone::grammar;
@@ -77,20 +77,20 @@ impl Plots {
 
     /// Takes the places of all files.
     ///
-    /// - `command`: that makes the table
-    pub fn claim(&self, command: &str, outputs: &mut Outputs) -> Result<(), CliError> {
-        self.files.iter().try_for_each(|(file, _)| outputs.claim(file, |there| record::is_of(there, command)))
+    /// - `record`: of what makes the table
+    pub fn claim(&self, record: &Record, outputs: &mut Outputs) -> Result<(), CliError> {
+        self.files.iter().try_for_each(|(file, _)| outputs.claim(file, |there| record.matches(there)))
     }
 
     /// Draws the plots of a table; their files.
     ///
-    /// - `command`: recorded in each
+    /// - `record`: that each has
     pub fn draw(
         &self,
         bytes: &[u8],
         form: TableFormat,
         layout: &TableLayout,
-        command: &str,
+        record: &Record,
     ) -> Result<Vec<PathBuf>, CliError> {
         if self.is_empty() {
             return Ok(Vec::new());
@@ -103,13 +103,13 @@ impl Plots {
             let drawing = ScorePlot { metric, axes: &axes, stone, family, is_diamond, style, own: None };
             let svg = drawing.svg(&table, layout.scattered, &layout.curves);
             let bytes = match ending_of(path) {
-                Some("svg") => record::recorded(svg, command).into_bytes(),
+                Some("svg") => record.in_markup(svg).into_bytes(),
                 Some("pdf") => {
                     let page = pdf::pdf(&svg).map_err(|e| CliError::input(e.to_string()))?;
-                    record::in_pdf(page, command)
+                    record.in_pdf(page)
                 }
                 _ => {
-                    let png = raster::png_of(&svg, self.width, Some(command));
+                    let png = raster::png_of(&svg, self.width, Some(record));
                     png.map_err(|e| CliError::input(e.to_string()))?
                 }
             };

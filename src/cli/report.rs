@@ -10,7 +10,7 @@ use super::outputs::Outputs;
 use super::terminal_table;
 use crate::batch::fingerprint::Fingerprint;
 use crate::optics::dispersion::VISIBLE_NM;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::report::page::Section;
 use crate::report::stone_report::{self, STEPS, StoneReport};
 use crate::report::{self, ReportError, ReportInput, ReportRequest};
@@ -107,11 +107,16 @@ fn identity(request: &ReportRequest) -> String {
     format!("report {}", Fingerprint::of_request(request).hex())
 }
 
+/// What the page of a report says of where it comes from.
+fn own_record(request: &ReportRequest) -> Record {
+    Record::of_request(record::own_command(), request)
+}
+
 /// Takes the places of all files of the report in a folder.
 fn claim(folder: &Path, request: &ReportRequest, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
     let begun = Journal::belongs_to(&Journal::path_for(&page), &identity(request));
-    let is_own = begun || record::is_of(&page, &record::own_command());
+    let is_own = begun || own_record(request).matches(&page);
     stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
 
@@ -141,7 +146,7 @@ fn one(
     let mut bundle = bundle?;
     for (name, bytes) in &mut bundle.files {
         if *name == "index.html" {
-            bytes.extend(record::behind(&record::own_command()).bytes());
+            bytes.extend(own_record(request).behind().bytes());
         }
     }
     // what a kill leaves of the files is known as this command's

@@ -9,7 +9,7 @@ use super::terminal_table;
 use crate::batch::validate;
 use crate::batch::validate::{CheckContext, CheckReport, FigureOutcome, Verdict};
 use crate::cli::limits::limits;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::report::validation::{self, count, expectation, written};
 use crate::storage::atomic_write;
 use serde::Serialize;
@@ -69,9 +69,9 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         }
     }
     let folder = args.output.clone().or_else(|| args.only.is_none().then(|| FOLDER.into()));
-    let command = record::own_command();
+    let record = Record::of_command(record::own_command());
     if let Some(folder) = &folder {
-        let is_own = record::is_of(&folder.join("validation.html"), &command);
+        let is_own = record.matches(&folder.join("validation.html"));
         let mut outputs = Outputs::new(console);
         ["validation.csv", "validation.html"]
             .iter()
@@ -94,7 +94,7 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         console.print(&text(&reports))?;
     }
     if let Some(folder) = folder {
-        let page = record::recorded(validation::html(&reports, args.seed, &record::command_line()), &command);
+        let page = record.in_markup(validation::html(&reports, args.seed, &record::command_line()));
         let table = validate::csv(outcomes()).map_err(|e| CliError::input(e.to_string()))?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);

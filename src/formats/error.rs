@@ -13,7 +13,8 @@ use crate::storage::atomic_write::WriteError;
 /// use cutlab::{FormatError, Stone, StoneError};
 ///
 /// let error = Stone::from_bytes("broken.asc", b"", None).unwrap_err();
-/// assert!(matches!(error, StoneError::Format(FormatError::Empty { .. })));
+/// let StoneError::Format(error) = error else { panic!("{error}") };
+/// assert!(matches!(*error, FormatError::Empty { .. }));
 /// assert_eq!(error.to_string(), "broken.asc: the file is empty");
 /// ```
 #[derive(Debug, thiserror::Error)]

@@ -29,11 +29,10 @@ const OF_TRACING: f64 = 1e-4;
 /// use cutlab::advanced::scoring::comparison::compare;
 /// use cutlab::{Comparison, ScoreRequest, Stone};
 ///
-/// let deep = Stone::parse("round-brilliant:pavilion-angle=43")?;
-/// let stones = [Stone::parse("round-brilliant")?, deep].map(|stone| ScoreInput::from_stone(&stone, None));
-/// let request = ScoreRequest::new(["light_return"]).samples(1 << 14);
-/// let comparison: Comparison = compare(&stones, &request, &|| ());
-/// assert!(comparison.differences[0][0].is_some_and(|deeper| deeper.value < 0.0));
+/// let stones = [Stone::parse("tolkowsky")?, Stone::parse("cube")?];
+/// let inputs = stones.map(|stone| ScoreInput::from_stone(&stone, None));
+/// let comparison: Comparison = compare(&inputs, &ScoreRequest::new(["leakage"]).samples(1 << 14), &|| ());
+/// assert!(comparison.differences[0][0].is_some_and(|of_cube| of_cube.value > 0.3));
 /// assert_eq!(comparison.is_significant(0, 0), Some(true));
 /// # Ok::<(), cutlab::Error>(())
 /// ```

@@ -15,6 +15,7 @@ use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
 use crate::cli::terminal_table;
+use crate::render::Record;
 use crate::storage::atomic_write;
 use crate::storage::journal::JournalRemark;
 use indicatif::ProgressBar;
@@ -82,7 +83,7 @@ impl TableCommand<'_> {
     ) -> Result<ExitStatus, CliError> {
         let output = &table.output;
         let form = table.format(console)?;
-        plots.claim(&self.request.command(), outputs)?;
+        plots.claim(&self.record(), outputs)?;
         let bar = console.progress(0, self.what);
         let noted = Mutex::new(BTreeSet::new());
         let waited = AtomicBool::new(false);
@@ -189,6 +190,11 @@ impl TableCommand<'_> {
         Ok(code(&summary))
     }
 
+    /// What plots of the table say of where they come from.
+    fn record(&self) -> Record {
+        Record::of_request(self.request.command(), self.request)
+    }
+
     fn draw(
         &self,
         plots: &Plots,
@@ -196,9 +202,7 @@ impl TableCommand<'_> {
         form: TableFormat,
     ) -> Result<Vec<PathBuf>, CliError> {
         match self.rows.layout() {
-            Some(layout) if !plots.is_empty() => {
-                plots.draw(&bytes()?, form, &layout, &self.request.command())
-            }
+            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, &layout, &self.record()),
             _ => Ok(Vec::new()),
         }
     }
