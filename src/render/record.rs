@@ -134,7 +134,7 @@ impl Record {
     fn of_exr(file: File) -> Option<Record> {
         let meta = MetaData::read_from_buffered(BufReader::new(file), false).ok()?;
         let attributes = &meta.headers.first()?.own_attributes.other;
-        let record = attributes.iter().find(|(name, _)| name.to_string() == EXR_ATTRIBUTE);
+        let record = attributes.iter().find(|(name, _)| *name == EXR_ATTRIBUTE);
         let Some((_, AttributeValue::Text(json))) = record else { return None };
         serde_json::from_str(&json.to_string()).ok()
     }
