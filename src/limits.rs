@@ -154,7 +154,7 @@ impl Limit {
 /// use cutlab::{Limits, Stone, StoneOptions};
 ///
 /// let limits: Limits = "4".parse().unwrap(); // four times as much of everything is read
-/// let options = StoneOptions { limits, ..StoneOptions::default() };
+/// let options = StoneOptions::default().limits(limits);
 /// assert!(Stone::open("tolkowsky", &options).is_ok());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,6 @@ mod material;
 pub mod material_file;
 #[cfg(feature = "files")]
 mod open;
-mod table_entry;
 pub mod weight;
 
 use crate::limits::Limits;

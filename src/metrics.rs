@@ -49,12 +49,31 @@ const FIRST_COLUMNS: [&str; 35] = [
 ];
 
 /// Every metric, in the order of the columns.
+///
+/// ```
+/// use cutlab::METRICS;
+///
+/// assert_eq!(METRICS[0].name, "wlr");
+/// for metric in METRICS.iter().filter(|metric| metric.unit == "%") {
+///     println!("{}: {}", metric.name, metric.about_and_better());
+/// }
+/// ```
 pub static METRICS: LazyLock<Vec<&'static Metric>> = LazyLock::new(|| {
     let place = |m: &&Metric| FIRST_COLUMNS.iter().position(|name| *name == m.name);
     let mut all: Vec<&Metric> = ESTIMATORS.iter().flat_map(|e| e.kind.metrics()).collect();
     all.sort_by_key(|m| place(m).unwrap_or(FIRST_COLUMNS.len()));
     all
 });
+
+/// A name that no metric has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(*.nearest))]
+pub struct NoSuchMetric {
+    /// The name.
+    pub name: String,
+    /// The metric that is probably meant.
+    pub nearest: Option<&'static str>,
+}
 
 impl Metric {
     /// What it tells, and which values are the better.
@@ -63,6 +82,13 @@ impl Metric {
             "" => self.about.into(),
             said => format!("{}; {said}", self.about),
         }
+    }
+
+    /// The metric called `name`; the error has the name that is probably meant.
+    pub fn named(name: &str) -> Result<&'static Metric, NoSuchMetric> {
+        let nearest = || parse::nearest_name(name, METRICS.iter().map(|m| m.name));
+        let none = || NoSuchMetric { name: name.trim().into(), nearest: nearest() };
+        Metric::by_name(name).ok_or_else(none)
     }
 
     /// The metric called `name`, or none.
@@ -75,8 +101,7 @@ impl Metric {
 impl<'de> Deserialize<'de> for &'static Metric {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<&'static Metric, D::Error> {
         let name = Cow::<str>::deserialize(deserializer)?;
-        Metric::by_name(&name)
-            .ok_or_else(|| serde::de::Error::custom(format!("no metric is called '{name}'")))
+        Metric::named(&name).map_err(serde::de::Error::custom)
     }
 }
 

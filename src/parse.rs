@@ -6,6 +6,7 @@ mod display;
 pub mod plain;
 pub mod shell;
 pub mod spectral_table;
+pub mod table_entry;
 
 pub use display::display_name;
 use std::ops::RangeInclusive;

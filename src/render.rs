@@ -11,13 +11,15 @@ mod progressive;
 pub mod record;
 mod remaining_time;
 pub mod request;
+mod request_builder;
 pub mod target;
 
 pub use background::Background;
 pub use conflicts::first as first_conflict;
 pub use error::RenderError;
-pub use frames::{Provenances, to_files};
+pub use frames::to_files;
 pub use picture::Picture;
 pub use picture_kind::PictureKind;
+pub use record::Record;
 pub use request::{AnimationRequest, Exposure, RenderRequest, StopRequest};
 pub use target::OutputTarget;

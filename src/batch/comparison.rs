@@ -8,7 +8,7 @@ use crate::sampling::stats::Estimate;
 use crate::scoring::comparison::{self, Comparison};
 use crate::scoring::score::{ScoreInput, ScoreRequest};
 use crate::scoring::scores::ScoreError;
-use crate::stone::{Stone, StoneError, StoneOptions};
+use crate::stone::{Stone, StoneError};
 use crate::storage::text::display_name;
 use std::ffi::OsString;
 
@@ -58,17 +58,6 @@ pub struct StoneComparison {
 }
 
 impl ComparisonTable {
-    /// A comparison of stones as they are.
-    ///
-    /// - `stones`: STONEs, folders and patterns; differences are from the first
-    pub fn new<S: Into<String>>(
-        stones: impl IntoIterator<Item = S>,
-        scores: ScoreRequest,
-    ) -> ComparisonTable {
-        let stones = stones.into_iter().map(Into::into).collect();
-        ComparisonTable { stones, options: StoneOptions::default(), scores }
-    }
-
     /// Opens the stones and compares them, as `cutlab compare` does. A stone whose size nobody says is taken as wide
     /// as stones usually are.
     ///

@@ -36,7 +36,7 @@ impl InputFiles {
         add_material(&mut identity, options.asked_material().ok().flatten().as_ref());
         for stone in stones {
             identity.add(stone.as_encoded_bytes());
-            let parts = StoneSpec::parse(stone).ok();
+            let parts = StoneSpec::parse_within(stone, limits).ok();
             add_material(&mut identity, parts.as_ref().and_then(StoneSpec::material));
             if stone == STANDARD_INPUT {
                 identity.add_file(&FileDigest::of_standard_input(limits));

@@ -29,7 +29,7 @@ pub fn cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Vec<Tabl
 }
 
 fn measured_cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Option<Vec<TableCell>> {
-    let stone = Stone::open(spec, &StoneOptions { size_mm: None, ..options.clone() }).ok()?;
+    let stone = Stone::open(spec, &options.without_size()).ok()?;
     let design = stone.design()?;
     let p = proportions::of_design(design).ok()?;
     let to_mm =

@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(tag = "command", rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum TableRequest {
     /// A row for each stone, or for each stone and tilt.
     Score(ScoreTable),
@@ -34,8 +35,18 @@ pub enum TableRequest {
 }
 
 /// A table with a row for each stone, or for each stone and tilt.
+///
+/// ```
+/// use cutlab::{ScoreRequest, ScoreTable, TableRequest};
+///
+/// let table = ScoreTable::new(["tolkowsky", "oval"], ScoreRequest::new(["wlr"]).seed(2)).proportions(true);
+/// let command = TableRequest::Score(table).command();
+/// assert!(command.starts_with("cutlab score tolkowsky oval --metrics wlr"));
+/// assert!(command.ends_with("--seed 2 --proportions"));
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ScoreTable {
     /// The stones as they are named: cuts, files, folders, patterns.
     pub stones: Vec<String>,
@@ -49,6 +60,39 @@ pub struct ScoreTable {
     pub proportions: bool,
     /// By what the rows are sorted, if they are.
     pub sort: Option<SortRequest>,
+}
+
+impl ScoreTable {
+    /// Of these stones, as each is, face-up, a row for each.
+    pub fn new<S: Into<String>>(stones: impl IntoIterator<Item = S>, scores: ScoreRequest) -> ScoreTable {
+        let stones = stones.into_iter().map(Into::into).collect();
+        let options = StoneOptions::default();
+        ScoreTable { stones, options, scores, tilt: None, proportions: false, sort: None }
+    }
+
+    /// With what is asked for of every stone.
+    pub fn options(mut self, options: StoneOptions) -> ScoreTable {
+        self.options = options;
+        self
+    }
+
+    /// With a row for each tilt of each stone.
+    pub fn tilt(mut self, tilt: TiltRange) -> ScoreTable {
+        self.tilt = Some(tilt);
+        self
+    }
+
+    /// Whether there are columns of each stone's proportions.
+    pub fn proportions(mut self, proportions: bool) -> ScoreTable {
+        self.proportions = proportions;
+        self
+    }
+
+    /// With its rows sorted.
+    pub fn sort(mut self, sort: SortRequest) -> ScoreTable {
+        self.sort = Some(sort);
+        self
+    }
 }
 
 /// Tilts about horizontal axes.
@@ -72,8 +116,19 @@ pub struct SortRequest {
 }
 
 /// A table with a row for each point of a grid of parameters, or of points scattered over it.
+///
+/// ```
+/// use cutlab::{ScoreRequest, SweepTable, TableRequest};
+///
+/// let angles = "crown-angle=30:38:0.5".parse()?;
+/// let table = SweepTable::new("round-brilliant", [angles], ScoreRequest::new(["wlr"]));
+/// let command = TableRequest::Sweep(table).command();
+/// assert!(command.starts_with("cutlab sweep round-brilliant --vary crown-angle=30:38:0.5 --metrics wlr"));
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct SweepTable {
     /// The stone that is varied.
     pub stone: String,
@@ -87,9 +142,43 @@ pub struct SweepTable {
     pub scatter: Option<u64>,
 }
 
+impl SweepTable {
+    /// Of a stone, as it is otherwise, over the grid of these parameters.
+    pub fn new(
+        stone: impl Into<String>,
+        vary: impl IntoIterator<Item = SweptParameter>,
+        scores: ScoreRequest,
+    ) -> SweepTable {
+        let vary = vary.into_iter().collect();
+        SweepTable { stone: stone.into(), options: StoneOptions::default(), scores, vary, scatter: None }
+    }
+
+    /// With what is asked for of the stone.
+    pub fn options(mut self, options: StoneOptions) -> SweepTable {
+        self.options = options;
+        self
+    }
+
+    /// With so many scattered points in place of the grid.
+    pub fn scatter(mut self, points: u64) -> SweepTable {
+        self.scatter = Some(points);
+        self
+    }
+}
+
 /// A table with a row for each metric and stone, with differences from the first stone.
+///
+/// ```
+/// use cutlab::{ComparisonTable, ScoreRequest, StoneOptions, TableRequest};
+///
+/// let table = ComparisonTable::new(["tolkowsky", "oval"], ScoreRequest::new(["wlr"]));
+/// let table = table.options(StoneOptions::default().material("sapphire"));
+/// let command = TableRequest::Compare(table).command();
+/// assert!(command.starts_with("cutlab compare tolkowsky oval --metrics wlr --material sapphire"));
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ComparisonTable {
     /// The stones as they are named: cuts, files, folders, patterns.
     pub stones: Vec<String>,
@@ -97,6 +186,23 @@ pub struct ComparisonTable {
     pub options: StoneOptions,
     /// What is scored, and how.
     pub scores: ScoreRequest,
+}
+
+impl ComparisonTable {
+    /// Of these stones, as each is.
+    pub fn new<S: Into<String>>(
+        stones: impl IntoIterator<Item = S>,
+        scores: ScoreRequest,
+    ) -> ComparisonTable {
+        let stones = stones.into_iter().map(Into::into).collect();
+        ComparisonTable { stones, options: StoneOptions::default(), scores }
+    }
+
+    /// With what is asked for of every stone.
+    pub fn options(mut self, options: StoneOptions) -> ComparisonTable {
+        self.options = options;
+        self
+    }
 }
 
 impl TableRequest {

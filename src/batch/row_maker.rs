@@ -42,7 +42,7 @@ impl<'a> RowMaker<'a> {
         if let Some(doubt) = stone.orientation_doubt() {
             self.said.note(self.progress, &format!("note: {}: {doubt}", stone.name()), stone.name());
         }
-        if stone.lacks_size() { stone.with_usual_width() } else { Ok(stone) }
+        stone.with_width_for_colour()
     }
 
     /// Scores the STONE `spec`, whatever becomes of its file meanwhile.
@@ -58,7 +58,9 @@ impl<'a> RowMaker<'a> {
         let (row, failure) = match self.open(spec, options) {
             Ok(stone) => (score(&ScoreInput::from_stone(&stone, tilt), self.scores), None),
             Err(failure) => {
-                let own = StoneSpec::parse(spec).ok().and_then(|parts| parts.material().cloned());
+                let own = StoneSpec::parse_within(spec, options.limits)
+                    .ok()
+                    .and_then(|parts| parts.material().cloned());
                 let material = own.or(options.asked_material().ok().flatten()).map(|m| m.name.to_string());
                 let why = one_line(&failure.to_string());
                 let row =

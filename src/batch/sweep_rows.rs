@@ -39,7 +39,7 @@ impl<'a> SweepRows<'a> {
         let mut leading: Vec<&str> = table.vary.iter().map(|v| v.key.as_str()).collect();
         leading.push("facets");
         // is the stone of diamond at every point?
-        let opened = Stone::open(stone, &StoneOptions { size_mm: None, ..table.options.clone() })?;
+        let opened = Stone::open(stone, &table.options.without_size())?;
         let is_diamond =
             Weight::new(opened.material()).is_diamond() && table.vary.iter().all(|v| v.key != INDEX);
         let inputs = InputFiles::new(request, &table.options, [stone]);

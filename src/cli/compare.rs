@@ -15,7 +15,7 @@ use crate::batch::comparison::{ComparisonError, StoneComparison};
 use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::stone_files::expand_stones;
 use crate::cli::limits::limits;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::storage::atomic_write;
 use format::ComparisonFormat;
 use std::ffi::OsString;
@@ -54,15 +54,15 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
         return Err(ComparisonError::TooFew.into());
     }
     let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
-    let command = record::own_command();
     let table = ComparisonTable {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.scoring.options(),
         scores: args.scoring.plan(),
     };
+    let request = TableRequest::Compare(table.clone());
+    let record = Record::of_request(record::own_command(), &request);
     if let Some(output) = &output {
-        let request = TableRequest::Compare(table.clone());
-        output.claim(&request, &command, &mut Outputs::reading_stones(&stones, console))?;
+        output.claim(&request, &record, &mut Outputs::reading_stones(&stones, console))?;
     }
     let opened = table.open(&stones, console).map_err(|error| match error {
         ComparisonError::Stone(error) => CliError::needs_convex("a comparison", error),
@@ -81,7 +81,7 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
         console.print(&ComparisonText(&compared).text())?;
     }
     if let Some(output) = &output {
-        output.write(&compared, &command, console)?;
+        output.write(&compared, &record, console)?;
     }
     Ok(status)
 }

@@ -5,7 +5,7 @@ use super::console::Console;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::storage::atomic_write;
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, roman};
@@ -39,13 +39,14 @@ pub fn run(args: &ManArgs, mut command: clap::Command, console: &Console) -> Res
         }
         return Ok(ExitStatus::Done);
     }
-    let record = format!(".\\\" {}", record::behind(&record::own_command()));
+    let own = Record::of_command(record::own_command());
+    let record = format!(".\\\" {}", own.behind());
     let mut outputs = Outputs::new(console);
     let mut pages = Vec::new();
     for command in std::iter::once(&command).chain(command.get_subcommands()) {
         let name = command.get_display_name().unwrap_or(command.get_name());
         let file = output.join(format!("{name}.{SECTION}"));
-        outputs.claim(&file, |there| record::is_of(there, &record::own_command()))?;
+        outputs.claim(&file, |there| own.matches(there))?;
         pages.push((file, [page(command).map_err(failed)?, record.clone().into_bytes()].concat()));
     }
     for (file, bytes) in &pages {

@@ -11,6 +11,7 @@ use super::table_files;
 use crate::batch::merge::{self, TablePart, TableParts};
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
+use crate::render::Record;
 use crate::storage::atomic_write;
 use crate::storage::journal::Journal;
 use std::ffi::OsString;
@@ -54,16 +55,16 @@ pub fn run(args: &MergeArgs, console: &Console) -> Result<ExitStatus, CliError> 
         tables.iter().map(|p| TablePart::open(p, limits())).collect::<Result<_, _>>()?;
     let count = parts.len();
     let mut parts = TableParts::new(parts)?;
-    let command = parts.meta.command.clone();
+    let record = Record::of_table(&parts.meta);
     let layout = match args.plot.is_empty() {
         true => Default::default(),
         false => plot_output::layout_of(Path::new(&args.parts[0]), &parts.meta)?,
     };
     let plots = Plots::new(&args.plot, &plot_output::metrics_of(&parts.meta), &args.look, &layout.axes)?;
-    plots.claim(&command, &mut outputs)?;
+    plots.claim(&record, &mut outputs)?;
     let drawn = |parts: &TableParts| match plots.is_empty() {
         true => Ok(Vec::new()),
-        false => plots.draw(&parts.bytes(form)?, form, &layout, &command),
+        false => plots.draw(&parts.bytes(form)?, form, &layout, &record),
     };
     if atomic_write::is_stream(&args.output) {
         parts.write(form, &args.output)?;

@@ -9,7 +9,7 @@ use super::plot_output::{self, Look, Plots};
 use crate::batch::merge::TablePart;
 use crate::batch::sidecar::TableMeta;
 use crate::cli::limits::limits;
-use crate::render::record;
+use crate::render::{Record, record};
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -44,10 +44,10 @@ pub fn run(args: &PlotArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let mut outputs = Outputs::new(console);
     outputs.reads(&args.table);
     outputs.reads(&TableMeta::find_for(&args.table));
-    let command = record::own_command();
-    plots.claim(&command, &mut outputs)?;
+    let record = Record::of_command(record::own_command());
+    plots.claim(&record, &mut outputs)?;
     let bytes = part.bytes()?;
-    let files = plots.draw(&bytes, part.form, &layout, &command)?;
+    let files = plots.draw(&bytes, part.form, &layout, &record)?;
     plot_output::tell(&files, console)?;
     Ok(ExitStatus::Done)
 }

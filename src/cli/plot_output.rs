@@ -10,7 +10,7 @@ use crate::batch::sidecar::{TableLayout, TableMeta};
 use crate::batch::table::{NumericColumns, TableFormat};
 use crate::cli::limits::limits;
 use crate::metrics::Metric;
-use crate::render::record;
+use crate::render::Record;
 use crate::report::plot::Style;
 use crate::report::table_plots::TablePlots;
 use std::path::{Path, PathBuf};
@@ -46,25 +46,25 @@ impl Plots {
 
     /// Takes the places of all files.
     ///
-    /// - `command`: that makes the table
-    pub fn claim(&self, command: &str, outputs: &mut Outputs) -> Result<(), CliError> {
-        self.0.files().try_for_each(|file| outputs.claim(file, |there| record::is_of(there, command)))
+    /// - `record`: of what makes the table
+    pub fn claim(&self, record: &Record, outputs: &mut Outputs) -> Result<(), CliError> {
+        self.0.files().try_for_each(|file| outputs.claim(file, |there| record.matches(there)))
     }
 
     /// Draws the plots of a table; their files.
     ///
-    /// - `command`: recorded in each
+    /// - `record`: of what made the table, which each has
     pub fn draw(
         &self,
         bytes: &[u8],
         form: TableFormat,
         layout: &TableLayout,
-        command: &str,
+        record: &Record,
     ) -> Result<Vec<PathBuf>, CliError> {
         if self.is_empty() {
             return Ok(Vec::new());
         }
-        self.0.draw(&NumericColumns::read(bytes, form, limits())?, layout, command)?;
+        self.0.draw(&NumericColumns::read(bytes, form, limits())?, layout, record)?;
         Ok(self.0.files().map(Path::to_owned).collect())
     }
 }

@@ -15,8 +15,9 @@ use super::outputs::Outputs;
 use super::progress::BarProgress;
 use crate::batch::fingerprint::Fingerprint;
 use crate::cli::limits::limits;
+use crate::integrators::image_io::Provenance;
 use crate::photons::map_file;
-use crate::render::{self, OutputTarget, Provenances, record, request};
+use crate::render::{self, OutputTarget, Record, request};
 use crate::storage::atomic_write;
 pub use options::RenderArgs;
 use std::path::Path;
@@ -37,23 +38,23 @@ pub fn run(args: &RenderArgs, console: &Console) -> Result<ExitStatus, CliError>
     let mut outputs = Outputs::reading_stones(&args.stones, console);
     outputs.reads(Path::new(&args.scene));
     file.files().iter().chain(&args.hdr).for_each(|read| outputs.reads(read));
-    let command = command::normalised();
+    let record = Record::of_request(command::normalised(), &command::without_folders(&request));
     if let Some(map) = photon_map {
         outputs.claim(map, |_| true)?; // a map that is another's is refused by its reader
     }
     for file in target.files(args.frames, args.passes) {
-        outputs.claim(&file, |there| record::is_of(there, &command))?;
+        outputs.claim(&file, |there| record.matches(there))?;
     }
     request.opened = stones::open(args, console)?;
     let scene = request.build(&file, size)?;
     // what another version made, or was made of files that have changed since, is of no use
     let asked = Fingerprint::of_request(&request).hex();
-    let identity = format!("{command} # request {asked}, scene {:08x}", map_file::checksum(&scene));
+    let identity = format!("request {asked}, scene {:08x}", map_file::checksum(&scene));
     let is_kept = args.frames.is_some() || (args.stops.progressive && !atomic_write::is_stream(&output));
     if is_kept {
         interrupt::mark_resumable();
     }
-    let made = Provenances { command: &command, identity: &identity };
+    let made = Provenance { identity: Some(&identity), ..record.provenance() };
     let progress = BarProgress::new(console);
     let files =
         render::to_files(&request, (&scene, size), &target, (photon_map, args.passes), made, &progress)?;

@@ -13,7 +13,7 @@ use crate::batch::output_places;
 use crate::batch::stone_files::expand_stones;
 use crate::cli::limits::limits;
 use crate::optics::dispersion::VISIBLE_NM;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::report::stone_report::{self, STEPS};
 use crate::report::{self, ReportRequest};
 use crate::storage::journal::Journal;
@@ -40,8 +40,9 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
     let mut outputs = Outputs::reading_stones(&specs, console);
     let identity = format!("report {}", request.identity(&specs));
     // every place is tried before the first report, which takes half a minute
+    let record = Record::of_request(record::own_command(), &request);
     for folder in &folders {
-        claim(folder, &identity, &mut outputs)?;
+        claim(folder, &identity, &record, &mut outputs)?;
     }
     let range = args.stone_args.range_note(VISIBLE_NM.0, VISIBLE_NM.1);
     range.iter().for_each(|note| console.note(note));
@@ -69,10 +70,10 @@ pub fn run(args: &ReportArgs, console: &Console) -> Result<ExitStatus, CliError>
 /// Takes the places of all files of the report in a folder.
 ///
 /// - `identity`: what is kept of a report while its files are written
-fn claim(folder: &Path, identity: &str, outputs: &mut Outputs) -> Result<(), CliError> {
+fn claim(folder: &Path, identity: &str, record: &Record, outputs: &mut Outputs) -> Result<(), CliError> {
     let page = folder.join("index.html");
     let begun = Journal::belongs_to(&Journal::path_for(&page), identity);
-    let is_own = begun || record::is_of(&page, &record::own_command());
+    let is_own = begun || record.matches(&page);
     stone_report::files().iter().try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))
 }
 
@@ -95,7 +96,7 @@ fn one(
     let mut bundle = bundle?;
     for (name, bytes) in &mut bundle.files {
         if *name == "index.html" {
-            bytes.extend(record::behind(&record::own_command()).bytes());
+            bytes.extend(Record::of_request(record::own_command(), request).behind().bytes());
         }
     }
     // what a kill leaves of the files is known as this command's

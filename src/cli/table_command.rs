@@ -33,7 +33,7 @@ impl TableCommand<'_> {
         console: &Console,
     ) -> Result<ExitStatus, CliError> {
         let (output, form) = (&table.output, table.format(console)?);
-        plots.claim(&self.request.command(), outputs)?;
+        plots.claim(&self.record(), outputs)?;
         let teller = Teller::new(console, self.what, output);
         let job = TableJob {
             identity: self.rows.identity(),

@@ -1,6 +1,5 @@
 //! Tables for a terminal: of labels with their texts, of anything in columns.
 
-use crate::report::estimates::estimate_text;
 use crate::sampling::stats::Estimate;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ColumnConstraint, Table, Width};
@@ -10,7 +9,7 @@ pub const NONE: &str = "–";
 
 /// A score with its standard error.
 pub fn format_estimate(estimate: Estimate) -> String {
-    match estimate_text(estimate) {
+    match Estimate::text(estimate) {
         (value, Some(error)) => format!("{value} ± {error}"),
         (value, None) => value,
     }

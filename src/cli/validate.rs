@@ -11,7 +11,8 @@ use super::outputs::Outputs;
 use super::progress::BarProgress;
 use crate::batch::validate;
 use crate::batch::validate::{CheckContext, FigureRow, Verdict};
-use crate::render::record;
+use crate::cli::limits::limits;
+use crate::render::{Record, record};
 use crate::report::validation::{self, count};
 use crate::storage::atomic_write;
 use std::path::PathBuf;
@@ -53,15 +54,16 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         }
     }
     let folder = args.output.clone().or_else(|| args.only.is_none().then(|| FOLDER.into()));
-    let command = record::own_command();
+    let record = Record::of_command(record::own_command());
     if let Some(folder) = &folder {
-        let is_own = record::is_of(&folder.join("validation.html"), &command);
+        let is_own = record.matches(&folder.join("validation.html"));
         let mut outputs = Outputs::new(console);
         ["validation.csv", "validation.html"]
             .iter()
             .try_for_each(|name| outputs.claim(&folder.join(name), |_| is_own))?;
     }
-    let lab = CheckContext { seed: args.seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from) };
+    let corpus = std::env::var_os("CUTLAB_CORPUS").map(PathBuf::from);
+    let lab = CheckContext { seed: args.seed, corpus, limits: limits() };
     let reports = validate::run(checks, &lab, &BarProgress::new(console));
     let outcomes = || reports.iter().flat_map(|r| &r.outcomes);
     if console.json {
@@ -70,7 +72,7 @@ pub fn run(args: &ValidateArgs, console: &Console) -> Result<ExitStatus, CliErro
         console.print(&text::text(&reports))?;
     }
     if let Some(folder) = folder {
-        let page = record::recorded(validation::html(&reports, args.seed, &record::command_line()), &command);
+        let page = record.in_markup(validation::html(&reports, args.seed, &record::command_line()));
         let table = validate::csv(outcomes())?;
         for (name, bytes) in [("validation.csv", &table[..]), ("validation.html", page.as_bytes())] {
             let path = folder.join(name);

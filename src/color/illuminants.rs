@@ -39,10 +39,7 @@ impl Illuminant {
 
     /// Light of the same power at every wavelength.
     pub fn equal_energy() -> Arc<Illuminant> {
-        Illuminant::by_name("E").unwrap_or_else(|| {
-            let spectrum = SpectralPower::Equal;
-            Arc::new(Illuminant { name: "E".into(), about: "".into(), source: "".into(), spectrum })
-        })
+        Illuminant::by_name("E").unwrap_or_else(|| Arc::new(Illuminant::new("E", SpectralPower::Equal)))
     }
 
     /// Luminance of the spectrum as [`Illuminant::power`] gives it, over that of equal-energy light

@@ -3,6 +3,7 @@
 use super::design_file::{DesignFile, DocumentError};
 use super::families::FAMILIES;
 use super::tiers::Design;
+use crate::limits::Limits;
 use crate::parse;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -21,7 +22,16 @@ pub fn document(name: &str) -> Option<Result<DesignFile, DocumentError>> {
 
 /// The cut called `name` with parameters overridden, or none if there is no such cut.
 pub fn design(name: &str, overrides: &BTreeMap<String, f64>) -> Option<Result<Design, DocumentError>> {
-    Some(document(name)?.and_then(|d| d.design(overrides)))
+    design_within(name, overrides, Limits::default())
+}
+
+/// As [`design`], within limits that may be raised.
+pub fn design_within(
+    name: &str,
+    overrides: &BTreeMap<String, f64>,
+    limits: Limits,
+) -> Option<Result<Design, DocumentError>> {
+    Some(document(name)?.and_then(|d| d.design_within(overrides, limits)))
 }
 
 /// The design file of the cut called `name`, as it stands in `cuts/`.

@@ -16,6 +16,7 @@ use glam::{DMat3, DVec3};
 /// # Ok::<(), cutlab::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LengthUnit {
     /// Millimetres: a stone of a definite size.
     Millimetre,

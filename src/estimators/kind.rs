@@ -18,6 +18,15 @@ pub const LIGHT: &str = "unpolarised light, Fresnel with its polarisation follow
 
 /// One score: a row of its estimator's table. Rows are written as changes of the estimator's own first row,
 /// or of [`Metric::of`].
+///
+/// ```
+/// use cutlab::Metric;
+/// use cutlab::advanced::metrics::Better;
+///
+/// let leakage = Metric::by_name("leakage").unwrap();
+/// assert_eq!((leakage.range, leakage.better), ((0.0, 1.0), Better::Less));
+/// println!("{}", leakage.definition()); // the light, what counts, over what
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Metric {
     /// Its name on the command line and in tables.

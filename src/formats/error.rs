@@ -8,7 +8,17 @@ use crate::storage::atomic_write::WriteError;
 
 /// A stone that could not be read or written: which file, where in it, what was expected and what
 /// was found.
+///
+/// ```
+/// use cutlab::{FormatError, Stone, StoneError};
+///
+/// let error = Stone::from_bytes("broken.asc", b"", None).unwrap_err();
+/// let StoneError::Format(error) = error else { panic!("{error}") };
+/// assert!(matches!(*error, FormatError::Empty { .. }));
+/// assert_eq!(error.to_string(), "broken.asc: the file is empty");
+/// ```
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FormatError {
     /// The operating system refused.
     #[error("cannot read {file}: {cause}")]

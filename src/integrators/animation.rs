@@ -10,8 +10,21 @@ use std::f32::consts::TAU;
 use std::io::Write;
 
 /// The moving part of a scene.
+///
+/// ```
+/// use cutlab::advanced::integrators::animation::scene_at;
+/// use cutlab::{RenderRequest, Turn};
+///
+/// let request = RenderRequest::scene("table")?;
+/// let scene = request.build(&request.scene_file()?, (64, 48))?;
+/// let half_way = scene_at(&scene, Turn::Camera, false, 1, 2);
+/// let (a, b) = (scene.camera.position - scene.camera.target, half_way.camera.position - scene.camera.target);
+/// assert!((a.truncate() + b.truncate()).length() < 1e-3); // on the other side of its target
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Turn {
     /// The camera goes around its target.
     #[default]
@@ -155,13 +168,13 @@ pub fn apng(
     Ok(())
 }
 
-/// The bytes of a PNG of ours, if it is one that `command` made, of so many pixels.
-pub fn finished_frame(png: &[u8], command: &str, pixels: u32) -> Option<Vec<u8>> {
+/// The bytes of a frame that is a PNG of ours of so many pixels, if it is made from what `identity` says.
+pub fn finished_frame(png: &[u8], identity: &str, pixels: u32) -> Option<Vec<u8>> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().ok()?;
-    let said = reader.info().utf8_text.iter().find(|t| t.keyword == "Command")?.get_text().ok()?;
+    let said = reader.info().utf8_text.iter().find(|t| t.keyword == "Identity")?.get_text().ok()?;
     let (width, height) = reader.info().size();
     // before memory is taken for it
-    if said != command || width.checked_mul(height) != Some(pixels) {
+    if said != identity || width.checked_mul(height) != Some(pixels) {
         return None;
     }
     let mut bytes = vec![0; reader.output_buffer_size()?];

@@ -3,7 +3,18 @@
 use glam::Vec3;
 
 /// One class of light in a picture.
+///
+/// ```
+/// use cutlab::{Pass, RenderRequest};
+///
+/// let film = RenderRequest::scene("face-up")?.size(16, 16).samples_per_pixel(1).photons(100).run()?.film;
+/// let brightest = |pass| film.linear(Some(pass)).iter().map(|c| c.max_element()).fold(0.0, f32::max);
+/// assert!(brightest(Pass::Stone) > 0.0); // the stone in the middle
+/// assert_eq!(brightest(Pass::Caustic), 0.0); // and nothing that its light falls on
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Pass {
     /// Lights themselves, and surfaces lit straight by them.
     Direct,
@@ -56,7 +67,17 @@ pub struct FirstHit {
 }
 
 /// A finished picture, before it is encoded.
+///
+/// ```
+/// use cutlab::{Film, RenderRequest};
+///
+/// let film: Film = RenderRequest::scene("face-up")?.size(16, 12).samples_per_pixel(1).photons(100).run()?.film;
+/// let light = film.linear(None); // linear sRGB, row after row from the top
+/// assert_eq!(light.len(), 16 * 12);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Film {
     /// Pixels across.
     pub width: u32,

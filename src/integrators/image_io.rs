@@ -1,16 +1,18 @@
 //! Image files: PNG of 8 or 16 bits, EXR with the passes as layers, JPEG and WebP. The command
-//! that made a picture and the program's version are in the metadata of PNG and EXR; nothing else is, so
-//! equal pictures are equal bytes.
+//! and the request that made a picture and the program's version are in the metadata of PNG and EXR; nothing else
+//! is, so equal pictures are equal bytes.
 
 use super::film::{Film, FirstHit, Pass, Pixel};
 use super::tone::Tone;
 use crate::color::cie;
+use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
 };
 use glam::{Vec3, Vec4};
 use image::ExtendedColorType;
 use image::codecs::{jpeg::JpegEncoder, webp::WebPEncoder};
+use serde::Serialize;
 
 /// A picture that could not be encoded.
 #[derive(Debug, thiserror::Error)]
@@ -42,19 +44,34 @@ pub enum EncodeError {
 pub const PROGRAM: &str = concat!("cutlab ", env!("CARGO_PKG_VERSION"));
 
 /// How a picture was made, for its metadata.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Provenance<'a> {
     /// The command.
     pub command: &'a str,
+    /// Hash of the canonical request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub request: Option<&'a str>,
+    /// What a frame of an animation is made from: the request, the program and the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identity: Option<&'a str>,
     /// The rounds of a progressive picture: how far it came.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u32>,
 }
+
+/// The attribute of an EXR's layer that has its [`Provenance`] as JSON.
+pub const EXR_ATTRIBUTE: &str = "cutlab";
 
 impl Provenance<'_> {
     /// Writes it into a PNG. The texts are iTXt: a STONE's name may hold any letter.
     pub(super) fn note<W: std::io::Write>(&self, png: &mut png::Encoder<W>) -> Result<(), EncodeError> {
         png.add_itxt_chunk("Software".into(), PROGRAM.into())?;
         png.add_itxt_chunk("Command".into(), self.command.into())?;
+        for (keyword, text) in [("Request", self.request), ("Identity", self.identity)] {
+            if let Some(text) = text {
+                png.add_itxt_chunk(keyword.into(), text.into())?;
+            }
+        }
         if let Some(rounds) = self.rounds {
             png.add_itxt_chunk("Rounds".into(), rounds.to_string())?;
         }
@@ -237,7 +254,9 @@ pub fn exr(film: &Film, things: &[FirstHit], alpha: bool, made: Provenance) -> R
     let rounds = made.rounds.map_or_else(String::new, |n| format!("\nrounds: {n}"));
     let comments = Some(text(&format!("{}{rounds}", made.command)));
     let software_name = Some(text(PROGRAM));
-    let attributes = LayerAttributes { comments, software_name, ..LayerAttributes::default() };
+    let json = AttributeValue::Text(text(&serde_json::to_string(&made).unwrap_or_default()));
+    let other = [(text(EXR_ATTRIBUTE), json)].into();
+    let attributes = LayerAttributes { comments, software_name, other, ..LayerAttributes::default() };
     let size = (film.width as usize, film.height as usize);
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
     let mut out = std::io::Cursor::new(Vec::new());

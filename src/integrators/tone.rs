@@ -9,8 +9,20 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A tone curve.
+///
+/// ```
+/// use cutlab::ToneCurve;
+/// use cutlab::advanced::integrators::Tone;
+/// use cutlab::glam::Vec3;
+///
+/// let shown = |curve, light| Tone { curve, stops: 0.0 }.display_rgb(Vec3::splat(light)).x;
+/// assert_eq!(shown(ToneCurve::Linear, 0.5), shown(ToneCurve::Filmic, 0.5));
+/// assert_eq!(shown(ToneCurve::Linear, 1.5), 1.0); // white: twice as much looks the same
+/// assert!(shown(ToneCurve::Filmic, 1.5) < 1.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum ToneCurve {
     /// Straight in the dark, bending toward white as film does: highlights keep their detail.
     #[default]

@@ -1,17 +1,14 @@
 //! The absorption of a material file: bands, or a table as a spectrometer gives it.
 
-use super::table_entry::{TableReader, at, read_rows};
 use crate::optics::absorption::{Absorption, AbsorptionSpectrum, Band};
 use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::optics::fresnel::unpolarised;
 use crate::optics::spectral_curve::SpectralCurve;
 use crate::parse::data_file::ValueProblem;
 use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, WavelengthUnit};
+use crate::parse::table_entry::{TableReader, at, read_visible_rows};
 use serde::Deserialize;
 use std::f64::consts::LN_10;
-
-/// A table covers at least this, nm: beyond it the eye sees a thousandth of all light.
-const COVERED_NM: (f64, f64) = (400.0, 700.0);
 
 /// A measured transmittance may lie so far outside 0 to 1: the noise and drift of a spectrometer.
 const NOISE: f64 = 0.02;
@@ -138,12 +135,7 @@ impl AbsorptionEntry {
         }
         let layout =
             SpectrumLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
-        let rows = read_rows(table, layout, tables)?;
-        let (first, last) = (rows[0].nm, rows[rows.len() - 1].nm);
-        if first > COVERED_NM.0 || last < COVERED_NM.1 {
-            let expected = format!("a table from {} to {} nm or more", COVERED_NM.0, COVERED_NM.1);
-            return Err(ValueProblem::new("table", expected, format!("{first} to {last} nm")));
-        }
+        let rows = read_visible_rows(table, layout, tables)?;
         // what lies beyond the neighbours of a picture's wavelengths is noise, or another law's
         let (from, to) = VISIBLE_NM;
         let begin = rows.partition_point(|row| row.nm <= from).saturating_sub(1);

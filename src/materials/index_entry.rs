@@ -1,10 +1,10 @@
 //! The index of a material file: a law by its coefficients, or a table.
 
-use super::table_entry::{TableReader, read_rows};
 use crate::optics::dispersion::{Dispersion, lines};
 use crate::optics::spectral_curve::SpectralCurve;
 use crate::parse::data_file::ValueProblem;
 use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, WavelengthUnit};
+use crate::parse::table_entry::{TableReader, read_rows};
 use serde::Deserialize;
 
 /// Most coefficients of a law.

@@ -15,6 +15,7 @@ use std::borrow::Cow;
 /// # Ok::<(), cutlab::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// The name on the command line.
     pub name: Cow<'static, str>,
@@ -52,6 +53,24 @@ impl Material {
             absorption: None,
             file: None,
         }
+    }
+
+    /// The same material, of another name.
+    pub fn with_name(mut self, name: impl Into<Cow<'static, str>>) -> Material {
+        self.name = name.into();
+        self
+    }
+
+    /// The same material, of another law of dispersion.
+    pub fn with_dispersion(mut self, dispersion: Dispersion) -> Material {
+        self.dispersion = dispersion;
+        self
+    }
+
+    /// The same material, which absorbs so.
+    pub fn with_absorption(mut self, absorption: Absorption) -> Material {
+        self.absorption = Some(absorption);
+        self
     }
 
     /// What names it on a command line: its file, or its name in the catalogue.

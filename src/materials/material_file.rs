@@ -6,9 +6,9 @@
 use super::Material;
 use super::absorption_entry::AbsorptionEntry;
 use super::index_entry::IndexEntry;
-use super::table_entry::TableReader;
 use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
+use crate::parse::table_entry::TableReader;
 use serde::Deserialize;
 use toml::Spanned;
 

@@ -1,14 +1,14 @@
 //! One picture, or the frames of an animation, to files. An animation that was interrupted goes on at
 //! the first frame that is missing.
 //!
-//! A frame says in its `Command` what it was made by and from; one process at a time makes an animation.
+//! A frame says in its `Identity` what it was made from; one process at a time makes an animation.
 //! Frames of a film wait as PNG in a hidden folder and are read back one by one when all are there, so
 //! that memory holds one of them.
 
 use super::error::RenderError;
 use super::picture::{PictureFile, PictureWork};
 use super::picture_kind::PictureKind;
-use super::record;
+use super::record::Record;
 use super::request::{AnimationRequest, RenderRequest};
 use super::target::{OutputLock, OutputTarget};
 use crate::integrators::animation::{self, FrameTiming, Turn};
@@ -20,26 +20,19 @@ use crate::storage::atomic_write::{self, WriteError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What the files of a picture say of where they come from.
-#[derive(Debug, Clone, Copy)]
-pub struct Provenances<'a> {
-    /// The command that made them.
-    pub command: &'a str,
-    /// What frames and rounds of an earlier start must have been made by to be used again.
-    pub identity: &'a str,
-}
-
 /// Takes the picture of a request, or all frames that are not there yet, and writes them; returns the files.
 ///
 /// - `scene`: as [`RenderRequest::build`] gives it, at rest, and pixels across and down
 /// - `photon_map`: the file that photons are kept in
 /// - `passes`: whether passes are written as files of their own
+/// - `made`: what the files say of where they come from; frames and rounds of an earlier start are used again if they
+///   have its identity
 pub fn to_files(
     request: &RenderRequest,
     (scene, size): (&Scene, (u32, u32)),
     target: &OutputTarget,
     (photon_map, passes): (Option<&Path>, bool),
-    made: Provenances,
+    made: Provenance,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, RenderError> {
     let settings = request.settings(scene, size);
@@ -56,7 +49,7 @@ struct PictureJob<'a> {
     target: &'a OutputTarget,
     photon_map: Option<&'a Path>,
     passes: bool,
-    made: Provenances<'a>,
+    made: Provenance<'a>,
     progress: &'a dyn Progress,
 }
 
@@ -75,15 +68,19 @@ impl<'a> PictureJob<'a> {
         let mut maps = None;
         let work = self.work(self.progress);
         settings.tone.stops = work.exposure(self.scene, &mut maps, &settings)?;
-        let mut file = self.file(target.path(), self.made.command);
-        file.take(work, self.scene, maps, &settings, self.made.identity)?;
+        let mut file = self.file(target.path(), Provenance { identity: None, ..self.made });
+        file.take(work, self.scene, maps, &settings, self.identity())?;
         alone.map_or(Ok(()), OutputLock::ends)?;
         Ok(file.written)
     }
 
-    fn file<'b>(&self, path: &'b Path, command: &'b str) -> PictureFile<'b> {
+    fn identity(&self) -> &str {
+        self.made.identity.unwrap_or_default()
+    }
+
+    fn file<'b>(&self, path: &'b Path, made: Provenance<'b>) -> PictureFile<'b> {
         let (kind, passes) = (self.target.kind(), self.passes);
-        PictureFile { target: path, kind, passes, command, written: Vec::new() }
+        PictureFile { target: path, kind, passes, made, written: Vec::new() }
     }
 
     fn all(
@@ -96,8 +93,8 @@ impl<'a> PictureJob<'a> {
         let alone = target.lock(self.progress)?;
         let alpha = scene.cut_out && self.request.is_transparent();
         let pixels = settings.width * settings.height;
-        let command = self.made.identity;
-        let finished = |number| target.finished(number, (self.passes, alpha), command, pixels);
+        let identity = self.identity();
+        let finished = |number| target.finished(number, (self.passes, alpha), identity, pixels);
         self.progress.begin("frames", u64::from(frames) * u64::from(settings.height));
         // where only the camera moves, the light stands still
         let still = animation.turn == Turn::Camera;
@@ -106,7 +103,7 @@ impl<'a> PictureJob<'a> {
         let mut files = Vec::new();
         for frame in 0..frames {
             let path = target.frame(frame);
-            let mut file = self.file(&path, command);
+            let mut file = self.file(&path, self.made);
             if finished(frame).is_some() {
                 files.extend(file.names());
                 self.progress.advance(u64::from(settings.height));
@@ -121,7 +118,7 @@ impl<'a> PictureJob<'a> {
             settings.tone.stops = stops.unwrap_or_default();
             let moved = animation::scene_at(scene, animation.turn, animation.rock, frame, frames);
             let maps = if still { kept.take() } else { None };
-            kept = file.take(work, &moved, maps, &settings, command)?;
+            kept = file.take(work, &moved, maps, &settings, identity)?;
             if self.request.progressive.is_some() {
                 self.progress.advance(u64::from(settings.height)); // rounds do not count rows
             }
@@ -179,7 +176,7 @@ struct AnimationFrames<'a> {
     size: (u32, u32),
     alpha: bool,
     animation: &'a AnimationRequest,
-    made: Provenances<'a>,
+    made: Provenance<'a>,
 }
 
 impl AnimationFrames<'_> {
@@ -191,8 +188,8 @@ impl AnimationFrames<'_> {
     ) -> Result<(), EncodeError> {
         let AnimationRequest { frames, fps, .. } = *self.animation;
         let pace = fps.map_or_else(|| FrameTiming::of_turn(frames), FrameTiming::of_rate);
-        let made = Provenance { command: self.made.identity, rounds: None };
-        let record = record::behind(self.made.command);
+        let made = Provenance { identity: None, ..self.made };
+        let record = Record::from(made).behind();
         match kind {
             PictureKind::Gif => {
                 animation::gif(pictures, self.size, pace, out)?;

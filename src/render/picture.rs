@@ -3,9 +3,10 @@
 use super::background::{Background, linear};
 use super::error::RenderError;
 use super::picture_kind::PictureKind;
+use super::progressive;
+use super::record::Record;
 use super::request::{Exposure, RenderRequest};
 use super::target::pass_path;
-use super::{progressive, record};
 use crate::integrators::image_io::{self, Bits, EncodeError, Provenance};
 use crate::integrators::{self, Film, Pass, PhotonMaps, RenderSettings, camera_integrator, glare, tone};
 use crate::photons::{PhotonSets, map_file};
@@ -45,19 +46,20 @@ impl Picture {
             let path = display_name(path);
             RenderError::Request(format!("{path}: pictures are .png, .jpg, .webp or .exr, name the file so"))
         })?;
-        Ok(atomic_write::write(path, &self.encode(kind, None, "")?)?)
+        let record = Record::of_picture(&self.request);
+        Ok(atomic_write::write(path, &self.encode(kind, None, record.provenance())?)?)
     }
 
     /// The bytes of a file of the picture, or of one of its passes, which have no background.
     ///
-    /// - `command`: by which it was made, for the file to say; empty if nobody typed one
+    /// - `made`: what the file says of where it comes from
     pub fn encode(
         &self,
         kind: PictureKind,
         pass: Option<Pass>,
-        command: &str,
+        made: Provenance,
     ) -> Result<Vec<u8>, EncodeError> {
-        let made = Provenance { command, rounds: self.rounds };
+        let made = Provenance { rounds: self.rounds, ..made };
         let film = &self.film;
         let (width, height) = (film.width, film.height);
         // frames of a film have 8 bits, as it has
@@ -213,7 +215,8 @@ pub struct PictureFile<'a> {
     pub kind: PictureKind,
     /// Whether passes are files of their own beside an image file that holds none.
     pub passes: bool,
-    pub command: &'a str,
+    /// What the files say of where they come from.
+    pub made: Provenance<'a>,
     /// What has been written.
     pub written: Vec<PathBuf>,
 }
@@ -261,9 +264,9 @@ impl PictureFile<'_> {
     fn write(&mut self, picture: &Picture) -> Result<(), RenderError> {
         self.written.clear();
         for (pass, path) in self.parts() {
-            let mut bytes = picture.encode(self.kind, pass, self.command)?;
+            let mut bytes = picture.encode(self.kind, pass, self.made)?;
             if matches!(self.kind, PictureKind::Jpeg | PictureKind::WebP) {
-                bytes.extend(record::behind(self.command).bytes());
+                bytes.extend(Record::from(self.made).behind().bytes());
             }
             atomic_write::write(&path, &bytes)?;
             self.written.push(path);

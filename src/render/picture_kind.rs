@@ -11,6 +11,7 @@ use std::path::Path;
 /// assert_eq!(kind, Some(PictureKind::Exr));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PictureKind {
     /// PNG, of 8 or 16 bits a channel.
     Png,

@@ -25,7 +25,7 @@ impl StopRequest {
     }
 
     /// Noise to stop at, if noise is to stop it.
-    fn noise(&self) -> Option<f64> {
+    fn noise_to_reach(&self) -> Option<f64> {
         if self.none() { Some(Self::NOISE) } else { self.noise }
     }
 
@@ -33,7 +33,7 @@ impl StopRequest {
     fn left(&self, outlook: &Outlook, rounds: u32, taken: Duration) -> Option<Duration> {
         let most = if self.none() { Some(Self::ROUNDS) } else { self.rounds };
         let counted = most.map(f64::from);
-        let foreseen = self.noise().and_then(|noise| outlook.rounds_to(noise));
+        let foreseen = self.noise_to_reach().and_then(|noise| outlook.rounds_to(noise));
         let by_rounds = [counted, foreseen].into_iter().flatten();
         let by_rounds = by_rounds.filter_map(|all| remaining_time::time_to(all, rounds, taken));
         by_rounds.chain(self.time.map(|time| time.saturating_sub(taken))).min()
@@ -43,7 +43,7 @@ impl StopRequest {
     fn reached(&self, picture: &Progressive, taken: Duration) -> bool {
         self.rounds.is_some_and(|most| picture.rounds() >= most)
             || self.time.is_some_and(|time| taken >= time)
-            || self.noise().is_some_and(|noise| picture.is_converged(noise))
+            || self.noise_to_reach().is_some_and(|noise| picture.is_converged(noise))
             || self.none() && picture.rounds() >= Self::ROUNDS
     }
 }

@@ -1,13 +1,21 @@
-//! The command that a picture, drawing or page records, by which its own output is known again.
+//! The record of origin in a picture, drawing or page: the command as it was typed and the hash of the canonical
+//! request, by which its own output is known again.
 //!
-//! PNG and APNG have it as the text `Command`, EXR as the comment of its first layer, SVG, HTML and GIF
-//! as a processing instruction behind their end.
+//! PNG and APNG have them as the texts `Command` and `Request`, EXR as JSON in an attribute of its first layer, SVG,
+//! HTML, GIF and what else has no metadata as JSON in a processing instruction behind their end.
 
+use super::request::RenderRequest;
+use crate::batch::fingerprint::request_hash;
+use crate::batch::sidecar::TableMeta;
+use crate::integrators::image_io::{EXR_ATTRIBUTE, Provenance};
 use crate::parse::shell;
 use crate::storage::bounded_read;
 use crate::storage::text::display_name;
 use exr::meta::MetaData;
+use exr::meta::attribute::AttributeValue;
+use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
+use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -16,8 +24,8 @@ const WHERE: [&str; 4] = ["-o", "--output", "-j", "--threads"];
 /// The same without a value: what is said while it is made.
 const HOW: [&str; 4] = ["-q", "--quiet", "--json", "--force"];
 
-/// What stands before and after the command in SVG and HTML.
-const BEFORE: &str = "<?cutlab-command ";
+/// What stands before and after the JSON in SVG and HTML.
+const BEFORE: &str = "<?cutlab-record ";
 const AFTER: &str = "?>\n";
 
 /// No record is longer, in bytes.
@@ -50,66 +58,117 @@ fn command_of(arguments: impl Iterator<Item = OsString>) -> String {
     said.join(" ")
 }
 
-/// An SVG drawing or HTML page with its command recorded.
-pub fn recorded(text: String, command: &str) -> String {
-    text + &behind(command)
+/// What a file says of where it comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Record {
+    /// The command; empty if nobody typed one.
+    pub command: String,
+    /// Hash of the canonical request ([`request_hash`]); none of a command that makes no request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub request: Option<String>,
 }
 
-/// A PDF with its command recorded behind its end, if that is not too long for readers to find the end.
-pub fn in_pdf(mut page: Vec<u8>, command: &str) -> Vec<u8> {
-    /// The end is looked for in the last 1024 bytes. Source: PDF Reference 1.7 (2006), appendix H, note 18.
-    const MOST: usize = 1000;
-    let record = format!("\n%{}", behind(command));
-    if record.len() <= MOST {
-        page.extend(record.bytes());
+impl From<Provenance<'_>> for Record {
+    fn from(made: Provenance) -> Record {
+        Record { command: made.command.into(), request: made.request.map(str::to_owned) }
     }
-    page
 }
 
-/// What stands behind a drawing, page or GIF and records its command.
-pub fn behind(command: &str) -> String {
-    format!("{BEFORE}{}{AFTER}", escaped(command))
-}
-
-/// Text within markup, which has no control characters.
-fn escaped(text: &str) -> String {
-    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    maud::html! { (text) }.into_string()
-}
-
-/// Whether the picture, drawing or page at `path` was made by `command`.
-pub fn is_of(path: &Path, command: &str) -> bool {
-    let Ok(mut file) = bounded_read::open_regular(path) else { return false };
-    let mut magic = [0; 4];
-    if file.read_exact(&mut magic).and_then(|()| file.seek(SeekFrom::Start(0))).is_err() {
-        return false;
+impl Record {
+    /// Of a command that makes no request.
+    pub fn of_command(command: impl Into<String>) -> Record {
+        Record { command: command.into(), request: None }
     }
-    // a frame's record goes on with what it was made from, a progressive picture's with its rounds
-    let made_by = |said: &str| {
-        let rest = said.strip_prefix(command);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(" # ") || rest.starts_with('\n'))
-    };
-    match &magic {
-        b"\x89PNG" => {
-            let reader = png::Decoder::new(BufReader::new(file)).read_info();
-            let text = reader.ok().and_then(|reader| {
-                let said = reader.info().utf8_text.iter().find(|t| t.keyword == "Command")?;
-                said.get_text().ok()
-            });
-            text.is_some_and(|said| made_by(&said))
+
+    /// Of a command that makes a request.
+    pub fn of_request(command: impl Into<String>, request: &impl Serialize) -> Record {
+        Record { command: command.into(), request: Some(request_hash(request)) }
+    }
+
+    /// Of what is drawn of the table that a sidecar describes.
+    pub fn of_table(meta: &TableMeta) -> Record {
+        let request = (!meta.request.is_null()).then(|| request_hash(&meta.request));
+        Record { command: meta.command.clone(), request }
+    }
+
+    /// Of a picture that a program takes. With stones or a material that the program opened itself the request does
+    /// not tell what the picture is of, and is left out.
+    pub fn of_picture(request: &RenderRequest) -> Record {
+        let tells_all = request.opened.is_empty() && request.options.opened_material.is_none();
+        Record { command: String::new(), request: tells_all.then(|| request_hash(request)) }
+    }
+
+    /// As the metadata of a picture.
+    pub fn provenance(&self) -> Provenance<'_> {
+        Provenance { command: &self.command, request: self.request.as_deref(), ..Provenance::default() }
+    }
+
+    /// Whether the file at `path` was made by the same request; where either names none, by the same command.
+    pub fn matches(&self, path: &Path) -> bool {
+        let Some(found) = Record::read(path) else { return false };
+        match (&self.request, &found.request) {
+            (Some(own), Some(found)) => own == found,
+            _ => self.command == found.command,
         }
-        [0x76, 0x2f, 0x31, 0x01] => {
-            let meta = MetaData::read_from_buffered(BufReader::new(file), false);
-            let comment = meta.ok().and_then(|m| m.headers.first()?.own_attributes.comments.clone());
-            comment.is_some_and(|said| made_by(&said.to_string()))
+    }
+
+    /// The record of the picture, drawing or page at `path`; none if it has none that can be read.
+    pub fn read(path: &Path) -> Option<Record> {
+        let mut file = bounded_read::open_regular(path).ok()?;
+        let mut magic = [0; 4];
+        file.read_exact(&mut magic).and_then(|()| file.seek(SeekFrom::Start(0))).ok()?;
+        match &magic {
+            b"\x89PNG" => Record::of_png(file),
+            [0x76, 0x2f, 0x31, 0x01] => Record::of_exr(file),
+            _ => Record::behind_end(file),
         }
-        _ => {
-            let length = file.metadata().map_or(0, |m| m.len());
-            let mut end = Vec::new();
-            let from = SeekFrom::Start(length.saturating_sub(LONGEST));
-            let read = file.seek(from).and_then(|_| file.take(LONGEST).read_to_end(&mut end));
-            read.is_ok() && end.ends_with(behind(command).as_bytes())
+    }
+
+    fn of_png(file: File) -> Option<Record> {
+        let reader = png::Decoder::new(BufReader::new(file)).read_info().ok()?;
+        let texts = &reader.info().utf8_text;
+        let text = |keyword: &str| texts.iter().find(|t| t.keyword == keyword)?.get_text().ok();
+        Some(Record { command: text("Command")?, request: text("Request") })
+    }
+
+    fn of_exr(file: File) -> Option<Record> {
+        let meta = MetaData::read_from_buffered(BufReader::new(file), false).ok()?;
+        let attributes = &meta.headers.first()?.own_attributes.other;
+        let record = attributes.iter().find(|(name, _)| *name == EXR_ATTRIBUTE);
+        let Some((_, AttributeValue::Text(json))) = record else { return None };
+        serde_json::from_str(&json.to_string()).ok()
+    }
+
+    fn behind_end(mut file: File) -> Option<Record> {
+        let length = file.metadata().ok()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(LONGEST))).ok()?;
+        let mut end = Vec::new();
+        file.take(LONGEST).read_to_end(&mut end).ok()?;
+        let end = end.strip_suffix(AFTER.as_bytes())?;
+        let begin = end.windows(BEFORE.len()).rposition(|bytes| bytes == BEFORE.as_bytes())?;
+        serde_json::from_slice(&end[begin + BEFORE.len()..]).ok()
+    }
+
+    /// As it stands behind a drawing, page or GIF. Within markup it has no angle brackets of its own.
+    pub fn behind(&self) -> String {
+        let json = serde_json::to_string(self).unwrap_or_default();
+        format!("{BEFORE}{}{AFTER}", json.replace('<', "\\u003c").replace('>', "\\u003e"))
+    }
+
+    /// An SVG drawing or HTML page with the record.
+    pub fn in_markup(&self, text: String) -> String {
+        text + &self.behind()
+    }
+
+    /// A PDF with the record behind its end, if that is not too long for readers to find the end.
+    pub fn in_pdf(&self, mut page: Vec<u8>) -> Vec<u8> {
+        /// The end is looked for in the last 1024 bytes. Source: PDF Reference 1.7 (2006), appendix H, note 18.
+        const MOST: usize = 1000;
+        let record = format!("\n%{}", self.behind());
+        if record.len() <= MOST {
+            page.extend(record.bytes());
         }
+        page
     }
 }
 
@@ -138,37 +197,64 @@ mod tests {
     fn drawings_and_pages_are_known_by_their_command() {
         let top = tempfile::tempdir().expect("a temporary folder");
         let path = top.path().join("x");
+        let is_of = |command: &str| Record::of_command(command).matches(&path);
         for command in ["cutlab sweep cube --vary 'a?>b=1:2:1'", "cutlab sweep cube"] {
-            let svg = recorded("<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>\n".into(), command);
+            let svg = Record::of_command(command)
+                .in_markup("<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>\n".into());
             roxmltree::Document::parse(&svg).expect("is XML");
             std::fs::write(&path, svg).expect("writes");
-            assert!(is_of(&path, command) && !is_of(&path, "cutlab sweep") && !is_of(&path, "cube"));
+            assert!(is_of(command) && !is_of("cutlab sweep") && !is_of("cube"));
         }
-        for other in ["", "x", "<svg></svg>\n", "\u{89}PNG", "v/1\u{1}"] {
+        for other in ["", "x", "<svg></svg>\n", "\u{89}PNG", "v/1\u{1}", "<?cutlab-record {}?>\n"] {
             std::fs::write(&path, other).expect("writes");
-            assert!(!is_of(&path, ""), "{other}");
+            assert!(!is_of(""), "{other}");
         }
-        assert!(!is_of(&top.path().join("none"), ""));
+        assert!(!Record::of_command("").matches(&top.path().join("none")));
+    }
+
+    /// The request decides where both name one: words of the command that say the same make no difference.
+    #[test]
+    fn a_file_is_known_by_its_request() {
+        let top = tempfile::tempdir().expect("a temporary folder");
+        let path = top.path().join("x.svg");
+        let made = Record::of_request("cutlab render cube", &1);
+        std::fs::write(&path, made.in_markup("<svg/>".into())).expect("writes");
+        assert_eq!(Record::read(&path), Some(made));
+        assert!(Record::of_request("cutlab render cube --seed 1", &1).matches(&path));
+        assert!(!Record::of_request("cutlab render cube", &2).matches(&path));
+        assert!(Record::of_command("cutlab render cube").matches(&path));
     }
 
     #[test]
-    fn pictures_are_known_by_their_command() {
-        use crate::integrators::image_io::{Bits, Provenance, exr, png};
+    fn pictures_are_known_by_their_command_and_request() {
+        use crate::integrators::image_io::{Bits, exr, png};
         let top = tempfile::tempdir().expect("a temporary folder");
         let film = Film { width: 2, height: 1, pixels: vec![Default::default(); 2] };
-        let made = Provenance { command: "cutlab render a --spp 4", rounds: Some(3) };
         let shown = [glam::Vec3::ZERO; 2];
-        let files = [
-            png(&shown, 2, 1, Bits::Eight, Some(made)).expect("a PNG"),
-            exr(&film, &[Default::default(); 2], false, made).expect("an EXR"),
-        ];
-        for bytes in files {
-            let path = top.path().join("p");
-            std::fs::write(&path, bytes).expect("writes");
-            assert!(is_of(&path, made.command));
-            for other in ["cutlab render a", "cutlab render a --spp 40", "cutlab render a --spp"] {
-                assert!(!is_of(&path, other), "{other}");
+        for record in [Record::of_command("cutlab render a"), Record::of_request("cutlab render a", &4)] {
+            let made = Provenance { rounds: Some(3), identity: Some("a frame"), ..record.provenance() };
+            let files = [
+                png(&shown, 2, 1, Bits::Eight, Some(made)).expect("a PNG"),
+                exr(&film, &[Default::default(); 2], false, made).expect("an EXR"),
+            ];
+            for bytes in files {
+                let path = top.path().join("p");
+                std::fs::write(&path, bytes).expect("writes");
+                assert_eq!(Record::read(&path).as_ref(), Some(&record));
+                assert!(record.matches(&path));
+                for other in ["cutlab render", "cutlab render ab", "cutlab render a --spp 4"] {
+                    assert!(!Record::of_command(other).matches(&path), "{other}");
+                }
             }
         }
+    }
+
+    /// A picture of stones that a program opened has no request that tells of them.
+    #[test]
+    fn stones_that_were_opened_are_in_no_request() {
+        let request = RenderRequest::default();
+        assert!(Record::of_picture(&request).request.is_some());
+        let stone = crate::stone::Stone::parse("cube").expect("a cut");
+        assert_eq!(Record::of_picture(&request.stone(&stone)).request, None);
     }
 }

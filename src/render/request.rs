@@ -30,6 +30,7 @@ use std::time::Duration;
 /// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct RenderRequest {
     /// The stones as they are named, for the scene's places in order; without them the scene's own.
     pub stones: Vec<String>,
@@ -82,12 +83,12 @@ pub struct RenderRequest {
 /// ```
 /// use cutlab::{RenderRequest, StopRequest};
 ///
-/// let stop = StopRequest { rounds: Some(8), ..StopRequest::default() };
-/// let request = RenderRequest { progressive: Some(stop), ..RenderRequest::default() };
+/// let request = RenderRequest::default().progressive(StopRequest::default().rounds(8));
 /// assert_eq!(request.progressive.unwrap().rounds, Some(8));
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct StopRequest {
     /// After so many rounds.
     pub rounds: Option<u32>,
@@ -102,12 +103,13 @@ pub struct StopRequest {
 /// ```
 /// use cutlab::{AnimationRequest, RenderRequest, Turn};
 ///
-/// let animation = AnimationRequest { frames: 36, turn: Turn::Stone, rock: true, fps: None };
-/// let request = RenderRequest { animation: Some(animation), ..RenderRequest::default() };
+/// let animation = AnimationRequest::new(36).turn(Turn::Stone).rock(true);
+/// let request = RenderRequest::default().animation(animation);
 /// assert_eq!(request.turn(), Turn::Stone);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct AnimationRequest {
     /// Number of pictures.
     pub frames: u32,
@@ -127,12 +129,13 @@ pub struct AnimationRequest {
 /// ```
 /// use cutlab::{Exposure, RenderRequest};
 ///
-/// let request = RenderRequest { exposure: Some(Exposure::Auto), ..RenderRequest::scene("studio")? };
-/// assert_eq!(request.scene, "studio");
+/// let brighter = RenderRequest::scene("studio")?.exposure(Exposure::Stops(1.0));
+/// assert_eq!(serde_json::to_value(&brighter.exposure).unwrap()["stops"], 1.0);
 /// # Ok::<(), cutlab::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Exposure {
     /// Found from the picture.
     Auto,
@@ -176,36 +179,6 @@ impl RenderRequest {
         request.scene_file().map(|_| request)
     }
 
-    /// With one more stone, for the scene's next place.
-    pub fn stone(mut self, stone: &Stone) -> RenderRequest {
-        self.opened.push(stone.clone());
-        self
-    }
-
-    /// With so many pixels across and down.
-    pub fn size(mut self, width: u32, height: u32) -> RenderRequest {
-        (self.width, self.height) = (Some(width), Some(height));
-        self
-    }
-
-    /// With so many camera rays a pixel.
-    pub fn samples_per_pixel(mut self, n: u32) -> RenderRequest {
-        self.samples_per_pixel = Some(n);
-        self
-    }
-
-    /// With so many photons in each map.
-    pub fn photons(mut self, n: usize) -> RenderRequest {
-        self.photons = n;
-        self
-    }
-
-    /// With a seed of its random numbers.
-    pub fn seed(mut self, seed: u64) -> RenderRequest {
-        self.seed = seed;
-        self
-    }
-
     /// The scene, read but not built.
     pub fn scene_file(&self) -> Result<SceneFile, RenderError> {
         open_scene(OsStr::new(&self.scene), self.options.limits)
@@ -216,10 +189,7 @@ impl RenderRequest {
         if !self.opened.is_empty() {
             return Ok(self.opened.clone());
         }
-        let open = |spec: &String| {
-            let stone = Stone::open(spec, &self.options)?;
-            Ok(if stone.lacks_size() { stone.with_usual_width()? } else { stone })
-        };
+        let open = |spec: &String| Ok(Stone::open(spec, &self.options)?.with_width_for_colour()?);
         self.stones.iter().map(open).collect()
     }
 

@@ -147,16 +147,16 @@ impl OutputTarget {
 
     /// What frame number `number` shows, if it is there with all that belongs to it.
     ///
-    /// - `pixels`: how many it must have; `alpha`: whether they are transparent in part
+    /// - `identity`: what it must be made from; `pixels`: how many it must have; `alpha`: whether they are transparent in part
     pub fn finished(
         &self,
         number: u32,
         (passes, alpha): (bool, bool),
-        command: &str,
+        identity: &str,
         pixels: u32,
     ) -> Option<Vec<u8>> {
         let path = self.frame(number);
-        let shown = |path: &Path| animation::finished_frame(&read_whole(path, pixels)?, command, pixels);
+        let shown = |path: &Path| animation::finished_frame(&read_whole(path, pixels)?, identity, pixels);
         let mut others = Pass::ALL.iter().filter(|_| passes);
         if others.any(|(_, name)| shown(&pass_path(&path, name)).is_none()) {
             return None;

@@ -2,7 +2,7 @@
 
 use super::stone_report::ReportError;
 use super::{pdf, raster};
-use crate::render::record;
+use crate::render::Record;
 use std::path::Path;
 
 /// What a drawing is written as.
@@ -40,14 +40,14 @@ impl DrawingFormat {
     /// A drawing as a file's bytes.
     ///
     /// - `width`: pixels across, of a PNG
-    /// - `command`: what made it, recorded in the file
-    pub fn bytes(self, svg: String, width: u32, command: Option<&str>) -> Result<Vec<u8>, ReportError> {
-        Ok(match (self, command) {
+    /// - `record`: of what made it, which the file then has
+    pub fn bytes(self, svg: String, width: u32, record: Option<&Record>) -> Result<Vec<u8>, ReportError> {
+        Ok(match (self, record) {
             (DrawingFormat::Svg, None) => svg.into_bytes(),
-            (DrawingFormat::Svg, Some(command)) => record::recorded(svg, command).into_bytes(),
+            (DrawingFormat::Svg, Some(record)) => record.in_markup(svg).into_bytes(),
             (DrawingFormat::Pdf, None) => pdf::pdf(&svg)?,
-            (DrawingFormat::Pdf, Some(command)) => record::in_pdf(pdf::pdf(&svg)?, command),
-            (DrawingFormat::Png, command) => raster::png_of(&svg, width, command)?,
+            (DrawingFormat::Pdf, Some(record)) => record.in_pdf(pdf::pdf(&svg)?),
+            (DrawingFormat::Png, record) => raster::png_of(&svg, width, record)?,
         })
     }
 }

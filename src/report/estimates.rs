@@ -3,15 +3,10 @@
 use crate::sampling::stats::Estimate;
 use maud::{Markup, html};
 
-/// An estimate as text: [`Estimate::text`].
-pub fn estimate_text(e: Estimate) -> (String, Option<String>) {
-    e.text()
-}
-
 /// The sign that a difference has before its text: `+` if it is shown as more than zero; the text of a
 /// negative one has its own.
 pub fn plus(e: Estimate) -> &'static str {
-    if e.value > 0.0 && estimate_text(e).0.parse() != Ok(0.0) { "+" } else { "" }
+    if e.value > 0.0 && e.text().0.parse() != Ok(0.0) { "+" } else { "" }
 }
 
 /// An estimate with its error as HTML, or a dash if there is none.
@@ -29,7 +24,7 @@ pub(super) fn difference_html(value: Option<Estimate>) -> Markup {
 fn shown(value: Option<Estimate>, sign: &str, unit: &str) -> Markup {
     let minus = |text: String| text.replace('-', "−");
     html! {
-        @if let Some((value, error)) = value.map(estimate_text) {
+        @if let Some((value, error)) = value.map(Estimate::text) {
             b { (sign) (minus(value)) }
             @if !unit.is_empty() { " " (unit) }
             @if let Some(error) = error { " " span class="se" { "± " (minus(error)) } }

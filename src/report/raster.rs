@@ -1,6 +1,7 @@
 //! Drawings as pictures: SVG text to PNG, and how wide a text is. The fonts are in the binary, so
 //! that the same drawing gives the same pixels on every machine.
 
+use crate::render::Record;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, fontdb};
 use skrifa::instance::{LocationRef, Size};
@@ -73,8 +74,8 @@ pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
 
 /// As [`png()`].
 ///
-/// - `command`: what made it, for the picture's text `Command`
-pub fn png_of(svg: &str, width: u32, command: Option<&str>) -> Result<Vec<u8>, RasterError> {
+/// - `record`: where it comes from, for the picture's texts `Command` and `Request`
+pub fn png_of(svg: &str, width: u32, record: Option<&Record>) -> Result<Vec<u8>, RasterError> {
     let tree = tree(svg)?;
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round() as u32;
@@ -90,8 +91,12 @@ pub fn png_of(svg: &str, width: u32, command: Option<&str>) -> Result<Vec<u8>, R
     let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(png::ColorType::Rgba); // on white: nothing is left to multiply
     encoder.set_depth(png::BitDepth::Eight);
-    if let Some(command) = command {
-        encoder.add_itxt_chunk("Command".into(), command.into()).map_err(fail)?;
+    if let Some(Record { command, request }) = record {
+        encoder.add_itxt_chunk("Command".into(), command.clone()).map_err(fail)?;
+        request
+            .iter()
+            .try_for_each(|request| encoder.add_itxt_chunk("Request".into(), request.clone()))
+            .map_err(fail)?;
     }
     let mut writer = encoder.write_header().map_err(fail)?;
     writer.write_image_data(pixels.data()).map_err(fail)?;

@@ -14,11 +14,12 @@ use std::ffi::OsStr;
 /// use cutlab::ReportRequest;
 ///
 /// let request: ReportRequest = serde_json::from_str(r#"{ "stones": ["tolkowsky"] }"#)?;
-/// assert_eq!((request.seed, request.polarised, request.options), (1, true, Default::default()));
+/// assert_eq!(request, ReportRequest::new(["tolkowsky"]).seed(1));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ReportRequest {
     /// The stones as they are named: cuts, files, folders, patterns.
     pub stones: Vec<String>,
@@ -58,6 +59,41 @@ impl Default for ReportRequest {
 }
 
 impl ReportRequest {
+    /// On these stones, as each is, with seed 1.
+    pub fn new<S: Into<String>>(stones: impl IntoIterator<Item = S>) -> ReportRequest {
+        ReportRequest { stones: stones.into_iter().map(Into::into).collect(), ..ReportRequest::default() }
+    }
+
+    /// With what is asked for of every stone.
+    pub fn options(mut self, options: StoneOptions) -> ReportRequest {
+        self.options = options;
+        self
+    }
+
+    /// With a seed of its random streams.
+    pub fn seed(mut self, seed: u64) -> ReportRequest {
+        self.seed = seed;
+        self
+    }
+
+    /// Whether light keeps its polarisation from facet to facet.
+    pub fn polarised(mut self, polarised: bool) -> ReportRequest {
+        self.polarised = polarised;
+        self
+    }
+
+    /// With a standard error at which every score ends, times the metric's scale.
+    pub fn error(mut self, error: f64) -> ReportRequest {
+        self.error = Some(error);
+        self
+    }
+
+    /// With so many pixels across the picture on the table.
+    pub fn width(mut self, pixels: u32) -> ReportRequest {
+        self.width = pixels;
+        self
+    }
+
     /// Opens one of its stones: a convex one, as wide as it is asked for, as it is, or as stones usually are.
     pub fn open(&self, stone: impl AsRef<OsStr>) -> Result<Stone, StoneError> {
         Stone::open(stone, &self.options)?.convex_in_mm()

@@ -6,6 +6,7 @@ use super::stone_report::ReportError;
 use crate::batch::sidecar::TableLayout;
 use crate::batch::table::NumericColumns;
 use crate::metrics::Metric;
+use crate::render::Record;
 use crate::stone::grammar;
 use crate::storage::atomic_write;
 use crate::storage::text::display_name;
@@ -66,12 +67,12 @@ impl TablePlots {
     /// Draws the plots of a table and writes the files.
     ///
     /// - `layout`: what stands along the axes
-    /// - `command`: recorded in each
+    /// - `record`: of what made the table, which each has
     pub fn draw(
         &self,
         table: &NumericColumns,
         layout: &TableLayout,
-        command: &str,
+        record: &Record,
     ) -> Result<(), ReportError> {
         let family = grammar::family(&layout.stone);
         let axes: Vec<Axis> = layout.axes.iter().map(|key| Axis::new(key, family)).collect();
@@ -80,7 +81,7 @@ impl TablePlots {
             let drawing = ScorePlot { metric, axes: &axes, stone, family, is_diamond, style, own: None };
             let svg = drawing.svg(table, layout.scattered, &layout.curves);
             let format = DrawingFormat::from_path(path).unwrap_or(DrawingFormat::Png);
-            atomic_write::write(path, &format.bytes(svg, self.width, Some(command))?)?;
+            atomic_write::write(path, &format.bytes(svg, self.width, Some(record))?)?;
         }
         Ok(())
     }

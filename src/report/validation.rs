@@ -1,6 +1,5 @@
 //! The page of a validation: what was expected, what came out, where the two are apart.
 
-use super::estimates::estimate_text;
 use super::html::HtmlPage;
 use super::plot::{Curves, Dot, PlotCurve};
 use super::svg_canvas::{Element, PathData};
@@ -25,7 +24,7 @@ pub fn written(ours: Estimate, tolerance: Option<f64>) -> String {
     if ours.error > 0.0 && ours.error < 1e-5 && ours.value.abs() > 1e-4 {
         return format!("{:.1$} ± {2:.0e}", ours.value, digits(ours.error), ours.error);
     }
-    match (estimate_text(ours), tolerance) {
+    match (ours.text(), tolerance) {
         ((value, Some(error)), _) => format!("{value} ± {error}"),
         (_, Some(tolerance)) if tolerance > 0.0 => {
             let text = format!("{:.1$}", ours.value, digits(tolerance));

@@ -8,7 +8,18 @@ use super::surface::Surface;
 use glam::Vec3;
 
 /// A scene ready to be traced.
+///
+/// ```
+/// use cutlab::{RenderRequest, Scene, Stone};
+///
+/// let request = RenderRequest::scene("table")?.stone(&Stone::parse("oval")?);
+/// let scene: Scene = request.build(&request.scene_file()?, (640, 480))?;
+/// assert_eq!(scene.stones.len(), 1);
+/// assert!(scene.has_caustics()); // the stone throws light on the table
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Scene {
     /// Its name.
     pub name: String,

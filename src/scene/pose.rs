@@ -5,8 +5,19 @@ use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// A way for a stone to stand on a plane.
+///
+/// ```
+/// use cutlab::glam::DVec3;
+/// use cutlab::{Pose, Stone};
+///
+/// let stone = Stone::parse("tolkowsky")?;
+/// let up = Pose::TableDown.rotation(stone.solid().unwrap()) * DVec3::Z; // where the table faces
+/// assert!((up + DVec3::Z).length() < 1e-12);
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Pose {
     /// As a loose stone lies: on a facet over which its centre of mass comes to rest, the crown
     /// side up if there is such a facet.

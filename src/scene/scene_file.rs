@@ -89,6 +89,21 @@ struct SceneDocument {
 }
 
 /// A scene as written.
+///
+/// ```
+/// use cutlab::SceneFile;
+///
+/// let text = r#"
+///     unit = "stone"
+///     camera = { at = [0, -6, 5], field = 30 }
+///     stone = [{ pose = "lying" }]
+///     light = [{ kind = "square", at = [2, -1, 8], to = [0, 0, 0], side = 3, radiance = 8 }]
+/// "#;
+/// let file = SceneFile::parse("mine", "mine.toml", text, "".as_ref()).unwrap();
+/// assert_eq!((file.stone_count(), file.picture()), (1, (640, 480)));
+/// let scene = file.build(&Default::default(), 4.0 / 3.0).unwrap();
+/// assert_eq!((scene.stones.len(), scene.lights.len()), (1, 1));
+/// ```
 #[derive(Debug, Clone)]
 pub struct SceneFile {
     /// Its name: of the catalogue, or the file's without folder and extension.

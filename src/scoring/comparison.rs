@@ -23,7 +23,21 @@ const OF_STORAGE: f64 = 1e-6;
 const OF_TRACING: f64 = 1e-4;
 
 /// The scores of several stones.
+///
+/// ```
+/// use cutlab::advanced::scoring::ScoreInput;
+/// use cutlab::advanced::scoring::comparison::compare;
+/// use cutlab::{Comparison, ScoreRequest, Stone};
+///
+/// let stones = [Stone::parse("tolkowsky")?, Stone::parse("cube")?];
+/// let inputs = stones.map(|stone| ScoreInput::from_stone(&stone, None));
+/// let comparison: Comparison = compare(&inputs, &ScoreRequest::new(["leakage"]).samples(1 << 14), &|| ());
+/// assert!(comparison.differences[0][0].is_some_and(|of_cube| of_cube.value > 0.3));
+/// assert_eq!(comparison.is_significant(0, 0), Some(true));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Comparison {
     /// One a stone: name, material and facets are of it; the scores are means over the runs.
     pub rows: Vec<ScoreRow>,

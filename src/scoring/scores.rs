@@ -2,7 +2,7 @@
 
 use super::score::score;
 use super::settings::{ScoreInput, ScoreRequest, ScoreRow, Target, Tilt};
-use crate::metrics::{METRICS, Metric};
+use crate::metrics::{Metric, NoSuchMetric};
 use crate::parse;
 use crate::sampling::stats::Estimate;
 use crate::stone::Stone;
@@ -21,13 +21,8 @@ use std::ops::Index;
 #[non_exhaustive]
 pub enum ScoreError {
     /// A name that no metric has.
-    #[error("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(*.nearest))]
-    NoSuchMetric {
-        /// The name.
-        name: String,
-        /// The metric that is probably meant.
-        nearest: Option<&'static str>,
-    },
+    #[error(transparent)]
+    NoSuchMetric(#[from] NoSuchMetric),
     /// A stone that has none of the scores asked for, or in which nothing can be traced.
     #[error("{stone}: {why}")]
     NotScored {
@@ -119,10 +114,28 @@ impl ScoreRequest {
         self
     }
 
+    /// With these metrics in place of its own.
+    pub fn metrics(mut self, metrics: impl IntoIterator<Item = &'static Metric>) -> ScoreRequest {
+        self.metrics = metrics.into_iter().collect();
+        self
+    }
+
+    /// Traced as far as `target` says.
+    pub fn target(mut self, target: Target) -> ScoreRequest {
+        self.target = target;
+        self
+    }
+
     /// Traced until every standard error is below `error` times the metric's scale: 1 for fractions and degrees, 100
     /// for percentages.
     pub fn error(mut self, error: f64) -> ScoreRequest {
         self.target = Target::Error(error);
+        self
+    }
+
+    /// With no estimator traced further than so many samples in pursuit of an error, dearer ones less far.
+    pub fn cap(mut self, samples: u64) -> ScoreRequest {
+        self.cap = samples;
         self
     }
 
@@ -158,9 +171,10 @@ impl ScoreRequest {
 
     /// Whether every metric that was asked for by name exists.
     pub fn check(&self) -> Result<(), ScoreError> {
-        let Some(name) = self.unknown.first() else { return Ok(()) };
-        let nearest = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
-        Err(ScoreError::NoSuchMetric { name: name.clone(), nearest })
+        if let Some(name) = self.unknown.first() {
+            Metric::named(name)?;
+        }
+        Ok(())
     }
 
     /// Scores a stone face-up. One whose colour depends on a size that nobody says is taken as wide as stones usually
@@ -173,13 +187,8 @@ impl ScoreRequest {
     pub fn run_tilted(&self, stone: &Stone, tilt: Option<Tilt>) -> Result<Scores, ScoreError> {
         self.check()?;
         let failed = |why: String| ScoreError::NotScored { stone: stone.name().into(), why };
-        let input = if stone.lacks_size() {
-            let sized = stone.clone().with_usual_width().map_err(|e| failed(e.to_string()))?;
-            ScoreInput::from_stone(&sized, tilt)
-        } else {
-            ScoreInput::from_stone(stone, tilt)
-        };
-        let row = score(&input, self);
+        let sized = stone.clone().with_width_for_colour().map_err(|e| failed(e.to_string()))?;
+        let row = score(&ScoreInput::from_stone(&sized, tilt), self);
         match &row.error {
             Some(why) if row.scores.iter().all(Option::is_none) => Err(failed(why.clone())),
             _ => Ok(Scores { row, names: self.metrics.iter().map(|m| m.name).collect() }),

@@ -25,6 +25,7 @@ pub const MAX_SAMPLES: u64 = 1 << 25;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Target {
     /// So many points of the hemisphere and the view, fewer of dearer estimators.
     Samples(u64),
@@ -172,6 +173,7 @@ impl ScoreRow {
 /// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ScoreRequest {
     /// The metrics, in the order of the columns.
     pub metrics: Vec<&'static Metric>,

@@ -40,21 +40,41 @@ pub struct StoneSpec {
 impl StoneSpec {
     /// The parts of a STONE. The name of a file that is there is taken as it is, whatever it holds.
     pub fn parse(argument: impl AsRef<OsStr>) -> Result<StoneSpec, StoneError> {
+        StoneSpec::parse_within(argument, Limits::default())
+    }
+
+    /// As [`StoneSpec::parse`], with a material in a file read within limits that may be raised.
+    pub fn parse_within(argument: impl AsRef<OsStr>, limits: Limits) -> Result<StoneSpec, StoneError> {
         let argument = argument.as_ref();
+        let mut spec = StoneSpec::split(argument)?;
+        let wrong = |why: String| StoneError::Material { spec: display_name(argument), why };
+        spec.material = match &spec.own[..] {
+            [] => None,
+            [item] => {
+                let (_, value) = item.split_once('=').unwrap_or_default();
+                Some(if has_key(item, MATERIAL) {
+                    Material::open(value.trim(), limits).map_err(wrong)?
+                } else {
+                    Material::from_index(refractive_index(value.trim()).map_err(wrong)?)
+                })
+            }
+            _ => return Err(wrong("one material or index".into())),
+        };
+        Ok(spec)
+    }
+
+    /// The parts of a STONE, its material not opened.
+    fn split(argument: &OsStr) -> Result<StoneSpec, StoneError> {
         let mut spec = StoneSpec { base: argument.into(), own: Vec::new(), material: None };
         if Path::new(argument).symlink_metadata().is_ok() {
             return Ok(spec);
         }
-        let has_key = |item: &str, name: &str| {
-            item.split_once('=').is_some_and(|(key, _)| key.trim().eq_ignore_ascii_case(name))
-        };
         let is_own = |item: &&str| has_key(item, MATERIAL) || has_key(item, INDEX);
         let Some((name, items)) = parted(argument) else { return Ok(spec) };
         let (own, rest): (Vec<&str>, Vec<&str>) = items.split(',').partition(is_own);
         if own.is_empty() {
             return Ok(spec);
         }
-        let shown = || display_name(argument);
         if let (Some(found), false) = (rest.first(), is_cut(&name)) {
             if Path::new(&name).symlink_metadata().is_err() {
                 return Ok(spec);
@@ -64,19 +84,7 @@ impl StoneSpec {
                 Some(item) => format!("write decimals with a point, as {item}.{}", found.trim()),
                 None => format!("a file takes {MATERIAL}=NAME or {INDEX}=N"),
             };
-            return Err(StoneError::Item { spec: shown(), found: found.to_string(), why });
-        }
-        for item in &own {
-            let (_, value) = item.split_once('=').unwrap_or_default();
-            let wrong = |why: String| StoneError::Material { spec: shown(), why };
-            if spec.material.is_some() {
-                return Err(wrong("one material or index".into()));
-            }
-            spec.material = Some(if has_key(item, MATERIAL) {
-                Material::open(value.trim(), Limits::default()).map_err(wrong)?
-            } else {
-                Material::from_index(refractive_index(value.trim()).map_err(wrong)?)
-            });
+            return Err(StoneError::Item { spec: display_name(argument), found: found.to_string(), why });
         }
         spec.own = own.iter().map(|item| item.trim().to_owned()).collect();
         spec.base = name;
@@ -134,14 +142,14 @@ impl StoneSpec {
                 Err(cause) => Err(FormatError::Read { file: spec, cause }.into()),
             };
         }
-        load(&self.base, |path| formats::read_content(path, limits))
+        load(&self.base, limits, |path| formats::read_content(path, limits))
     }
 
     /// The cut of the library, or of a family, that it names.
     #[cfg(not(feature = "files"))]
-    pub(super) fn design(&self) -> Result<Design, StoneError> {
+    pub(super) fn design(&self, limits: Limits) -> Result<Design, StoneError> {
         let spec = display_name(&self.base);
-        library_cut(&spec)?.ok_or_else(|| not_found(&spec))
+        library_cut(&spec, limits)?.ok_or_else(|| not_found(&spec))
     }
 }
 
@@ -149,18 +157,19 @@ impl StoneSpec {
 #[cfg(feature = "files")]
 pub fn load_regular(spec: &str, limits: Limits) -> Result<Loaded, StoneError> {
     let read = |path: &Path| formats::read_regular(path, limits).map(Content::Design);
-    Ok(load(spec.as_ref(), read)?.into_design()?)
+    Ok(load(spec.as_ref(), limits, read)?.into_design()?)
 }
 
 #[cfg(feature = "files")]
 fn load(
     argument: &OsStr,
+    limits: Limits,
     read: impl Fn(&Path) -> Result<Content, FormatError>,
 ) -> Result<Content, StoneError> {
     let path = Path::new(argument);
     // a name that is not UTF-8 is a file's
     let Some(spec) = argument.to_str() else { return Ok(read(path)?) };
-    if let Some(design) = library_cut(spec)? {
+    if let Some(design) = library_cut(spec, limits)? {
         return Ok(Content::Design(Loaded { design, format: LIBRARY, warnings: Vec::new() }));
     }
     let missing = match std::fs::symlink_metadata(path) {
@@ -175,10 +184,10 @@ fn load(
 pub(super) const LIBRARY: &str = "library";
 
 /// The cut of the library, or of a family, that STONE names; none if it names none.
-fn library_cut(spec: &str) -> Result<Option<Design>, StoneError> {
+fn library_cut(spec: &str, limits: Limits) -> Result<Option<Design>, StoneError> {
     let Some(name) = cut_name(spec) else { return Ok(None) };
     let rest = spec.split_once(':').map(|(_, rest)| rest);
-    match cut(name, &parameters(spec, rest)?) {
+    match cut(name, &parameters(spec, rest)?, limits) {
         Ok(design) => Ok(Some(design)),
         Err(cause) => Err(StoneError::Cut { spec: spec.into(), cause }),
     }
@@ -194,6 +203,11 @@ fn not_found(spec: &str) -> StoneError {
         return StoneError::NoSuchFile { spec: spec.into() };
     }
     StoneError::NoSuchStone { spec: spec.into(), nearest: library::nearest(name) }
+}
+
+/// Whether an item `KEY=VALUE` of a STONE has this key.
+fn has_key(item: &str, name: &str) -> bool {
+    item.split_once('=').is_some_and(|(key, _)| key.trim().eq_ignore_ascii_case(name))
 }
 
 /// What stands before and after the colon of a STONE: the first of a cut's, the last of a file's.
@@ -266,7 +280,7 @@ pub fn with_parameters(spec: &str, given: &BTreeMap<String, f64>) -> String {
 /// A file name for a stone: the cut's name, or the file's without folder and extension.
 pub fn file_stem(argument: impl AsRef<OsStr>) -> OsString {
     let argument = argument.as_ref();
-    let base = StoneSpec::parse(argument).map_or_else(|_| argument.to_owned(), |spec| spec.base);
+    let base = StoneSpec::split(argument).map_or_else(|_| argument.to_owned(), |spec| spec.base);
     let name = match base.to_str() {
         Some(text) if is_cut(text) => text.split(':').next().unwrap_or_default().into(),
         _ => base,
@@ -276,8 +290,8 @@ pub fn file_stem(argument: impl AsRef<OsStr>) -> OsString {
     if none { "stone".into() } else { stem.to_owned() }
 }
 
-fn cut(name: &str, values: &BTreeMap<String, f64>) -> Result<Design, DocumentError> {
-    library::design(name, values).unwrap_or_else(|| Ok(families::build(name, values)?))
+fn cut(name: &str, values: &BTreeMap<String, f64>, limits: Limits) -> Result<Design, DocumentError> {
+    library::design_within(name, values, limits).unwrap_or_else(|| Ok(families::build(name, values)?))
 }
 
 /// The parameters in what stands behind the colon of a STONE.

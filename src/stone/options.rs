@@ -11,13 +11,14 @@ use serde::{Deserialize, Serialize};
 /// ```
 /// use cutlab::{Stone, StoneOptions};
 ///
-/// let options = StoneOptions { material: Some("topaz".into()), size_mm: Some(9.0), ..StoneOptions::default() };
+/// let options = StoneOptions::default().material("topaz").size_mm(9.0);
 /// let stone = Stone::open("emerald", &options)?;
 /// assert!(stone.material().name == "topaz" && (stone.width() - 9.0).abs() < 1e-9);
 /// # Ok::<(), cutlab::Error>(())
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct StoneOptions {
     /// A material of the catalogue, by name, or a file of one; none for what each design is drawn for, or diamond.
     pub material: Option<String>,
@@ -37,6 +38,47 @@ pub struct StoneOptions {
 }
 
 impl StoneOptions {
+    /// Of a material of the catalogue, by name, or of the file of one.
+    pub fn material(mut self, name: impl Into<String>) -> StoneOptions {
+        self.material = Some(name.into());
+        self
+    }
+
+    /// Of a material that is opened already.
+    pub fn opened_material(mut self, material: Material) -> StoneOptions {
+        self.opened_material = Some(material);
+        self
+    }
+
+    /// With one refractive index, without dispersion, in place of a material.
+    pub fn ri(mut self, index: f64) -> StoneOptions {
+        self.ri = Some(index);
+        self
+    }
+
+    /// With a girdle width in millimetres.
+    pub fn size_mm(mut self, mm: f64) -> StoneOptions {
+        self.size_mm = Some(mm);
+        self
+    }
+
+    /// The same options, with each stone as wide as it is.
+    pub fn without_size(&self) -> StoneOptions {
+        StoneOptions { size_mm: None, ..self.clone() }
+    }
+
+    /// With the stones of files turned.
+    pub fn orientation(mut self, orientation: Orientation) -> StoneOptions {
+        self.orientation = orientation;
+        self
+    }
+
+    /// With limits on the files that are read.
+    pub fn limits(mut self, limits: Limits) -> StoneOptions {
+        self.limits = limits;
+        self
+    }
+
     /// The material or bare index asked for, if any; the error says that there is no such material.
     pub fn asked_material(&self) -> Result<Option<Material>, String> {
         match (&self.opened_material, &self.material, self.ri) {
@@ -53,19 +95,33 @@ impl StoneOptions {
 /// ```
 /// use cutlab::{Orientation, Stone, StoneOptions, UpAxis};
 ///
-/// let orientation = Orientation { up: Some(UpAxis::Y), align: false };
-/// let options = StoneOptions { orientation, ..StoneOptions::default() };
+/// let options = StoneOptions::default().orientation(Orientation::default().up(UpAxis::Y));
 /// // stones of files are turned, cuts of the library stand as they do
 /// assert!(Stone::open("tolkowsky", &options)?.orientation_doubt().is_none());
 /// # Ok::<(), cutlab::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Orientation {
     /// The axis of the file that points up, through the table; none for z.
     pub up: Option<UpAxis>,
     /// Whether a stone is stood upright by its axis of symmetry, or else by its largest facet.
     pub align: bool,
+}
+
+impl Orientation {
+    /// With the axis of the file that points up, through the table.
+    pub fn up(mut self, axis: UpAxis) -> Orientation {
+        self.up = Some(axis);
+        self
+    }
+
+    /// Whether a stone is stood upright by its axis of symmetry, or else by its largest facet.
+    pub fn align(mut self, align: bool) -> Orientation {
+        self.align = align;
+        self
+    }
 }
 
 /// An axis of a file's frame.

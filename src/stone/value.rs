@@ -64,12 +64,12 @@ impl Stone {
     /// - `spec`: may be the name of a file that is not UTF-8; `-` is standard input
     pub fn open(spec: impl AsRef<OsStr>, options: &StoneOptions) -> Result<Stone, StoneError> {
         let spec = spec.as_ref();
-        let parts = StoneSpec::parse(spec)?;
+        let parts = StoneSpec::parse_within(spec, options.limits)?;
         let name = display_name(spec);
         #[cfg(feature = "files")]
         let stone = Stone::from_content(name, parts.load(options.limits)?)?;
         #[cfg(not(feature = "files"))]
-        let stone = Stone::library_cut(name, parts.design()?)?;
+        let stone = Stone::library_cut(name, parts.design(options.limits)?)?;
         stone.oriented(options.orientation)?.made_of(parts.material(), options)
     }
 
@@ -223,6 +223,11 @@ impl Stone {
     /// As wide as a stone usually is, [`USUAL_WIDTH_MM`], if nobody says how wide it is.
     pub fn with_usual_width(self) -> Result<Stone, StoneError> {
         if self.unit == LengthUnit::Free { self.with_width(USUAL_WIDTH_MM) } else { Ok(self) }
+    }
+
+    /// As wide as a stone usually is, if its colour depends on a size that nobody says ([`Stone::lacks_size`]).
+    pub fn with_width_for_colour(self) -> Result<Stone, StoneError> {
+        if self.lacks_size() { self.with_usual_width() } else { Ok(self) }
     }
 
     /// The stone for what needs a convex one of a size: as [`Stone::with_usual_width`].

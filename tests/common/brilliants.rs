@@ -8,7 +8,7 @@ use cutlab::advanced::design::Design;
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::Metric;
 use cutlab::advanced::sampling::stats::Estimate;
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, score};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, score};
 use cutlab::advanced::trace::ConvexStone;
 
 /// The only seed of these tests.
@@ -42,14 +42,8 @@ pub fn subject(name: &str, design: &Design, material: Material) -> ScoreInput {
 
 /// Scalar Fresnel, as the reference figures have it.
 pub fn plan(metrics: &[&str], samples: u64) -> ScoreRequest {
-    let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue")).collect();
-    ScoreRequest {
-        metrics,
-        target: Target::Samples(samples),
-        polarised: false,
-        seed: SEED,
-        ..ScoreRequest::default()
-    }
+    let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue"));
+    ScoreRequest::default().metrics(metrics).samples(samples).polarised(false).seed(SEED)
 }
 
 pub fn scores<const N: usize>(

@@ -30,12 +30,8 @@ fn ruby() -> Material {
 fn smoke() -> Material {
     let band =
         Band { name: "all".into(), centre_nm: 555.0, half_widths_per_cm: (1e9, 1e9), peak_per_mm: 0.6 };
-    Material {
-        name: "smoke".into(),
-        dispersion: Dispersion::Constant(1.77),
-        absorption: Some(Absorption::from_bands([band], "grey", "this test")),
-        ..ruby()
-    }
+    let glass = ruby().with_name("smoke").with_dispersion(Dispersion::Constant(1.77));
+    glass.with_absorption(Absorption::from_bands([band], "grey", "this test"))
 }
 
 fn stone(name: &str, mm: f64) -> ConvexStone {
@@ -172,8 +168,7 @@ impl<'a> Exhaustive<'a> {
 fn scored(name: &str, mm: f64, material: Material, effort: Target) -> [Estimate; 3] {
     let design = library::design(name, &Default::default()).expect("in the library").expect("solved");
     let metrics = NAMES.map(|m| Metric::by_name(m).expect("in the catalogue")).to_vec();
-    let plan =
-        ScoreRequest { metrics, target: effort, polarised: false, seed: SEED, ..ScoreRequest::default() };
+    let plan = ScoreRequest::default().metrics(metrics).target(effort).polarised(false).seed(SEED);
     let row = score(&subject(name, &design.sized(mm).expect("solid"), material), &plan);
     assert_eq!(row.error, None);
     std::array::from_fn(|i| row.scores[i].expect("applies"))
@@ -223,7 +218,7 @@ fn a_ruby_returns_what_the_eye_sees() {
 fn small_errors_hold_what_is_given_up() {
     let design = library::design("cube", &Default::default()).expect("in the library").expect("solved");
     let metrics = ["leakage", "lost"].map(|m| Metric::by_name(m).expect("in the catalogue")).to_vec();
-    let plan = ScoreRequest { metrics, target: Target::Error(5e-6), seed: SEED, ..ScoreRequest::default() };
+    let plan = ScoreRequest::default().metrics(metrics).error(5e-6).seed(SEED);
     let row = score(&subject("cube", &design, brilliants::diamond()), &plan);
     assert_eq!(row.error, None);
     let [leakage, lost] = [0, 1].map(|i| row.scores[i].expect("applies"));
@@ -233,7 +228,7 @@ fn small_errors_hold_what_is_given_up() {
     assert!((leakage.value - truth).abs() < 4.0 * leakage.error.hypot(error), "{leakage:?}");
     assert!(lost.value < 5e-6, "{lost:?}");
     // where samples are asked for in place of an error, the error holds what is given up
-    let plan = ScoreRequest { target: Target::Samples(1 << 20), ..plan };
+    let plan = plan.samples(1 << 20);
     let row = score(&subject("cube", &design, brilliants::diamond()), &plan);
     let [leakage, lost] = [0, 1].map(|i| row.scores[i].expect("applies"));
     assert!(lost.value > 1e-5 && leakage.error >= lost.value, "{leakage:?} {lost:?}");

@@ -10,7 +10,7 @@ use crate::brilliants::{SEED, plan, subject};
 use cutlab::advanced::design::library;
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::{METRICS, Metric, MetricSource, Statistic};
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
+use cutlab::advanced::scoring::score::{ScoreInput, Tilt, score};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -37,7 +37,7 @@ fn not_covered(material: &str, names: &[&str]) -> Vec<String> {
     let subject = ScoreInput { tilt, ..subject("single cut", &design, material) };
     let plan = plan(names, SHORT);
     let run = |seed: u64, samples: u64| {
-        let row = score(&subject, &ScoreRequest { target: Target::Samples(samples), seed, ..plan.clone() });
+        let row = score(&subject, &plan.clone().samples(samples).seed(seed));
         assert_eq!(row.error, None);
         row.scores.into_iter().map(|s| s.expect("applies")).collect::<Vec<_>>()
     };

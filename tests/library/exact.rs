@@ -4,7 +4,7 @@ use crate::brilliants::{diamond, named, plan, subject};
 use cutlab::advanced::design::library;
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::{METRICS, Metric};
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, Tilt, score};
+use cutlab::advanced::scoring::score::{ScoreInput, Tilt, score};
 use cutlab::advanced::stone::Stone;
 
 /// Twenty-seven metrics of two stones, face-up and tilted, with and without polarisation: 4.2 errors.
@@ -16,8 +16,8 @@ fn beams_agree_with_photons() {
         [("reference", None, true), ("nailhead", Some(Tilt { degrees: 12.0, azimuth: 20.0 }), false)]
     {
         let subject = ScoreInput { tilt, ..subject(stone, &named(stone), diamond()) };
-        let random = ScoreRequest { polarised, ..plan(&names, 1 << 18) };
-        let exact = ScoreRequest { exact: true, target: Target::Samples(1 << 16), ..random.clone() };
+        let random = plan(&names, 1 << 18).polarised(polarised);
+        let exact = random.clone().exact(true).samples(1 << 16);
         let [a, b] = [random, exact].map(|plan| score(&subject, &plan));
         assert_eq!((a.error, b.error), (None, None));
         for ((name, a), b) in names.iter().zip(a.scores).zip(b.scores) {
@@ -42,7 +42,7 @@ fn beams_agree_with_photons() {
 #[test]
 fn exact_scores_reach_an_error_too() {
     let asked = plan(&["aset_red", "wlr", "brightness"], 0);
-    let plan = ScoreRequest { exact: true, target: Target::Error(0.002), ..asked };
+    let plan = asked.exact(true).error(0.002);
     let row = score(&subject("reference", &named("reference"), diamond()), &plan);
     assert_eq!(row.error, None);
     for e in row.scores {
@@ -54,7 +54,7 @@ fn exact_scores_reach_an_error_too() {
 /// Where photons take the place of the beams that were asked for, the row says so and why.
 #[test]
 fn photons_in_place_of_beams_are_told() {
-    let asked = |metrics: &[&str]| ScoreRequest { exact: true, ..plan(metrics, 256) };
+    let asked = |metrics: &[&str]| plan(metrics, 256).exact(true);
     let row = |material: Material, metrics: &[&str]| {
         let subject = subject("reference", &named("reference"), material);
         score(&subject, &asked(metrics))
@@ -94,7 +94,7 @@ fn what_is_given_up_counts_for_every_share_of_a_view() {
     let cube = library::design("cube", &Default::default()).expect("in the library").expect("solved");
     let subject = subject("cube", &cube, diamond());
     let random = plan(&names, 1 << 13);
-    let exact = ScoreRequest { exact: true, ..random.clone() };
+    let exact = random.clone().exact(true);
     let [a, b] = [random, exact].map(|plan| score(&subject, &plan).scores);
     for ((name, a), b) in names.iter().zip(a).zip(b) {
         let (a, b) = (a.expect("applies"), b.expect("applies"));

@@ -5,7 +5,7 @@ use crate::brilliants::{diamond, named, plan, subject};
 use cutlab::advanced::estimators::hemisphere::{GLARE, HemisphereKind, RETURNED};
 use cutlab::advanced::metrics::{Metric, MetricSource, Statistic};
 use cutlab::advanced::sampling::stats::Estimate;
-use cutlab::advanced::scoring::score::{ScoreRequest, Target, score};
+use cutlab::advanced::scoring::score::{Target, score};
 
 /// A metric on sums that an estimator has: one row.
 static GLARE_PER_RETURN: Metric = Metric {
@@ -141,7 +141,7 @@ mod crown {
 
 /// Scores of the reference brilliant in diamond: those of the catalogue that are named, then the others.
 fn scores(names: &[&str], others: &[&'static Metric], target: Target) -> (Vec<Estimate>, Vec<&'static str>) {
-    let mut plan = ScoreRequest { target, ..plan(names, 1) };
+    let mut plan = plan(names, 1).target(target);
     plan.metrics.extend(others);
     let row = score(&subject("reference", &named("reference"), diamond()), &plan);
     assert_eq!((row.error, row.left_out), (None, Vec::new()));

@@ -13,7 +13,7 @@ use cutlab::advanced::geometry::{Plane, Polyhedron};
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::optics::fresnel;
 use cutlab::advanced::sampling::random::{Purpose, Stream};
-use cutlab::advanced::scoring::score::{ScoreRequest, score};
+use cutlab::advanced::scoring::score::score;
 use cutlab::advanced::trace::{ConvexStone, reference};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ fn cut(name: &str) -> Design {
 #[test]
 fn published_cos_and_iso_come_out_without_head_shadow() {
     for f in figures::set("no head shadow") {
-        let plan = ScoreRequest { observer: Some(0.0), ..plan(&[&f.quantity], 1 << 16) };
+        let plan = plan(&[&f.quantity], 1 << 16).observer(0.0);
         let row = score(&subject(&f.of, &cut(&f.of), Material::from_index(1.54)), &plan);
         let e = row.scores[0].expect("applies");
         println!("{} {}: {:.2} ± {:.2}, published {}", f.of, f.quantity, e.value, e.error, f.expected);
@@ -179,7 +179,7 @@ fn brightness_and_contrast_against_a_plain_tracer() {
     }
     let mean = sum / count;
     let contrast = (square / count / (mean * mean) - 1.0f64).sqrt();
-    let plan = ScoreRequest { observer: Some(15.0), ..plan(&["brightness", "contrast"], 1 << 16) };
+    let plan = plan(&["brightness", "contrast"], 1 << 16).observer(15.0);
     let row = score(&subject("single cut", &design, Material::from_index(index)), &plan);
     let [b, c] = [0, 1].map(|i| row.scores[i].expect("applies"));
     println!("brightness {mean:.4}, ours {b:?}; contrast {contrast:.4}, ours {c:?}");

@@ -22,9 +22,8 @@ fn by_beams(whole: bool) -> Vec<&'static Metric> {
 
 fn both(subject: &ScoreInput, metrics: &[&'static Metric], samples: u64) -> [ScoreRow; 2] {
     let effort = Target::Samples(samples);
-    let plan =
-        ScoreRequest { metrics: metrics.to_vec(), target: effort, seed: SEED, ..ScoreRequest::default() };
-    [false, true].map(|exact| score(subject, &ScoreRequest { exact, ..plan.clone() }))
+    let plan = ScoreRequest::default().metrics(metrics.iter().copied()).target(effort).seed(SEED);
+    [false, true].map(|exact| score(subject, &plan.clone().exact(exact)))
 }
 
 /// The errors of both and what neither holds: beams leave a few parts in 10⁵ of the outline

@@ -222,7 +222,8 @@ fn a_black_picture_converges() {
     let first = photons::PhotonSettings { photons: 100, nearest: 30, seed: SEED };
     scene.camera.target = Vec3::new(0.0, 0.0, 1000.0);
     scene.camera.position = Vec3::new(0.0, 0.0, 500.0);
-    let unlit = Scene { lights: Vec::new(), ..scene.clone() };
+    let mut unlit = scene.clone();
+    unlit.lights.clear();
     for (scene, rounds) in [(&scene, 8), (&unlit, 1)] {
         let mut picture = Progressive::new(scene, &scene.camera, settings(1), first);
         assert!(!picture.is_converged(0.01));

@@ -8,7 +8,7 @@ use cutlab::advanced::batch::request::{
 use cutlab::advanced::batch::sweep::Steps;
 use cutlab::advanced::batch::table_job::Order;
 use cutlab::advanced::metrics::Metric;
-use cutlab::advanced::scoring::settings::{ScoreRequest, Target};
+use cutlab::advanced::scoring::settings::ScoreRequest;
 use cutlab::advanced::stone::{Orientation, StoneOptions, UpAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -19,39 +19,21 @@ fn metric(name: &str) -> &'static Metric {
 
 /// A request of each kind, with every field set.
 fn requests() -> [TableRequest; 3] {
-    let options = StoneOptions {
-        material: Some("ruby".into()),
-        ri: Some(1.76),
-        size_mm: Some(6.5),
-        opened_material: None,
-        limits: Default::default(),
-        orientation: Orientation { up: Some(UpAxis::NegY), align: true },
-    };
-    let scores = ScoreRequest {
-        metrics: vec![metric("wlr"), metric("iso")],
-        target: Target::Error(0.001),
-        observer: Some(16.0),
-        ..ScoreRequest::default()
-    };
+    let orientation = Orientation::default().up(UpAxis::NegY).align(true);
+    let options = StoneOptions::default().material("ruby").ri(1.76).size_mm(6.5).orientation(orientation);
+    let scores =
+        ScoreRequest::default().metrics(vec![metric("wlr"), metric("iso")]).error(0.001).observer(16.0);
     let steps = Steps::new(30.0, 38.0, 0.5).expect("a range");
-    let stones = vec!["tolkowsky".into(), "a b.asc".into()];
+    let stones = ["tolkowsky", "a b.asc"];
+    let tilt = TiltRange { degrees: steps, azimuths: vec![0.0, 90.0] };
+    let sort = SortRequest { metric: metric("iso"), order: Order { ascending: true, top: Some(3) } };
+    let table = ScoreTable::new(stones, scores.clone()).tilt(tilt).proportions(true).sort(sort);
+    let vary = ["crown-angle=30:38:0.5".parse().expect("a range")];
+    let sweep = SweepTable::new("round-brilliant", vary, scores.clone()).scatter(20);
     [
-        TableRequest::Score(ScoreTable {
-            stones: stones.clone(),
-            options: options.clone(),
-            scores: scores.clone(),
-            tilt: Some(TiltRange { degrees: steps, azimuths: vec![0.0, 90.0] }),
-            proportions: true,
-            sort: Some(SortRequest { metric: metric("iso"), order: Order { ascending: true, top: Some(3) } }),
-        }),
-        TableRequest::Sweep(SweepTable {
-            stone: "round-brilliant".into(),
-            options: options.clone(),
-            scores: scores.clone(),
-            vary: vec!["crown-angle=30:38:0.5".parse().expect("a range")],
-            scatter: Some(20),
-        }),
-        TableRequest::Compare(ComparisonTable { stones, options, scores }),
+        TableRequest::Score(table.options(options.clone())),
+        TableRequest::Sweep(sweep.options(options.clone())),
+        TableRequest::Compare(ComparisonTable::new(stones, scores).options(options)),
     ]
 }
 
@@ -92,7 +74,7 @@ fn every_field_of_a_report_changes_its_identity() {
     let [TableRequest::Score(ScoreTable { stones, options, .. }), ..] = requests() else {
         panic!("the first is of scores");
     };
-    let report = ReportRequest { stones, options, polarised: false, seed: 7, error: Some(0.01), width: 320 };
+    let report = ReportRequest::new(stones).options(options).polarised(false).seed(7).error(0.01).width(320);
     let whole = canonical(&report);
     let mut paths = Vec::new();
     leaves(&whole, String::new(), &mut paths);

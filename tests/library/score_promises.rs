@@ -6,16 +6,14 @@ use cutlab::advanced::batch::table;
 use cutlab::advanced::estimators::{BatchedEstimate, PointLight, TraceOptics, point_light};
 use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::METRICS;
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, Target, score, score_all};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, ScoreRow, score, score_all};
 use glam::DMat3;
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let subjects = [subject("a", &named("reference"), diamond()), subject("b", &named("nailhead"), n2417())];
-    let plans = [
-        ScoreRequest { target: Target::Samples(5000), seed: SEED, ..ScoreRequest::default() },
-        ScoreRequest { target: Target::Error(0.01), seed: SEED, ..ScoreRequest::default() },
-    ];
+    let plans =
+        [ScoreRequest::default().samples(5000).seed(SEED), ScoreRequest::default().error(0.01).seed(SEED)];
     let bytes = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
@@ -33,7 +31,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 fn turning_a_stone_about_its_axis_changes_no_score() {
     let still = named("steep-deep");
     let turned = still.clone().turned(DMat3::from_rotation_z(0.3));
-    let plan = ScoreRequest { target: Target::Samples(1 << 15), seed: SEED, ..ScoreRequest::default() };
+    let plan = ScoreRequest::default().samples(1 << 15).seed(SEED);
     let [a, b] = [still, turned].map(|d| score(&subject("stone", &d, diamond()), &plan));
     for ((metric, a), b) in METRICS.iter().zip(a.scores).zip(b.scores) {
         let (a, b) = (a.expect("applies"), b.expect("applies"));
@@ -51,14 +49,7 @@ fn an_error_asked_for_is_reached_or_the_row_says_so() {
         let metrics = plan(&["wlr", "aset_red"], 0).metrics;
         score(
             &subject,
-            &ScoreRequest {
-                metrics,
-                target: Target::Error(target),
-                polarised: false,
-                seed: SEED,
-                cap,
-                ..ScoreRequest::default()
-            },
+            &ScoreRequest::default().metrics(metrics).error(target).polarised(false).seed(SEED).cap(cap),
         )
     };
     let reached = asked(0.001, 1 << 20);

@@ -5,7 +5,11 @@ use cutlab::advanced::batch::validate::{
 };
 
 fn run(part: Option<&str>, seed: u64) -> Vec<FigureOutcome> {
-    let lab = CheckContext { seed, corpus: std::env::var_os("CUTLAB_CORPUS").map(Into::into) };
+    let lab = CheckContext {
+        seed,
+        corpus: std::env::var_os("CUTLAB_CORPUS").map(Into::into),
+        limits: Default::default(),
+    };
     let trials = part.map_or_else(catalogue, |part| only(catalogue(), part));
     let reports: Vec<CheckReport> = trials.into_iter().map(|t| t.run(&lab)).collect();
     reports.into_iter().flat_map(|r| r.outcomes).collect()
@@ -43,7 +47,7 @@ fn every_figure_comes_out() {
 
 #[test]
 fn figures_that_need_a_corpus_are_skipped_without_one() {
-    let lab = CheckContext { seed: 1, corpus: None };
+    let lab = CheckContext { seed: 1, corpus: None, limits: Default::default() };
     let reports: Vec<CheckReport> = only(catalogue(), "SRB").into_iter().map(|t| t.run(&lab)).collect();
     let outcomes: Vec<&FigureOutcome> = reports.iter().flat_map(|r| &r.outcomes).collect();
     assert!(

@@ -42,7 +42,7 @@ pub fn fault(name: &Path, bytes: &[u8], inputs: &Inputs) -> Option<String> {
             // behind the end the page records the command that made it
             let text = text(bytes);
             let (page, record) = text.rsplit_once("</html>").unwrap_or_default();
-            let ends = record.trim().is_empty() || record.trim().starts_with("<?cutlab-command ");
+            let ends = record.trim().is_empty() || record.trim().starts_with("<?cutlab-record ");
             (page.is_empty() || !ends).then(|| "html: no end".into())
         }
         "pdf" => {

@@ -17,7 +17,7 @@ use cutlab::advanced::sampling::tally::Tally;
 use cutlab::advanced::sampling::warps;
 use cutlab::advanced::scene::intersection::StoneHit;
 use cutlab::advanced::scene::{PlacedStone, Pose, Scene, SceneOverrides, preset};
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, Target, score};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, score};
 use cutlab::advanced::trace::{ConvexStone, Isa, LANES, Packet, reference};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::BTreeMap;
@@ -138,7 +138,7 @@ fn grey(per_mm: f64) -> Material {
         peak_per_mm: per_mm,
     };
     let absorption = Absorption::from_bands([band], "a test's", "given");
-    Material { absorption: Some(absorption), ..Material::from_index(INDEX.into()) }
+    Material::from_index(INDEX.into()).with_absorption(absorption)
 }
 
 /// [D] A plate looked at straight: with R at each face and x = exp(−aL) of one crossing,
@@ -175,7 +175,7 @@ fn scores_of_a_coloured_stone_add_up_and_depend_on_its_size() {
             shape: Ok(solid.sized(mm).and_then(|d| d.solid()).expect("closed").into()),
             tilt: None,
         };
-        let plan = ScoreRequest { target: Target::Samples(1 << 14), seed: SEED, ..ScoreRequest::default() };
+        let plan = ScoreRequest::default().samples(1 << 14).seed(SEED);
         let row = score(&subject, &plan);
         assert_eq!(row.error, None);
         METRICS.iter().zip(row.scores).filter_map(|(m, s)| Some((m.name, s?.value))).collect()

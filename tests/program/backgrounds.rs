@@ -4,7 +4,6 @@
 use crate::bench::Bench;
 use crate::room::{ROOM, SMALL, built, taken};
 use cutlab::advanced::integrators::image_io;
-use cutlab::advanced::scene::Scene;
 use glam::{Vec3, Vec4};
 
 /// Luminance of linear sRGB. The wavelengths of a few rays leave colours some noise, luminance little.
@@ -28,9 +27,10 @@ fn before_a_sky(cut: &str, material: &str, radiance: f32) -> String {
 #[test]
 fn a_stone_before_its_own_background_is_the_picture() {
     const SKY: f32 = 0.4;
-    let scene = built(&before_a_sky("round-brilliant", "diamond", SKY)).expect("is sound");
+    let mut scene = built(&before_a_sky("round-brilliant", "diamond", SKY)).expect("is sound");
     let whole = taken(&scene, 48);
-    let cut = taken(&Scene { cut_out: true, ..scene }, 48);
+    scene.cut_out = true;
+    let cut = taken(&scene, 48);
     let (mut clear, mut partly, mut opaque) = (0, 0, 0);
     let again = image_io::over_background(&cut, Vec3::splat(SKY));
     for ((a, b), c) in whole.pixels.iter().zip(&again).zip(&cut.pixels) {
@@ -50,8 +50,9 @@ fn a_stone_before_its_own_background_is_the_picture() {
 #[test]
 fn an_edge_has_the_colour_of_what_it_is_the_edge_of() {
     const SKY: f32 = 0.4;
-    let scene = built(&before_a_sky("cube", "diamond", SKY)).expect("is sound");
-    let film = taken(&Scene { cut_out: true, ..scene }, 48);
+    let mut scene = built(&before_a_sky("cube", "diamond", SKY)).expect("is sound");
+    scene.cut_out = true;
+    let film = taken(&scene, 48);
     let mut edges = 0;
     for (pixel, straight) in film.pixels.iter().zip(image_io::cut_out(&film)) {
         if pixel.alpha == 0.0 {

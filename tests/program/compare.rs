@@ -4,7 +4,7 @@ use crate::bench;
 use crate::bench::Bench;
 use crate::brilliants::{SEED, diamond, named, plan, subject};
 use cutlab::advanced::scoring::comparison::{SIGNIFICANT, compare};
-use cutlab::advanced::scoring::score::{ScoreRequest, score};
+use cutlab::advanced::scoring::score::score;
 
 /// The difference of two stones is that of long runs of each, and sharper than their errors.
 #[test]
@@ -12,11 +12,7 @@ fn differences_are_right_and_sharper_than_the_scores() {
     let subjects = ["reference", "57"].map(|n| subject(n, &named(n), diamond()));
     let plan = plan(&["wlr", "leakage"], 1 << 16);
     let compared = compare(&subjects, &plan, &|| ());
-    let long = ScoreRequest {
-        target: cutlab::advanced::scoring::score::Target::Samples(1 << 20),
-        seed: SEED + 9,
-        ..plan
-    };
+    let long = plan.samples(1 << 20).seed(SEED + 9);
     let [a, b] = [0, 1].map(|i| score(&subjects[i], &long).scores);
     for m in 0..2 {
         let (a, b) = (a[m].expect("applies"), b[m].expect("applies"));
@@ -39,7 +35,7 @@ fn equal_stones_rarely_differ() {
         let angle = 0.01 + 0.03 * f64::from(run);
         let turned = still.clone().turned(glam::DMat3::from_rotation_z(angle));
         let subjects = [subject("a", &still, diamond()), subject("b", &turned, diamond())];
-        let plan = ScoreRequest { seed: SEED + run as u64, ..plan(&["wlr", "leakage", "glare"], 1 << 13) };
+        let plan = plan(&["wlr", "leakage", "glare"], 1 << 13).seed(SEED + run as u64);
         let compared = compare(&subjects, &plan, &|| ());
         found += (0..3).filter(|m| compared.is_significant(0, *m) == Some(true)).count();
     }
@@ -276,8 +272,9 @@ fn the_library_compares_as_the_command_does() {
         cutlab::Error::from(request.run(progress).expect_err("no comparison")).kind()
     };
     assert_eq!(kind(&request, &Stop), cutlab::ErrorKind::Cancelled);
-    let alone = cutlab::ComparisonTable { stones: vec!["cube".into()], ..request.clone() };
+    let scores = request.scores.clone();
+    let alone = cutlab::ComparisonTable::new(["cube"], scores.clone());
     assert_eq!(kind(&alone, &()), cutlab::ErrorKind::Invalid);
-    let missing = cutlab::ComparisonTable { stones: vec!["nowhere/*.asc".into()], ..request };
+    let missing = cutlab::ComparisonTable::new(["nowhere/*.asc"], scores);
     assert_eq!(kind(&missing, &()), cutlab::ErrorKind::NotFound);
 }

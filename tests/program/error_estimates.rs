@@ -25,8 +25,8 @@ fn subject(cut: &str, material: Material, tilt: Option<Tilt>) -> ScoreInput {
 }
 
 fn plan(metrics: &[&str], effort: Target, seed: u64) -> ScoreRequest {
-    let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue")).collect();
-    ScoreRequest { metrics, target: effort, seed, ..ScoreRequest::default() }
+    let metrics = metrics.iter().map(|m| Metric::by_name(m).expect("in the catalogue"));
+    ScoreRequest::default().metrics(metrics).target(effort).seed(seed)
 }
 
 fn only(row: ScoreRow) -> Estimate {
@@ -36,9 +36,8 @@ fn only(row: ScoreRow) -> Estimate {
 
 /// How many of `runs` short runs lie beyond two errors of a long one.
 fn beyond(subject: &ScoreInput, polarised: bool, runs: u64) -> usize {
-    let of = |effort, seed| {
-        only(score(subject, &ScoreRequest { polarised, ..plan(&["dispersion_median"], effort, seed) }))
-    };
+    let of =
+        |effort, seed| only(score(subject, &plan(&["dispersion_median"], effort, seed).polarised(polarised)));
     let truth = of(Target::Samples(1 << 22), 1000);
     let misses = (1..=runs).filter(|seed| {
         let e = of(Target::Samples(1 << 14), *seed);
@@ -125,7 +124,7 @@ fn nothing_seen_is_never_certain() {
     for (cut, tilt) in [("octahedron", 20.0), ("cube", 0.0), ("tolkowsky", 0.0)] {
         let tilt = Some(Tilt { degrees: tilt, azimuth: 0.0 });
         let stone = subject(cut, material("diamond"), tilt);
-        let plan = ScoreRequest { observer: Some(0.0), ..plan(&names, Target::Samples(1 << 10), 1) };
+        let plan = plan(&names, Target::Samples(1 << 10), 1).observer(0.0);
         let row = score(&stone, &plan);
         for (metric, e) in plan.metrics.iter().zip(&row.scores) {
             let Some(e) = e else { continue };
@@ -142,8 +141,8 @@ fn scores_never_leave_their_range() {
         for degrees in [0.0, 20.0, 60.0] {
             let stone = subject(cut, material("diamond"), Some(Tilt { degrees, azimuth: 0.0 }));
             for observer in [None, Some(0.0), Some(90.0)] {
-                let plan =
-                    ScoreRequest { observer, target: Target::Samples(1 << 10), ..ScoreRequest::default() };
+                let mut plan = ScoreRequest::default().samples(1 << 10);
+                plan.observer = observer;
                 let row = score(&stone, &plan);
                 for (metric, e) in METRICS.iter().zip(&row.scores) {
                     let Some(Estimate { value, error }) = e else { continue };

@@ -10,7 +10,8 @@ use openh264::decoder::Decoder;
 use openh264::formats::YUVSource;
 
 const SIZE: (u32, u32) = (64, 48);
-const MADE: Provenance = Provenance { command: "cutlab render 'a b.asc'", rounds: None };
+const MADE: Provenance =
+    Provenance { command: "cutlab render 'a b.asc'", request: None, identity: None, rounds: None };
 
 /// A frame of soft colours that wander.
 fn frame(number: u32) -> Vec<u8> {

@@ -30,6 +30,19 @@ fn equal_pictures_are_equal_bytes_and_carry_their_command() {
     assert_eq!(read("deep.png")[24], 16, "bits a channel in the header");
 }
 
+/// The request tells whether a file is the command's own: other words for the same replace it, another seed does not.
+#[test]
+fn a_picture_is_known_by_its_request() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for file in ["a.png", "a.exr", "a.jpg"] {
+        cutlab(folder.path(), &format!("{SMALL} -o {file}")).expect("renders");
+        cutlab(folder.path(), &format!("{SMALL} --seed 1 -o {file}")).expect("the same request");
+        let error =
+            cutlab(folder.path(), &format!("{SMALL} --seed 2 -o {file}")).expect_err("another request");
+        assert!(error.contains("--force"), "{error}");
+    }
+}
+
 #[test]
 fn the_layers_of_an_exr_add_up_and_nothing_is_clamped() {
     let folder = tempfile::tempdir().expect("a temporary folder");

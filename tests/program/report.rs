@@ -9,7 +9,7 @@ use cutlab::advanced::materials::Material;
 use cutlab::advanced::metrics::METRICS;
 use cutlab::advanced::report::references::{References, STONES};
 use cutlab::advanced::report::viewer_images::{self, ViewerPicture};
-use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, StoneShape, Target, score};
+use cutlab::advanced::scoring::score::{ScoreInput, ScoreRequest, StoneShape, score};
 use cutlab::advanced::stone::Stone;
 
 /// Pixels across a picture of these tests.
@@ -59,8 +59,8 @@ fn pictures_have_the_means_that_are_scored() {
     let (ruby, glass) = (Material::by_name("ruby").expect("in the catalogue"), Material::from_index(1.5));
     let wide = named("reference").sized(8.0).expect("can be sized");
     let shallow = design(&[("pavilion-angle", 38.0)]);
-    let polarised = |metrics: &[&str]| ScoreRequest { polarised: true, ..plan(metrics, 1 << 16) };
-    let observed = |metrics: &[&str]| ScoreRequest { observer: Some(30.0), ..polarised(metrics) };
+    let polarised = |metrics: &[&str]| plan(metrics, 1 << 16).polarised(true);
+    let observed = |metrics: &[&str]| polarised(metrics).observer(30.0);
     let strongest =
         ["aset_green_strongest", "aset_red_strongest", "aset_blue_strongest", "aset_leak_strongest"];
     let bands = ["aset_green", "aset_red", "aset_blue", "aset_leak"];
@@ -156,7 +156,7 @@ fn the_pictures_are_the_same_on_any_number_of_threads() {
 #[test]
 fn the_reference_stones_have_the_scores_of_this_program() {
     let references = References::read().expect("can be read");
-    let plan = ScoreRequest { target: Target::Samples(1 << 14), seed: SEED + 1, ..ScoreRequest::default() };
+    let plan = ScoreRequest::default().samples(1 << 14).seed(SEED + 1);
     for (i, (_, _, stone)) in STONES.iter().enumerate() {
         let parameters = stone.split_once(':').map_or("", |(_, p)| p);
         let name = stone.split(':').next().expect("a name");
@@ -183,7 +183,7 @@ fn the_reference_stones_are_of_the_stones_own_material_and_light() {
     let glass = Material::from_index(1.54);
     let names = ["wlr", "leakage", "iso", "fire_streak", "absorbed"];
     let metrics = || names.iter().filter_map(|n| METRICS.iter().copied().find(|m| m.name == *n));
-    let scalar = ScoreRequest { polarised: false, ..ScoreRequest::default() };
+    let scalar = ScoreRequest::default().polarised(false);
     let in_diamond = References::read().expect("can be read");
     for (material, width) in [(quartz, 8.0), (ruby, 5.0), (&glass, 6.5), (&diamond(), 6.5)] {
         let references = References::within(material, width, &scalar).expect("can be scored");

@@ -223,7 +223,7 @@ const GRID: [&str; 6] =
 fn drawing(bench: &Bench, file: &str) -> String {
     let svg = text(&bench.read(file));
     roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{file}: {e}"));
-    svg.split("<?cutlab-command").next().expect("a drawing").to_owned()
+    svg.split("<?cutlab-record").next().expect("a drawing").to_owned()
 }
 
 #[test]

@@ -7,7 +7,7 @@ use cutlab::advanced::optics::dispersion::{VISIBLE_NM, lines};
 use cutlab::advanced::optics::fresnel::unpolarised;
 use cutlab::advanced::parse::data_file::DataFileError;
 use cutlab::advanced::scene::{SceneFile, SceneOverrides};
-use cutlab::{ReportRequest, StoneOptions};
+use cutlab::{ReportRequest, Stone, StoneOptions};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -243,6 +243,23 @@ fn write(bench: &Bench, name: &str, text: impl AsRef<[u8]>) {
     fs::write(path, text).expect("writes");
 }
 
+/// A file of more bytes than are read of one is read within raised limits, by whichever way it is named.
+#[test]
+fn raised_limits_reach_the_materials_of_stones() {
+    let bench = Bench::new();
+    let comments = "# no two labs agree\n".repeat(1 << 18);
+    write(&bench, "long.toml", format!("{comments}name = \"long\"\n[index]\nn-d = 1.7\n"));
+    let file = bench.path("long.toml").display().to_string();
+    let stone = format!("cube:material={file}");
+    let open = |stone: &str, options: StoneOptions| Stone::open(stone, &options);
+    let error = open(&stone, StoneOptions::default()).expect_err("too long").to_string();
+    assert!(error.contains("CUTLAB_LIMIT"), "{error}");
+    let raised = || StoneOptions::default().limits(Limits::raised(2).expect("a factor"));
+    for opened in [open(&stone, raised()), open("cube", raised().material(file))] {
+        assert_eq!(opened.expect("is read").material().name, "long");
+    }
+}
+
 fn source(name: &str) -> &'static str {
     MATERIAL_FILES.iter().find(|(n, _)| *n == name).expect("in the catalogue").1
 }
@@ -340,9 +357,11 @@ fn a_report_belongs_to_what_its_files_hold() {
     let of = |own: bool| {
         let named = |path: &Path| path.to_str().expect("UTF-8").to_owned();
         let beside = format!("{}:material={}", named(&stone), named(&material));
-        let options = StoneOptions { material: own.then(|| named(&material)), ..StoneOptions::default() };
-        let stones = vec![if own { named(&stone) } else { beside }];
-        let request = ReportRequest { stones, options, ..ReportRequest::default() };
+        let request = match own {
+            true => ReportRequest::new([named(&stone)])
+                .options(StoneOptions::default().material(named(&material))),
+            false => ReportRequest::new([beside]),
+        };
         request.identity(&request.stones)
     };
     let both = || [of(true), of(false)];

@@ -28,7 +28,7 @@ pub fn main() -> Result<(), Error> {
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
     let file = folder.join("my-glass.toml");
     std::fs::write(&file, MATERIAL).expect("can be written");
-    let options = StoneOptions { material: Some(file.display().to_string()), ..StoneOptions::default() };
+    let options = StoneOptions::default().material(file.display().to_string());
     let stone = Stone::open("emerald", &options)?;
     println!("{}: n {:.4} at the D line", stone.material().name, stone.material().index_d());
     let scores = ScoreRequest::new(["light_return", "absorbed"]).samples(1 << 11).run(&stone)?;

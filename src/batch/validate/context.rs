@@ -1,4 +1,4 @@
-//! Context of the checks: seed, corpus, scores as the reference figures have them.
+//! Context of the checks: seed, corpus, limits, scores as the reference figures have them.
 
 use crate::design::CutError;
 use crate::design::Design;
@@ -7,6 +7,7 @@ use crate::design::library;
 use crate::estimators::EstimatorError;
 use crate::formats::FormatError;
 use crate::geometry::SolidError;
+use crate::limits::Limits;
 use crate::materials::Material;
 use crate::metrics::Metric;
 use crate::sampling::stats::Estimate;
@@ -15,13 +16,15 @@ use crate::storage::text;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Seed and files.
+/// Seed and files, and the limits within which these are read.
 #[derive(Debug, Clone)]
 pub struct CheckContext {
     /// Seed of the random streams.
     pub seed: u64,
     /// Folder of real files, if there is one.
     pub corpus: Option<PathBuf>,
+    /// Limits on what is read of them.
+    pub limits: Limits,
 }
 
 /// A check that gives no numbers.

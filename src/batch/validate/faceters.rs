@@ -49,7 +49,8 @@ fn grid(rows: Vec<&'static ReferenceFigure>) -> Check {
         let Some(ReferenceFigure { of: file, at: Some(index), .. }) = rows.first() else {
             return Err(CheckError::Unknown("a file with its index".into()));
         };
-        let design = formats::read(&lab.file(&format!("pairs/{file}"))?)?.design;
+        let design =
+            formats::read_content(&lab.file(&format!("pairs/{file}"))?, lab.limits)?.into_design()?.design;
         let metrics: Vec<&str> = rows.iter().map(|f| f.quantity.as_str()).collect();
         Ok(Measured::new(lab.scores(&design, &Material::from_index(*index), &metrics, 1 << 17)?))
     })

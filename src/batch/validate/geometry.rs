@@ -173,7 +173,7 @@ fn corpus() -> Check {
             .filter_map(|row| Some((row.get(file)?.to_string(), row.get(volume)?.parse().ok()?)))
             .collect();
         let volume = |name: &str| {
-            let read = formats::read(&folder.join(name)).ok()?;
+            let read = formats::read_content(&folder.join(name), lab.limits).ok()?.into_design().ok()?;
             Some(read.design.solid().ok()?.volume())
         };
         let volumes = parallel::map(known.len(), |i| (volume(&known[i].0), known[i].1));

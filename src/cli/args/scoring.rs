@@ -3,7 +3,7 @@
 use super::stone::{self, StoneArgs};
 use super::values;
 use crate::design::USUAL_WIDTH_MM;
-use crate::metrics::{METRICS, Metric};
+use crate::metrics::Metric;
 use crate::optics::dispersion::{VISIBLE_NM, lines};
 use crate::parse;
 use crate::parse::{NumberError, NumberUnit};
@@ -102,11 +102,7 @@ const HIGH_INDEX: f64 = 4.0;
 
 /// Value parser of `--metrics`.
 pub fn metric(name: &str) -> Result<&'static Metric, String> {
-    Metric::by_name(name).ok_or_else(|| {
-        let near = parse::nearest_name(name, METRICS.iter().map(|m| m.name));
-        let name = name.trim();
-        format!("no metric is called '{name}'{} (all: cutlab list metrics)", parse::did_you_mean(near))
-    })
+    Metric::named(name).map_err(|e| e.to_string())
 }
 
 /// Tables have nine decimals.

@@ -9,7 +9,7 @@ use crate::cli::console::Console;
 use crate::cli::error::CliError;
 use crate::cli::outputs::Outputs;
 use crate::cli::table_files;
-use crate::render::record;
+use crate::render::{Record, record};
 use crate::report::{ReportInput, comparison_page};
 use crate::stone::StoneError;
 use crate::storage::atomic_write;
@@ -59,16 +59,16 @@ impl ComparisonFormat {
 
     /// Takes the place of the file.
     ///
-    /// - `request`: what the table is of; `command`: recorded in pages
+    /// - `request`: what the table is of; `record`: of it, which pages have
     pub fn claim(
         &self,
         request: &TableRequest,
-        command: &str,
+        record: &Record,
         outputs: &mut Outputs,
     ) -> Result<(), CliError> {
         match self {
             ComparisonFormat::Page(path) | ComparisonFormat::Markdown(path) => {
-                outputs.claim(path, |there| record::is_of(there, command))
+                outputs.claim(path, |there| record.matches(there))
             }
             ComparisonFormat::Table(path, _) => {
                 table_files::claim(path, &|meta| meta.is_of(request), None, false, outputs)
@@ -80,18 +80,18 @@ impl ComparisonFormat {
     pub fn write(
         &self,
         compared: &StoneComparison,
-        command: &str,
+        record: &Record,
         console: &Console,
     ) -> Result<(), CliError> {
         let path = self.path();
         match self {
             ComparisonFormat::Page(_) => {
                 let page = page(compared, console)?;
-                atomic_write::write(path, record::recorded(page, command).as_bytes())?;
+                atomic_write::write(path, record.in_markup(page).as_bytes())?;
             }
             ComparisonFormat::Markdown(_) => {
                 let text = ComparisonText(compared).markdown();
-                atomic_write::write(path, record::recorded(text, command).as_bytes())?;
+                atomic_write::write(path, record.in_markup(text).as_bytes())?;
             }
             ComparisonFormat::Table(_, form) => {
                 let notes = ComparisonText(compared).weight_notes();

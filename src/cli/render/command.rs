@@ -1,5 +1,8 @@
-//! The command that a picture carries: what decides its bytes, and nothing else.
+//! The command and the request that a picture carries: what decides its bytes, and nothing else.
 
+use crate::cli::limits::limits;
+use crate::render::RenderRequest;
+use crate::stone::StoneSpec;
 use std::path::Path;
 
 /// Options, with a value, that do not change a picture.
@@ -27,19 +30,37 @@ fn normalise(args: impl Iterator<Item = String>) -> String {
         if with_value || SILENT_FLAGS.contains(&arg.as_str()) {
             continue;
         }
-        let bare = if arg.contains('/') && !arg.starts_with('-') {
-            Path::new(&arg).file_name().map_or(arg.clone(), |n| n.to_string_lossy().into_owned())
-        } else {
-            arg
-        };
+        let bare = if arg.starts_with('-') { arg } else { bare(&arg) };
         said.push(if bare.contains(' ') { format!("'{bare}'") } else { bare });
     }
     said.join(" ")
 }
 
+/// The request with bare file names, as the command has them: a picture is the same wherever its files lie.
+pub fn without_folders(request: &RenderRequest) -> RenderRequest {
+    let mut request = request.clone();
+    request.stones = request.stones.iter().map(|stone| bare(stone)).collect();
+    request.scene = bare(&request.scene);
+    request.options.material = request.options.material.map(|material| bare(&material));
+    request.panorama = request.panorama.and_then(|path| path.file_name().map(Into::into));
+    request.allow_outside = false;
+    request
+}
+
+/// A path or a STONE without its folder; what a stone is made of stays.
+fn bare(argument: &str) -> String {
+    if !argument.contains('/') {
+        return argument.into();
+    }
+    let Ok(spec) = StoneSpec::parse_within(argument, limits()) else { return argument.into() };
+    let name = Path::new(spec.base()).file_name().unwrap_or(spec.base());
+    spec.applied_to(name.into()).to_string_lossy().into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::Record;
 
     #[test]
     fn names_of_outputs_and_folders_are_left_out() {
@@ -53,5 +74,16 @@ mod tests {
         ] {
             assert_eq!(said(line), plain);
         }
+    }
+
+    #[test]
+    fn requests_are_the_same_wherever_files_lie() {
+        let of = |stone: &str, scene: &str| {
+            let mut request = RenderRequest::default().stones([stone]).panorama(format!("{stone}.exr"));
+            request.scene = scene.into();
+            Record::of_request("", &without_folders(&request))
+        };
+        assert_eq!(of("/home/me/a.asc", "x/b.toml"), of("a.asc", "b.toml"));
+        assert_ne!(of("/home/me/a.asc", "x/b.toml"), of("a.asc", "c.toml"));
     }
 }

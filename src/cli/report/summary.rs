@@ -2,7 +2,6 @@
 
 use crate::cli::args::stone;
 use crate::cli::terminal_table;
-use crate::report::estimates::estimate_text;
 use crate::report::page::Section;
 use crate::report::stone_report::StoneReport;
 use crate::sampling::stats::Estimate;
@@ -49,7 +48,7 @@ pub fn text(bundle: &StoneReport, folder: &Path) -> String {
         lines.push((section.head.into(), String::new()));
         for score in section.scores.iter().take(section.large) {
             let unit = if score.unit.is_empty() { String::new() } else { format!(" {}", score.unit) };
-            let value = match score.value.map(estimate_text) {
+            let value = match score.value.map(Estimate::text) {
                 Some((value, Some(error))) => format!("{value}{unit} ± {error}"),
                 Some((value, None)) => format!("{value}{unit}"),
                 None => terminal_table::NONE.into(),

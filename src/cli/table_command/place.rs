@@ -14,6 +14,7 @@ use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::cli::plot_output::Plots;
 use crate::cli::table_files;
+use crate::render::Record;
 use std::path::PathBuf;
 
 /// A table to be made.
@@ -29,6 +30,11 @@ pub struct TableCommand<'a> {
 }
 
 impl TableCommand<'_> {
+    /// What plots of the table say of where they come from.
+    pub fn record(&self) -> Record {
+        Record::of_request(self.request.command(), self.request)
+    }
+
     /// Draws the plots, if there are any; their files.
     ///
     /// - `bytes`: of the whole table
@@ -39,9 +45,7 @@ impl TableCommand<'_> {
         form: TableFormat,
     ) -> Result<Vec<PathBuf>, CliError> {
         match self.rows.layout() {
-            Some(layout) if !plots.is_empty() => {
-                plots.draw(&bytes()?, form, &layout, &self.request.command())
-            }
+            Some(layout) if !plots.is_empty() => plots.draw(&bytes()?, form, &layout, &self.record()),
             _ => Ok(Vec::new()),
         }
     }

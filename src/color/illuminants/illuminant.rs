@@ -6,7 +6,18 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A light source's spectrum.
+///
+/// ```
+/// use cutlab::Illuminant;
+///
+/// let [x, y] = Illuminant::daylight().chromaticity();
+/// assert!((x - 0.3127).abs() < 1e-3 && (y - 0.3290).abs() < 1e-3); // D65 of CIE 15
+///
+/// let lamp = Illuminant::by_name("a").unwrap();
+/// assert!(lamp.power(650.0) > 2.0 * lamp.power(450.0)); // an incandescent lamp is red
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Illuminant {
     /// Its name.
     pub name: Cow<'static, str>,
@@ -33,6 +44,11 @@ pub enum SpectralPower {
 }
 
 impl Illuminant {
+    /// Of a name and a spectrum, with nothing told of it yet.
+    pub fn new(name: impl Into<Cow<'static, str>>, spectrum: SpectralPower) -> Illuminant {
+        Illuminant { name: name.into(), about: "".into(), source: "".into(), spectrum }
+    }
+
     /// Relative power per nm at `nm`, within 380–730.
     pub fn power(&self, nm: f32) -> f32 {
         match &self.spectrum {

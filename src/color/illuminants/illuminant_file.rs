@@ -9,9 +9,8 @@ use super::{Illuminant, SpectralPower};
 #[cfg(feature = "files")]
 use crate::limits::Limits;
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
-use crate::parse::spectral_table::{
-    SpectrumEntry, SpectrumLayout, SpectrumRow, WavelengthUnit, from_pairs, from_text,
-};
+use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, SpectrumRow, WavelengthUnit};
+use crate::parse::table_entry::{TableReader, at, read_visible_rows};
 #[cfg(feature = "files")]
 use crate::storage::include;
 use serde::Deserialize;
@@ -31,9 +30,6 @@ const POWERS: RangeInclusive<f64> = 0.0..=1e12;
 
 /// The greatest value of a table is at least this.
 const LEAST_POWER: f64 = 1e-12;
-
-/// A table covers at least this, nm: beyond it the eye sees a thousandth of all light.
-const COVERED_NM: (f64, f64) = (400.0, 700.0);
 
 /// An illuminant file as written.
 #[derive(Debug, Deserialize)]
@@ -63,11 +59,7 @@ impl Illuminant {
     /// The illuminant that a TOML text describes.
     ///
     /// - `file`: how messages name the text; `tables`: reads the table that it names, or says why it cannot
-    pub fn parse(
-        file: &str,
-        text: &str,
-        tables: &dyn Fn(&str) -> Result<String, String>,
-    ) -> Result<Illuminant, DataFileError> {
+    pub fn parse(file: &str, text: &str, tables: TableReader) -> Result<Illuminant, DataFileError> {
         let file = DataFile { name: file, text };
         let IlluminantFile { name, about, source, power } = file.document()?;
         if name.trim().is_empty() || name.chars().any(char::is_control) {
@@ -102,10 +94,7 @@ impl Illuminant {
 }
 
 impl PowerEntry {
-    fn spectrum(
-        &self,
-        tables: &dyn Fn(&str) -> Result<String, String>,
-    ) -> Result<SpectralPower, ValueProblem> {
+    fn spectrum(&self, tables: TableReader) -> Result<SpectralPower, ValueProblem> {
         for (key, lonely, company) in [
             ("c2-nm-k", self.c2_nm_k.is_some() && self.black_body_k.is_none(), "black-body-k"),
             ("wavelength", self.wavelength.is_some() && self.table.is_none(), "a table"),
@@ -135,38 +124,17 @@ impl PowerEntry {
         }
     }
 
-    fn table(
-        &self,
-        table: &SpectrumEntry,
-        tables: &dyn Fn(&str) -> Result<String, String>,
-    ) -> Result<SpectralPower, ValueProblem> {
+    fn table(&self, table: &SpectrumEntry, tables: TableReader) -> Result<SpectralPower, ValueProblem> {
         let layout =
             SpectrumLayout { wavelength: self.wavelength.unwrap_or_default(), columns: self.columns };
-        let wrong = |expected: &str, found: String| ValueProblem::new("table", expected, found);
-        let (rows, place) = match table {
-            SpectrumEntry::Rows(pairs) => (from_pairs(pairs, layout.wavelength), "row".to_owned()),
-            SpectrumEntry::File(name) => {
-                let text = tables(name);
-                let text = text.map_err(|why| {
-                    wrong("a table beside the file", format!("'{}': {why}", name.escape_debug()))
-                })?;
-                (from_text(&text, layout), format!("{}, line", name.escape_debug()))
-            }
-        };
-        let at = |line: usize, found: String| format!("{found} in {place} {line}");
-        let rows = rows.map_err(|e| wrong(&e.expected, at(e.line, e.found)))?;
+        let rows = read_visible_rows(table, layout, tables)?;
         if let Some(row) = rows.iter().find(|row| !POWERS.contains(&row.value)) {
             let expected = format!("powers from 0 to {:e}", POWERS.end());
-            return Err(wrong(&expected, at(row.line, row.value.to_string())));
-        }
-        let (first, last) = (rows[0].nm, rows[rows.len() - 1].nm);
-        if first > COVERED_NM.0 || last < COVERED_NM.1 {
-            let expected = format!("a table from {} to {} nm or more", COVERED_NM.0, COVERED_NM.1);
-            return Err(wrong(&expected, format!("{first} to {last} nm")));
+            return Err(at(table, row.line, expected, row.value.to_string()));
         }
         let values = even(&rows);
         if f64::from(values.iter().fold(0f32, |most, value| most.max(*value))) < LEAST_POWER {
-            return Err(wrong("light from 380 to 730 nm", "none".into()));
+            return Err(ValueProblem::new("table", "light from 380 to 730 nm", "none"));
         }
         Ok(SpectralPower::Table(values.into()))
     }

@@ -137,11 +137,12 @@ fn damaged_frames_are_none_or_whole() {
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     let good = fs::read(folder.path().join("turn-000.png")).expect("was written");
     let read = png::Decoder::new(Cursor::new(&good)).read_info().expect("a PNG");
-    let text = read.info().utf8_text.iter().find(|t| t.keyword == "Command").expect("says its command");
-    let command = text.get_text().expect("is text");
-    let whole = |bytes: &[u8]| animation::finished_frame(bytes, &command, 12);
+    let text =
+        read.info().utf8_text.iter().find(|t| t.keyword == "Identity").expect("says what it is made from");
+    let identity = text.get_text().expect("is text");
+    let whole = |bytes: &[u8]| animation::finished_frame(bytes, &identity, 12);
     assert_eq!(whole(&good).map(|rgb| rgb.len()), Some(36));
-    assert_eq!(animation::finished_frame(&good, &command, 13), None);
+    assert_eq!(animation::finished_frame(&good, &identity, 13), None);
     for at in 0..good.len() {
         assert!(whole(&good[..at]).is_none_or(|rgb| rgb.len() == 36), "cut off at {at}");
         for value in [good[at] ^ 0x10, 0, 0xff] {

@@ -1,7 +1,10 @@
-//! Tables of material files: their rows, from the file itself or from one beside it.
+//! Tables in data files of materials and illuminants: their rows, from the file itself or from one beside it.
 
-use crate::parse::data_file::ValueProblem;
-use crate::parse::spectral_table::{SpectrumEntry, SpectrumLayout, SpectrumRow, from_pairs, from_text};
+use super::data_file::ValueProblem;
+use super::spectral_table::{SpectrumEntry, SpectrumLayout, SpectrumRow, from_pairs, from_text};
+
+/// A table of the visible covers at least this, nm: beyond it the eye sees a thousandth of all light.
+const COVERED_NM: (f64, f64) = (400.0, 700.0);
 
 /// Reads the text of the table that a data file names, or says why it cannot be read.
 pub type TableReader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -29,6 +32,21 @@ pub fn read_rows(
         }
     };
     rows.map_err(|e| at(table, e.line, e.expected, e.found))
+}
+
+/// As [`read_rows`], of a table that covers the visible.
+pub fn read_visible_rows(
+    table: &SpectrumEntry,
+    layout: SpectrumLayout,
+    tables: TableReader,
+) -> Result<Vec<SpectrumRow>, ValueProblem> {
+    let rows = read_rows(table, layout, tables)?;
+    let (first, last) = (rows[0].nm, rows[rows.len() - 1].nm);
+    if first > COVERED_NM.0 || last < COVERED_NM.1 {
+        let expected = format!("a table from {} to {} nm or more", COVERED_NM.0, COVERED_NM.1);
+        return Err(ValueProblem::new("table", expected, format!("{first} to {last} nm")));
+    }
+    Ok(rows)
 }
 
 /// What is wrong with a row of a table.
