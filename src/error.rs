@@ -10,7 +10,7 @@ use crate::batch::table::TableError;
 use crate::batch::table_job::TableJobError;
 use crate::design::CutError;
 #[cfg(feature = "files")]
-use crate::formats::FormatError;
+use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
 use crate::materials::NoSuchMaterial;
 #[cfg(feature = "render")]
@@ -144,6 +144,15 @@ impl Error {
 
 #[cfg(feature = "files")]
 impl Error {
+    /// What is known of the mesh, where a file was understood but holds no convex stone; none for every other failure.
+    pub fn mesh_facts(&self) -> Option<MeshFacts> {
+        match self {
+            Error::Format(error) => error.mesh_facts(),
+            Error::Stone(error) => error.mesh_facts(),
+            _ => None,
+        }
+    }
+
     /// The file that could not be written, if that is what went wrong.
     pub fn not_written(&self) -> Option<&WriteError> {
         match self {

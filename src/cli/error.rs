@@ -1,9 +1,10 @@
 //! Errors of commands, each of one line.
 
+mod convex;
+
 use super::exit_code::ExitStatus;
 use crate::error::Error;
 use crate::formats::MeshFacts;
-use crate::stone::StoneError;
 use crate::storage::atomic_write::WriteError;
 use crate::storage::terminal::one_line;
 use crate::storage::text::display_name;
@@ -27,19 +28,6 @@ impl CliError {
 
     fn new(code: ExitStatus, message: impl Into<String>) -> CliError {
         CliError { code, message: message.into(), mesh: None }
-    }
-
-    /// A stone that cannot be opened, or that is not convex where `what` needs one that is: proportions, a cutting
-    /// diagram and scenes are of convex stones alone.
-    pub fn needs_convex(what: &str, error: StoneError) -> CliError {
-        let is_mesh = matches!(error, StoneError::NotConvex(_));
-        let mut error = CliError::from(error);
-        if is_mesh {
-            error.message += &format!(
-                "; {what} needs one: cutlab show tells what it can of a mesh, cutlab score scores one with a dent"
-            );
-        }
-        error
     }
 
     /// A file that is there already and was not to be replaced.
@@ -97,17 +85,9 @@ impl<E: Into<Error>> From<E> for CliError {
                 CliError::output(cause)
             }
             _ => {
-                CliError { mesh: mesh_facts(&error), ..CliError::new(error.kind().into(), error.to_string()) }
+                CliError { mesh: error.mesh_facts(), ..CliError::new(error.kind().into(), error.to_string()) }
             }
         }
-    }
-}
-
-fn mesh_facts(error: &Error) -> Option<MeshFacts> {
-    match error {
-        Error::Format(error) => error.mesh_facts(),
-        Error::Stone(error) => error.mesh_facts(),
-        _ => None,
     }
 }
 

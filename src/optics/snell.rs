@@ -45,7 +45,7 @@ real!(f32 f64);
 
 /// Snell's law for light that meets a smooth facet.
 ///
-/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked below and in `tests/optics.rs`.
+/// Source: Born & Wolf, *Principles of Optics*, §1.5. Checked below and in `tests/library/optics.rs`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snell<T> {
     /// n_incident / n_transmitted.
