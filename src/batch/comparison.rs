@@ -13,6 +13,14 @@ use crate::storage::text::display_name;
 use std::ffi::OsString;
 
 /// Stones that could not be compared.
+///
+/// ```
+/// use cutlab::advanced::batch::comparison::ComparisonError;
+/// use cutlab::{ComparisonTable, ScoreRequest};
+///
+/// let alone = ComparisonTable::new(["cube"], ScoreRequest::new(["wlr"]));
+/// assert!(matches!(alone.run(&()), Err(ComparisonError::TooFew)));
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
@@ -44,6 +52,15 @@ pub struct ComparedStones {
 }
 
 /// The scores of stones beside each other, with the stones.
+///
+/// ```
+/// use cutlab::{ComparisonTable, ScoreRequest};
+///
+/// let compared = ComparisonTable::new(["tolkowsky", "octahedron"], ScoreRequest::new(["spread"])).run(&())?;
+/// assert_eq!(compared.stones[1].name(), "octahedron");
+/// assert!(compared.difference(1, 0).is_some() && compared.is_significant(1, 0));
+/// # Ok::<(), cutlab::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct StoneComparison {

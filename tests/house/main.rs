@@ -3,3 +3,4 @@
 mod circles;
 mod features;
 mod layers;
+mod root_names;

@@ -12,6 +12,8 @@ use cutlab::advanced::scoring::settings::ScoreRequest;
 use cutlab::advanced::stone::{Orientation, StoneOptions, UpAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
 
 fn metric(name: &str) -> &'static Metric {
     Metric::by_name(name).expect("is in the catalogue")
@@ -146,4 +148,40 @@ fn the_command_line_spells_out_every_setting() {
         format!("cutlab sweep round-brilliant --vary crown-angle=30:38:0.5 --scatter 20 {settings}")
     );
     assert_eq!(compare, format!("cutlab compare tolkowsky 'a b.asc' {settings}"));
+}
+
+/// A report belongs to what the files of its stone and of its material hold, whichever of both names the material.
+#[test]
+fn a_report_belongs_to_what_its_files_hold() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [stone, material] = ["a.toml", "m.toml"].map(|name| folder.path().join(name));
+    let named = |path: &Path| path.to_str().expect("UTF-8").to_owned();
+    let write_material = |n: f64| {
+        fs::write(&material, format!("name = \"m\"\n[index]\nn-d = {n}\n")).expect("writes");
+    };
+    let write_stone = |cut: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut);
+        fs::copy(file, &stone).expect("copies");
+    };
+    let of_all = |stone: String, material: Option<String>| {
+        let plain = StoneOptions::default();
+        let options = material.map_or(plain.clone(), |material| plain.material(material));
+        let request = ReportRequest::new([stone]).options(options);
+        request.identity(&request.stones)
+    };
+    let both = || {
+        let own = format!("{}:material={}", named(&stone), named(&material));
+        [of_all(named(&stone), Some(named(&material))), of_all(own, None)]
+    };
+    write_material(1.6);
+    write_stone("emerald.toml");
+    let first = both();
+    assert_eq!(both(), first);
+    write_material(1.7);
+    let second = both();
+    write_stone("eppler.toml");
+    let third = both();
+    for (before, after) in first.iter().zip(&second).chain(second.iter().zip(&third)) {
+        assert_ne!(before, after);
+    }
 }

@@ -7,7 +7,7 @@ use cutlab::advanced::optics::dispersion::{VISIBLE_NM, lines};
 use cutlab::advanced::optics::fresnel::unpolarised;
 use cutlab::advanced::parse::data_file::DataFileError;
 use cutlab::advanced::scene::{SceneFile, SceneOverrides};
-use cutlab::{ReportRequest, Stone, StoneOptions};
+use cutlab::{Stone, StoneOptions};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -343,36 +343,6 @@ fn a_table_of_another_material_is_not_continued() {
         assert!(merged(2).contains("different tables"));
         write(&bench, "m.toml", toml("3"));
         write(&bench, "n.csv", "380,1.61\n730,1.6\n");
-    }
-}
-
-/// A report belongs to what the files of its stone and of its material hold.
-#[test]
-fn a_report_belongs_to_what_its_files_hold() {
-    let bench = Bench::new();
-    let [stone, material] = ["a.asc", "m.toml"].map(|name| bench.path(name));
-    let write_material = |n: f64| write(&bench, "m.toml", format!("name = \"m\"\n[index]\nn-d = {n}\n"));
-    write_material(1.6);
-    bench.good(&["generate", "-q", "--crown-angle", "34", "-o", "a.asc"]);
-    let of = |own: bool| {
-        let named = |path: &Path| path.to_str().expect("UTF-8").to_owned();
-        let beside = format!("{}:material={}", named(&stone), named(&material));
-        let request = match own {
-            true => ReportRequest::new([named(&stone)])
-                .options(StoneOptions::default().material(named(&material))),
-            false => ReportRequest::new([beside]),
-        };
-        request.identity(&request.stones)
-    };
-    let both = || [of(true), of(false)];
-    let first = both();
-    assert_eq!(both(), first);
-    write_material(1.7);
-    let second = both();
-    bench.good(&["generate", "-q", "--force", "--crown-angle", "36", "-o", "a.asc"]);
-    let third = both();
-    for (before, after) in first.iter().zip(&second).chain(second.iter().zip(&third)) {
-        assert_ne!(before, after);
     }
 }
 
