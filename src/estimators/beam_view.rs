@@ -124,8 +124,7 @@ impl<L: BeamLight> BeamLight for StrongestPath<L> {
         if at.is_exit {
             let pavilion = if entry_sampling::is_pavilion(at.normal) { 1.0 } else { 0.0 };
             let windowed = first_below(&mut stays.been_below, pavilion);
-            let exit = StrongestExit { power: out.power(), towards: at.transmitted, windowed };
-            stays.strongest = self.strongest.or_stronger(exit);
+            stays.strongest = self.strongest.or_stronger(out.power(), || (at.transmitted, windowed));
         }
         (StrongestPath { light: out, ..*self }, stays)
     }

@@ -18,9 +18,16 @@ pub struct StrongestExit<T, D> {
 
 impl<T: Copy + PartialOrd, D: Copy> StrongestExit<T, D> {
     /// The stronger of the strongest exit so far and the next one.
+    ///
+    /// - `power`: of the next one; `exit`: gives its `towards` and `windowed`, called if it is the stronger
     #[inline(always)]
-    pub(super) fn or_stronger(self, exit: StrongestExit<T, D>) -> StrongestExit<T, D> {
-        if exit.power > self.power { exit } else { self }
+    pub(super) fn or_stronger(self, power: T, exit: impl FnOnce() -> (D, T)) -> StrongestExit<T, D> {
+        if power > self.power {
+            let (towards, windowed) = exit();
+            StrongestExit { power, towards, windowed }
+        } else {
+            self
+        }
     }
 }
 
@@ -64,11 +71,12 @@ impl<const K: usize> StrongestPaths<K> {
         for ray in (0..LANES).step_by(K) {
             let powers = &m.power[ray..ray + K];
             let power = powers.iter().sum::<f32>();
-            let most = ray + (1..K).fold(0, |most, k| if powers[k] > powers[most] { k } else { most });
             let so_far =
                 StrongestExit { power: self.power[ray], towards: self.up[ray], windowed: self.windowed[ray] };
-            let exit = StrongestExit { power, towards: up[most], windowed: first[most] };
-            let StrongestExit { power, towards, windowed } = so_far.or_stronger(exit);
+            let StrongestExit { power, towards, windowed } = so_far.or_stronger(power, || {
+                let most = (1..K).fold(0, |most, k| if powers[k] > powers[most] { k } else { most });
+                (up[ray + most], first[ray + most])
+            });
             (self.power[ray], self.up[ray], self.windowed[ray]) = (power, towards, windowed);
         }
     }
@@ -97,7 +105,7 @@ mod tests {
         lanes.begin(4);
         for i in 0..3 {
             let windowed = first_below(&mut been_below, pavilion[i]);
-            best = best.or_stronger(StrongestExit { power: powers[i], towards: ups[i], windowed });
+            best = best.or_stronger(powers[i], || (ups[i], windowed));
             let mut m = Interaction::default();
             // the second wavelength is the stronger one
             (m.power[4], m.power[5]) = (0.0, powers[i] as f32);
