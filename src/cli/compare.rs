@@ -5,7 +5,7 @@ mod format;
 mod text;
 
 use super::args::scoring::ScoringArgs;
-use super::args::stone;
+use super::args::{stone, values};
 use super::console::Console;
 use super::error::CliError;
 use super::exit_code::ExitStatus;
@@ -16,6 +16,8 @@ use crate::batch::request::{ComparisonTable, TableRequest};
 use crate::batch::stone_files::expand_stones;
 use crate::cli::limits::limits;
 use crate::render::{Record, record};
+use crate::report::LEAST_WIDTH;
+use crate::scene::scene_file::MOST_PIXELS;
 use crate::storage::atomic_write;
 use format::ComparisonFormat;
 use std::ffi::OsString;
@@ -43,6 +45,9 @@ pub struct CompareArgs {
     /// the proportions: .csv, .jsonl, .json or .md; - is standard output, CSV or with --json JSON
     #[arg(long, short, value_name = "DIR|FILE")]
     output: Option<PathBuf>,
+    /// Pixels across the pictures on the table, of a page [640]
+    #[arg(long, value_name = "PIXELS", value_parser = values::whole_number(LEAST_WIDTH..=MOST_PIXELS, "a width is a whole number of pixels"))]
+    width: Option<u32>,
     #[command(flatten)]
     scoring: ScoringArgs,
 }
@@ -53,14 +58,14 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitStatus, CliError
     if stones.len() < 2 {
         return Err(ComparisonError::TooFew.into());
     }
-    let output = args.output.as_deref().map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
+    let output = ComparisonFormat::new(args.output.as_deref(), args.width, console)?;
     let table = ComparisonTable {
         stones: args.stones.iter().map(stone::display_name).collect(),
         options: args.scoring.options(),
         scores: args.scoring.plan(),
     };
     let request = TableRequest::Compare(table.clone());
-    let record = Record::of_request(record::own_command(), &request);
+    let record = Record::of_request(record::own_command(), &(&request, args.width));
     if let Some(output) = &output {
         output.claim(&request, &record, &mut Outputs::reading_stones(&stones, console))?;
     }

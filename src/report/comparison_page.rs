@@ -15,9 +15,6 @@ use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("comparison_page.css");
 
-/// Pixels across a picture through a scope.
-const SCOPE_SIDE: u32 = 400;
-
 /// Steps that [`html()`] reports, for each stone.
 pub const STEPS: usize = 3;
 
@@ -72,7 +69,7 @@ pub fn html(
             shape: Ok(solid.clone().into()),
             tilt: None,
         };
-        let seen = viewer_images::pictures(&subject, plan, SCOPE_SIDE)?;
+        let seen = viewer_images::pictures(&subject, plan, request.width * 5 / 8)?;
         step("picture");
         let picture = table_picture(request, &|_| ())?;
         let mut cells = vec![html! { figure { img src=(data_uri(&picture)) alt="on a grey table"; } }];

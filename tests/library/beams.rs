@@ -161,24 +161,24 @@ fn a_turned_stone_in_turned_light_is_the_same() {
     assert!((a.reflected - b.reflected).abs() < 1e-12 && (a.exited - b.exited).abs() < 2e-5);
 }
 
-/// Beams against the view estimator, whose lanes know nothing of polygons: all cuts of the library, nearly
-/// face-up or tilted, unpolarised or polarised in turn, so that each of the six cases has a sixth of the
-/// cuts. Nearly: in a stone of cubic symmetry light that comes straight down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
+/// Beams against the view estimator, whose lanes know nothing of polygons: every other cut of the library,
+/// nearly face-up or tilted, unpolarised or polarised in turn, so that each of the six cases has a sixth of them
+/// (all cuts: `horizon.rs`). Nearly: in a stone of cubic symmetry light that comes straight down leaves along the horizon and along facets, where up or down, and how much passes, is a matter
 /// of the last bits of f32 (a tenth of a degree off, the rhombic dodecahedron sends a tenth of its
 /// light out within 3e-5 of the horizon, four percent of that on the wrong side of it: up is off by
 /// 1 %; tests/library/trace/hard_cases.rs).
-/// Of some five hundred comparisons none may be off by more than five errors (of 64 batches, α = .003 for
-/// all together); of 50 views .8 are expected off by more than three.
+/// Of some two hundred comparisons none may be off by more than five errors (of 64 batches, α = .001 for
+/// all together); of 25 views .4 are expected off by more than three.
 /// Measured once over the first 39 cuts, unpolarised, six seeds a view: 6 of 4164 comparisons and 5 of
 /// 702 views were; root mean square 0.898 errors, kurtosis 3.23: no bias, no heavy tail.
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
-fn beams_agree_with_photons_for_every_cut_face_up_or_tilted() {
+fn beams_agree_with_photons_face_up_or_tilted() {
     let material = Material::by_name("diamond").expect("in the catalogue");
     let (mut compared, mut beyond_three) = (0, 0);
     let tilts = [1.0f64, 10.0, 25.0].into_iter().cycle();
     let polarised = [false, false, false, true, true, true].into_iter().cycle();
-    for ((name, tilt), polarised) in library::names().zip(tilts).zip(polarised) {
+    for ((name, tilt), polarised) in library::names().step_by(2).zip(tilts).zip(polarised) {
         let design = library::design(name, &BTreeMap::new()).expect("there").expect("good");
         // about an axis that no symmetry has
         let axis = DMat3::from_rotation_z(0.3) * DVec3::X;

@@ -1,4 +1,4 @@
-//! Honest errors: of 2,000 short runs, the true value lies within ±1.96 errors in 93 to 97 of 100,
+//! Honest errors: of 1,200 short runs, the true value lies within ±1.96 errors in 93 to 97 of 100,
 //! for every random metric; more often for shares of rays and medians, whose errors are the longer side of
 //! an interval.
 //!
@@ -14,12 +14,12 @@ use cutlab::advanced::scoring::score::{ScoreInput, Tilt, score};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-const RUNS: u64 = 2000;
+const RUNS: u64 = 1200;
 const SHORT: u64 = 1 << 11;
 const LONG: u64 = 1 << 21;
 
 #[test]
-#[ignore = "two thousand runs, half a minute in release"]
+#[ignore = "twelve hundred runs: .ci/run runs it"]
 fn errors_cover_the_truth_as_often_as_they_say() {
     let random = METRICS.iter().filter(|m| !matches!(m.read_from, MetricSource::Solid(_)));
     // a clear stone absorbs nothing at all

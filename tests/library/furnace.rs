@@ -125,7 +125,7 @@ fn fallen(scene: &Scene, counts: impl Fn(Vec3, Vec3) -> bool) -> f64 {
         for (corner, u, v, triangle) in patches {
             let area = u.cross(v).length() * if triangle { 0.5 } else { 1.0 };
             // one place in each cell of a grid: the lamp is near a wall, which has most of the light
-            const SIDE: usize = 40;
+            const SIDE: usize = 24;
             let n = SIDE * SIDE;
             for front in [true, false] {
                 let normal = u.cross(v).normalize() * if front { 1.0 } else { -1.0 };

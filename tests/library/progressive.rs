@@ -45,17 +45,17 @@ fn mean(film: &integrators::Film) -> Vec3 {
 #[test]
 fn rounds_converge_to_the_plain_picture() {
     let scene = table();
-    let many = photons::PhotonSettings { photons: 100_000, nearest: 200, seed: SEED };
+    let many = photons::PhotonSettings { photons: 50_000, nearest: 200, seed: SEED };
     let maps = PhotonMaps::new(&scene, PhotonSets::emit(&scene, &many), many.nearest);
-    let plain = integrators::render(&scene, &scene.camera, &maps, &settings(64), &|| ());
+    let plain = integrators::render(&scene, &scene.camera, &maps, &settings(32), &|| ());
     let few = photons::PhotonSettings { photons: 3_000, nearest: 60, seed: SEED };
     let mut picture = Progressive::new(&scene, &scene.camera, settings(1), few);
     let mut noise = Vec::new();
-    for _ in 0..64 {
+    for _ in 0..40 {
         picture.round(&|| ());
         noise.push(picture.noise());
     }
-    assert!(noise[0].is_infinite() && noise[63] < 0.5 * noise[7], "{noise:?}");
+    assert!(noise[0].is_infinite() && noise[39] < 0.6 * noise[7], "{noise:?}");
     let (a, b) = (mean(&plain), mean(picture.film()));
     assert!((a - b).abs().max_element() < 0.03 * a.max_element(), "{a} {b}");
 }

@@ -145,6 +145,7 @@ const SAMPLES: &[Sample] = &[
     ("render", "pose", &[&["lying"], &["table-up"], &["table-down"]]),
     ("render", "width", &[&["16"], &["24"]]),
     ("report", "width", &[&["64"], &["96"]]),
+    ("compare", "width", &[&["64"], &["96"]]),
     ("render", "height", &[&["18"]]),
     ("render", "spp", &[&["1"], &["2"]]),
     ("render", "photons", &[&["100"], &["200"]]),
@@ -194,7 +195,8 @@ pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
         return vec!["--rounds".into(), "1".into()];
     }
     let mut words = Vec::new();
-    if command == "report" && !has("--width") {
+    let is_page = command == "report" || (command == "compare" && has("out"));
+    if is_page && !has("--width") {
         words.extend(["--width".into(), "64".into()]);
     }
     let all = ["score", "sweep", "compare"].contains(&command) && !has("--metrics");

@@ -69,7 +69,7 @@ fn the_command_shows_scores_beside_each_other() {
 }
 
 #[test]
-#[ignore = "pictures of two stones take half a minute: .ci/run runs it"]
+#[ignore = "two stones, ten seconds: .ci/run runs it"]
 fn the_page_has_both_stones_and_needs_nothing_beside_it() {
     let bench = Bench::new();
     bench.good(&[
@@ -80,6 +80,8 @@ fn the_page_has_both_stones_and_needs_nothing_beside_it() {
         "wlr,leakage",
         "--error",
         "0.002",
+        "--width",
+        "160",
         "-o",
         "out",
     ]);

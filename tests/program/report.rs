@@ -183,7 +183,7 @@ fn the_reference_stones_are_of_the_stones_own_material_and_light() {
     let glass = Material::from_index(1.54);
     let names = ["wlr", "leakage", "iso", "fire_streak", "absorbed"];
     let metrics = || names.iter().filter_map(|n| METRICS.iter().copied().find(|m| m.name == *n));
-    let scalar = ScoreRequest::default().polarised(false);
+    let scalar = ScoreRequest::default().samples(1 << 15).polarised(false);
     let in_diamond = References::read().expect("can be read");
     for (material, width) in [(quartz, 8.0), (ruby, 5.0), (&glass, 6.5), (&diamond(), 6.5)] {
         let references = References::within(material, width, &scalar).expect("can be scored");
@@ -251,7 +251,7 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
     let quartz = ["princess", "--ri", "1.544", "--polarisation", "off"];
     other.good(&[&small[..], &quartz[..]].concat());
     // the table beside the page, and so the page, has the scores of the same light
-    let (scored, _) = other.ends(0, &[&["score", "--error", "0.01"], &quartz[..]].concat());
+    let (scored, _) = other.ends(0, &[&["score", "--size", "6.5", "--error", "0.01"], &quartz[..]].concat());
     assert_eq!(String::from_utf8(other.read("out/scores.csv")).expect("UTF-8"), scored);
     let page = String::from_utf8(other.read("out/index.html")).expect("UTF-8");
     assert!(page.contains("(table/crown/pavilion) in n=1.544."), "references of the stone's own index");

@@ -10,15 +10,15 @@ use crate::cli::error::CliError;
 use crate::cli::outputs::Outputs;
 use crate::cli::table_files;
 use crate::render::{Record, record};
-use crate::report::{ReportInput, comparison_page};
+use crate::report::{ReportInput, USUAL_WIDTH, comparison_page};
 use crate::stone::StoneError;
 use crate::storage::atomic_write;
 use std::path::{Path, PathBuf};
 
 /// What `-o` asks for, by its extension.
 pub enum ComparisonFormat {
-    /// A page in a folder.
-    Page(PathBuf),
+    /// A page in a folder, with pictures so many pixels across.
+    Page(PathBuf, u32),
     /// The table for people.
     Markdown(PathBuf),
     /// The table with a row for each metric and stone.
@@ -26,8 +26,27 @@ pub enum ComparisonFormat {
 }
 
 impl ComparisonFormat {
-    /// Of a path.
-    pub fn from_path(path: &Path, console: &Console) -> Result<ComparisonFormat, CliError> {
+    /// Of what was asked for; none if nothing is to be written.
+    ///
+    /// - `width`: pixels across the pictures of a page
+    pub fn new(
+        path: Option<&Path>,
+        width: Option<u32>,
+        console: &Console,
+    ) -> Result<Option<ComparisonFormat>, CliError> {
+        let format = path.map(|path| ComparisonFormat::from_path(path, console)).transpose()?;
+        match (format, width) {
+            (Some(ComparisonFormat::Page(path, _)), Some(width)) => {
+                Ok(Some(ComparisonFormat::Page(path, width)))
+            }
+            (_, Some(_)) => {
+                Err(CliError::input("--width is of the pictures of a page: -o FOLDER writes one"))
+            }
+            (format, None) => Ok(format),
+        }
+    }
+
+    fn from_path(path: &Path, console: &Console) -> Result<ComparisonFormat, CliError> {
         let path = path.to_owned();
         let is_markdown = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("md"));
         if atomic_write::is_stream(&path) && !is_markdown {
@@ -44,14 +63,14 @@ impl ComparisonFormat {
                 })?;
                 ComparisonFormat::Table(path, form)
             }
-            None => ComparisonFormat::Page(path.join("index.html")),
+            None => ComparisonFormat::Page(path.join("index.html"), USUAL_WIDTH),
         })
     }
 
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            ComparisonFormat::Page(path)
+            ComparisonFormat::Page(path, _)
             | ComparisonFormat::Markdown(path)
             | ComparisonFormat::Table(path, _) => path,
         }
@@ -67,7 +86,7 @@ impl ComparisonFormat {
         outputs: &mut Outputs,
     ) -> Result<(), CliError> {
         match self {
-            ComparisonFormat::Page(path) | ComparisonFormat::Markdown(path) => {
+            ComparisonFormat::Page(path, _) | ComparisonFormat::Markdown(path) => {
                 outputs.claim(path, |there| record.matches(there))
             }
             ComparisonFormat::Table(path, _) => {
@@ -85,8 +104,8 @@ impl ComparisonFormat {
     ) -> Result<(), CliError> {
         let path = self.path();
         match self {
-            ComparisonFormat::Page(_) => {
-                let page = page(compared, console)?;
+            ComparisonFormat::Page(_, width) => {
+                let page = page(compared, *width, console)?;
                 atomic_write::write(path, record.in_markup(page).as_bytes())?;
             }
             ComparisonFormat::Markdown(_) => {
@@ -107,11 +126,13 @@ impl ComparisonFormat {
 }
 
 /// The page with the stones beside each other.
-fn page(compared: &StoneComparison, console: &Console) -> Result<String, CliError> {
+///
+/// - `width`: pixels across the pictures on the table
+fn page(compared: &StoneComparison, width: u32, console: &Console) -> Result<String, CliError> {
     let scores = compared.scores();
     let input = |stone| {
         let plain = ReportInput::new(stone, record::command_line())?;
-        Ok(ReportInput { polarised: scores.polarised, seed: scores.seed, ..plain })
+        Ok(ReportInput { polarised: scores.polarised, seed: scores.seed, width, ..plain })
     };
     let inputs: Vec<ReportInput> = compared.stones.iter().map(input).collect::<Result<_, StoneError>>()?;
     let bar = console.steps(comparison_page::STEPS * inputs.len());

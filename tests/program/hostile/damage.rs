@@ -120,7 +120,7 @@ fn damaged_progress_is_never_taken_for_work_that_is_done() {
     try_progress(folder.path(), "whole", &good, &records);
     for at in 0..good.len() {
         try_progress(folder.path(), &format!("cut off at {at}"), &good[..at], &records);
-        for value in [good[at] ^ 0x10, good[at] ^ 1, 0, 0xff, b'9', b'\n'] {
+        for value in [good[at] ^ 0x10, 0, b'9', b'\n'] {
             let mut bytes = good.clone();
             bytes[at] = value;
             try_progress(folder.path(), &format!("byte {at} = {value:#04x}"), &bytes, &records);
