@@ -30,6 +30,9 @@ mod tables;
 
 use report::Report;
 use search::Search;
+use std::cmp::Reverse;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The commands to run: those that the environment names, or all.
 fn commands() -> Vec<clap::Command> {
@@ -40,16 +43,32 @@ fn commands() -> Vec<clap::Command> {
     command.get_subcommands().filter(|c| c.get_name() != "help" && is_asked(c.get_name())).cloned().collect()
 }
 
-/// Runs what `keep` leaves of each command's cases and fails with every kind of failure.
-fn run(keep: impl Fn(&str, usize) -> bool) {
+/// Runs what `keep` leaves of each command's cases and fails with every kind of failure. As many commands at a
+/// time as there are cores: what is refused together is learned of one by one.
+fn run(keep: impl Fn(&str, usize) -> bool + Sync) {
     let inputs = bench::Inputs::made();
-    let mut report = Report::default();
-    for command in commands() {
-        match factors::of(&command) {
+    let search = |command: &clap::Command| {
+        let mut report = Report::default();
+        match factors::of(command) {
             Ok(factors) => Search::new(command.get_name(), factors, &inputs).run(&keep, &mut report),
             Err(without) => report.failed(command.get_name(), "no sample values", &without),
         }
-    }
+        report
+    };
+    let (mut commands, next, all) = (commands(), AtomicUsize::new(0), Mutex::new(Report::default()));
+    // those of many options first: they take longest
+    commands.sort_by_key(|command| Reverse(command.get_arguments().count()));
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(2, usize::from) {
+            scope.spawn(|| {
+                while let Some(command) = commands.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let report = search(command);
+                    all.lock().expect("no search fails").add(report);
+                }
+            });
+        }
+    });
+    let report = all.into_inner().expect("no search fails");
     eprintln!("{}", report.summary());
     assert!(report.kinds.is_empty(), "{}", report.text());
 }

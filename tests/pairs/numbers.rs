@@ -153,7 +153,7 @@ fn compared(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {
     if case.is_dear() && !case.has("json") {
         return Vec::new();
     }
-    let plain = case.without(&["output", "json"]);
+    let plain = case.without(&["output", "json", "width"]);
     let csv = match case.values("output").first() {
         Some(name) if name.ends_with(".csv") => {
             ran.files.get(Path::new(*name)).map_or_else(|| Err("no table".into()), |b| tables::rows(b, "csv"))

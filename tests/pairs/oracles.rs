@@ -35,6 +35,10 @@ pub fn fault(oracle: &'static str, found: impl Into<String>) -> Fault {
 /// A refusal takes milliseconds; this is for a busy machine.
 pub const AT_ONCE: Duration = Duration::from_secs(4);
 
+/// How long a command is waited for where it only matters whether it is refused: one that is, and is not by then,
+/// makes the choices that are learned as refused together more than they need be.
+pub const SOON: Duration = Duration::from_millis(800);
+
 /// Runs a case and what belongs to it, and judges it.
 ///
 /// - `number`: of the case; every third is run anew on two threads, the others again where they were; of dear

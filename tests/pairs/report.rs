@@ -76,6 +76,12 @@ impl Report {
         self.all.add(std::mem::take(&mut self.now));
     }
 
+    /// Takes what was found over other commands.
+    pub fn add(&mut self, other: Report) {
+        self.all.add(other.all);
+        self.kinds.extend(other.kinds);
+    }
+
     /// The figures of all commands in one line.
     pub fn summary(&self) -> String {
         self.all.line()

@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
     fn is_refused(&self, row: &[usize]) -> bool {
         let words = self.case(row).words();
         self.is_misspelt(row)
-            || Bench::new(self.inputs, &words).run_for(&words, 1, oracles::AT_ONCE).code == Some(2)
+            || Bench::new(self.inputs, &words).run_for(&words, 1, oracles::SOON).code == Some(2)
     }
 
     /// Runs the cases that are kept, by command and number.
@@ -153,9 +153,9 @@ impl<'a> Search<'a> {
     /// What becomes of each row, one on each core at a time.
     fn judged(&self, rows: &[Row]) -> Vec<Verdict> {
         let (next, done) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
-        let cores = std::thread::available_parallelism().map_or(2, usize::from);
+        let workers = std::thread::available_parallelism().map_or(2, usize::from);
         std::thread::scope(|scope| {
-            for _ in 0..cores {
+            for _ in 0..workers {
                 scope.spawn(|| {
                     loop {
                         let i = next.fetch_add(1, Ordering::Relaxed);
