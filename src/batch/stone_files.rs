@@ -38,7 +38,7 @@ pub fn expand_stones<S: AsRef<OsStr>>(
     let mut all = Vec::new();
     for stone in stones {
         let stone = stone.as_ref();
-        let spec = StoneSpec::parse(stone)?;
+        let spec = StoneSpec::parse_within(stone, limits)?;
         let name = spec.base();
         let mut found = Vec::new();
         if find_files::is_pattern(name) {

@@ -9,6 +9,7 @@
 use super::args::stone;
 use super::console::Console;
 use super::error::CliError;
+use crate::cli::limits::limits;
 use crate::stone::StoneSpec;
 use crate::storage::atomic_write;
 use crate::storage::bounded_read;
@@ -39,7 +40,7 @@ impl Outputs {
     ) -> Outputs {
         let mut outputs = Outputs::new(console);
         for stone in stones {
-            if let Some(file) = StoneSpec::parse(stone).ok().and_then(|spec| spec.file()) {
+            if let Some(file) = StoneSpec::parse_within(stone, limits()).ok().and_then(|spec| spec.file()) {
                 outputs.reads(&file);
             }
         }

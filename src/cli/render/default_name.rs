@@ -1,6 +1,7 @@
 //! The name of a picture that is given none.
 
 use super::options::RenderArgs;
+use crate::cli::limits::limits;
 use crate::scene::SceneFile;
 use crate::stone::{StoneSpec, grammar};
 use std::ffi::{OsStr, OsString};
@@ -24,7 +25,9 @@ pub fn default_name(args: &RenderArgs, file: &SceneFile) -> OsString {
 fn stone_name(spec: &OsStr) -> OsString {
     let text = spec.to_str().filter(|_| grammar::is_cut(spec));
     let parameters = text.and_then(|text| text.split_once(':')).map(|(_, rest)| rest.to_owned());
-    let of_file = || StoneSpec::parse(spec).map_or_else(|_| String::new(), |spec| spec.own().join(","));
+    let of_file = || {
+        StoneSpec::parse_within(spec, limits()).map_or_else(|_| String::new(), |spec| spec.own().join(","))
+    };
     let given = parameters.unwrap_or_else(of_file);
     let fit = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
     let told = given.split(',').map(|p| p.chars().filter(|c| fit(*c)).collect::<String>());
