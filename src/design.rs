@@ -1,11 +1,13 @@
 //! Designs: tiers of facets, parametric families, the library, proportions.
 
 pub mod design_file;
+pub mod edit;
 pub mod families;
 pub mod gia_envelopes;
 mod hull;
 pub mod library;
 pub mod measured_tiers;
+pub mod meet_network;
 pub mod meet_points;
 pub mod orientation;
 pub mod proportions;
@@ -15,4 +17,4 @@ pub mod symmetry;
 pub mod tiers;
 
 pub use families::CutError;
-pub use tiers::{Design, Facet, Gear, LengthUnit, Tier, USUAL_WIDTH_MM, Zone};
+pub use tiers::{Design, Facet, FamilyValues, Gear, LengthUnit, Tier, USUAL_WIDTH_MM, Zone};

@@ -9,6 +9,7 @@ use crate::batch::table::TableError;
 #[cfg(feature = "files")]
 use crate::batch::table_job::TableJobError;
 use crate::design::CutError;
+use crate::design::edit::{EditError, SettingError};
 #[cfg(feature = "files")]
 use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
@@ -83,6 +84,12 @@ pub enum Error {
     /// Of parameters that no cut has.
     #[error(transparent)]
     Cut(#[from] CutError),
+    /// Of a change of a design.
+    #[error(transparent)]
+    Edit(Box<EditError>),
+    /// Of a setting that is not understood.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// A material that there is not.
     #[error(transparent)]
     Material(#[from] NoSuchMaterial),
@@ -116,7 +123,14 @@ impl Error {
         match self {
             Error::Stone(error) => of_stone(error),
             Error::Score(ScoreError::NoSuchMetric { .. }) | Error::Material(_) => ErrorKind::NotFound,
-            Error::Score(_) | Error::Solid(_) | Error::Cut(_) => ErrorKind::Invalid,
+            Error::Edit(error)
+                if matches!(**error, EditError::NoSuchTier { .. } | EditError::NoSuchKey { .. }) =>
+            {
+                ErrorKind::NotFound
+            }
+            Error::Score(_) | Error::Solid(_) | Error::Cut(_) | Error::Edit(_) | Error::Setting(_) => {
+                ErrorKind::Invalid
+            }
             #[cfg(feature = "files")]
             Error::Format(error) => of_format(error),
             #[cfg(feature = "files")]
@@ -172,6 +186,12 @@ impl Error {
             },
             _ => None,
         }
+    }
+}
+
+impl From<EditError> for Error {
+    fn from(error: EditError) -> Error {
+        Error::Edit(Box::new(error))
     }
 }
 

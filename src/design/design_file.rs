@@ -214,6 +214,7 @@ impl DesignFile {
                 Some("mm") => LengthUnit::Millimetre,
                 Some(other) => return Err(DocumentError::Unit(other.into())),
             },
+            family: None,
             tiers: bench.tiers,
         };
         Ok(match length_to_width {

@@ -13,7 +13,7 @@ mod prism;
 pub mod round_brilliant;
 mod step_cut;
 
-use super::tiers::Design;
+use super::tiers::{Design, FamilyValues};
 use crate::parse;
 use crate::parse::NumberUnit;
 pub use facet_summary::facet_summary;
@@ -116,7 +116,9 @@ fn build_exactly(family: &'static Family, given: &BTreeMap<String, f64>) -> Resu
     }
     let values = family.parameters.iter().map(|p| p.checked(given.get(p.key).copied().unwrap_or(p.default)));
     let values = values.collect::<Result<_, _>>()?;
-    (family.build)(&ParameterValues { family, values })
+    let mut design = (family.build)(&ParameterValues { family, values })?;
+    design.family = Some(FamilyValues { name: family.name.into(), given: given.clone() });
+    Ok(design)
 }
 
 #[cfg(test)]

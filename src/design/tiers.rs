@@ -5,6 +5,7 @@
 
 use crate::geometry::{Plane, Polyhedron, SolidError};
 use glam::{DMat3, DVec3};
+use std::collections::BTreeMap;
 
 /// The unit of a design's distances.
 ///
@@ -67,6 +68,15 @@ pub struct Tier {
     pub facets: Vec<Facet>,
 }
 
+/// What a design of a family was built from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FamilyValues {
+    /// The family's name.
+    pub name: String,
+    /// Values that differ from its defaults, by parameter.
+    pub given: BTreeMap<String, f64>,
+}
+
 /// A gem design.
 ///
 /// ```
@@ -94,6 +104,8 @@ pub struct Design {
     pub refractive_index: Option<f64>,
     /// Unit of the distances.
     pub unit: LengthUnit,
+    /// The family that it was built by, with its values; none of a design of tiers, or that was changed since.
+    pub family: Option<FamilyValues>,
     /// The tiers, in cutting order.
     pub tiers: Vec<Tier>,
 }
@@ -222,6 +234,7 @@ impl Design {
             symmetry: None,
             refractive_index: None,
             unit: LengthUnit::Free,
+            family: None,
             tiers: Vec::new(),
         }
     }
@@ -272,6 +285,9 @@ impl Design {
     pub fn scaled_to_mm(self, k: f64) -> Design {
         let mut design = self.each_plane(|p| p.scaled(k));
         design.unit = LengthUnit::Millimetre;
+        if k != 1.0 {
+            design.family = None;
+        }
         design
     }
 
@@ -284,6 +300,7 @@ impl Design {
     /// The design turned by `rotation` about the origin; indices and angles no longer hold and go.
     pub fn turned(self, rotation: DMat3) -> Design {
         let mut design = self.each_plane(|p| p.turned(rotation));
+        design.family = None;
         for tier in &mut design.tiers {
             tier.angle_deg = None;
             tier.facets.iter_mut().for_each(|f| f.index = None);

@@ -12,6 +12,7 @@ mod daylight;
 mod depth_of_field;
 mod designs;
 mod dialects;
+mod edit;
 mod estimate;
 mod exact;
 mod examples;

@@ -1,6 +1,6 @@
 //! A parametric family: its parameters, their ranges, and why a cut cannot be made.
 
-use super::super::tiers::Design;
+use super::super::tiers::{Design, FamilyValues};
 use crate::parse::format_number;
 
 /// One parameter of a family.
@@ -132,6 +132,14 @@ impl Parameter {
             true => Ok(value),
             false => Err(CutError::OutOfRange { key: self.key, value, unit: self.unit, from, to }),
         }
+    }
+}
+
+impl FamilyValues {
+    /// The value of a parameter: as given, else its default; none if the family has no such parameter.
+    pub fn value(&self, key: &str) -> Option<f64> {
+        let default = || super::family(&self.name).ok()?.keys().find(|p| p.key == key).map(|p| p.default);
+        self.given.get(key).copied().or_else(default)
     }
 }
 

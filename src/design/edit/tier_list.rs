@@ -1,0 +1,169 @@
+//! The tiers of a design as they are named in settings.
+
+use super::error::EditError;
+use crate::design::meet_network::MeetNetwork;
+use crate::design::tiers::{Design, Zone};
+use crate::parse;
+
+/// A tier as it can be changed: facets that one angle is set for.
+#[derive(Debug, Clone)]
+pub struct EditableTier {
+    /// Its name in the file; empty if it has none.
+    pub name: String,
+    /// Its place in the cutting order of its part of the stone: `P1`, `C2`, `G1`; of a mesh, whose facets have no
+    /// order, the steepest first.
+    pub place: String,
+    /// Where its facets are.
+    pub zone: Zone,
+    /// Its parts in the network: several where its facets differ in distance.
+    pub parts: Vec<usize>,
+    /// Its facets, numbers in [`Design::facets`].
+    pub facets: Vec<usize>,
+}
+
+impl EditableTier {
+    /// What it is called: its name, else its place.
+    pub fn label(&self) -> &str {
+        if self.name.is_empty() { &self.place } else { &self.name }
+    }
+}
+
+/// The tiers of a design, in cutting order.
+#[derive(Debug, Clone)]
+pub struct TierList {
+    /// The tiers.
+    pub tiers: Vec<EditableTier>,
+}
+
+impl TierList {
+    /// The tiers of a design: its own; of a mesh, which has none, those of its network.
+    pub fn of_design(design: &Design, network: &MeetNetwork) -> TierList {
+        let mut tiers: Vec<EditableTier> = Vec::new();
+        let mut number = 0;
+        for tier in &design.tiers {
+            let first = tiers.len();
+            let labels = |i: usize| tier.facets.get(i).map_or("", |f| f.name.as_str());
+            let is_cut = tier.angle_deg.is_some();
+            for i in 0..tier.facets.len() {
+                let part = network.part_of(number);
+                let zone = network.parts[part].zone;
+                let polar = network.parts[part].polar;
+                let same = |t: &&mut EditableTier| {
+                    let of = &network.parts[t.parts[0]];
+                    t.zone == zone && (of.polar - polar).abs() < 2e-5 && (is_cut || t.parts.contains(&part))
+                };
+                match tiers[first..].iter_mut().find(same) {
+                    Some(known) => {
+                        known.facets.push(number);
+                        if !known.parts.contains(&part) {
+                            known.parts.push(part);
+                        }
+                    }
+                    None => {
+                        let own = if tier.name.is_empty() { labels(i) } else { &tier.name };
+                        tiers.push(EditableTier {
+                            name: if is_cut { own.into() } else { String::new() },
+                            place: String::new(),
+                            zone,
+                            parts: vec![part],
+                            facets: vec![number],
+                        });
+                    }
+                }
+                number += 1;
+            }
+        }
+        if design.tiers.iter().all(|t| t.angle_deg.is_none()) {
+            let steep =
+                |t: &EditableTier| (network.parts[t.parts[0]].polar - std::f64::consts::FRAC_PI_2).abs();
+            tiers.sort_by(|a, b| a.zone.cmp(&b.zone).then(steep(a).total_cmp(&steep(b))));
+        }
+        let mut counts = [0; 5];
+        for tier in &mut tiers {
+            let count = &mut counts[tier.zone as usize];
+            *count += 1;
+            tier.place = match tier.zone {
+                Zone::Table => format!("T{count}"),
+                Zone::Crown => format!("C{count}"),
+                Zone::Girdle => format!("G{count}"),
+                Zone::Pavilion => format!("P{count}"),
+                Zone::Culet => format!("K{count}"),
+            };
+        }
+        TierList { tiers }
+    }
+
+    /// The tiers that are meant by a name, a place, a number from 1, or a pattern with `*` and `?`; names come
+    /// first. The error names the nearest.
+    pub fn named(&self, asked: &str) -> Result<Vec<&EditableTier>, EditError> {
+        let all = |is: &dyn Fn(&EditableTier) -> bool| -> Vec<&EditableTier> {
+            self.tiers.iter().filter(|t| is(t)).collect()
+        };
+        let found = if asked.contains(['*', '?']) {
+            let by_name = all(&|t| matches(asked, &t.name));
+            if by_name.is_empty() { all(&|t| matches(asked, &t.place)) } else { by_name }
+        } else {
+            let exact = all(&|t| t.name == asked.trim());
+            let by_name = if exact.is_empty() { all(&|t| parse::is_name(&t.name, asked)) } else { exact };
+            let by_place = || all(&|t| parse::is_name(&t.place, asked));
+            let number = asked.trim().trim_start_matches('#').parse::<usize>().ok();
+            let by_number = || number.and_then(|n| self.tiers.get(n.checked_sub(1)?)).into_iter().collect();
+            [&|| by_name.clone(), &by_place as &dyn Fn() -> Vec<_>, &by_number]
+                .into_iter()
+                .map(|find| find())
+                .find(|found| !found.is_empty())
+                .unwrap_or_default()
+        };
+        if found.is_empty() {
+            let names = || self.tiers.iter().flat_map(|t| [t.name.as_str(), t.place.as_str()]);
+            return Err(EditError::NoSuchTier {
+                asked: asked.into(),
+                nearest: parse::nearest_name(asked, names().filter(|n| !n.is_empty())).map(String::from),
+                known: self.tiers.iter().map(|t| t.label().to_owned()).collect(),
+            });
+        }
+        Ok(found)
+    }
+
+    /// What a facet is called: its tier, and its index or number there.
+    pub fn facet_label(&self, design: &Design, facet: usize) -> String {
+        let tier = self.tiers.iter().find(|t| t.facets.contains(&facet));
+        let Some(tier) = tier else { return format!("facet {}", facet + 1) };
+        if tier.facets.len() == 1 {
+            return tier.label().into();
+        }
+        match design.facets().nth(facet).and_then(|f| f.index) {
+            Some(index) => format!("{}@{}", tier.label(), parse::format_number((index * 1e4).round() / 1e4)),
+            None => {
+                let number = tier.facets.iter().position(|f| *f == facet).unwrap_or_default();
+                format!("{} {}", tier.label(), number + 1)
+            }
+        }
+    }
+}
+
+/// Whether a name fits a pattern: `*` stands for any letters, `?` for one.
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.chars().next() {
+        None => name.is_empty(),
+        Some('*') => {
+            let rest = &pattern[1..];
+            (0..=name.len()).filter(|i| name.is_char_boundary(*i)).any(|i| matches(rest, &name[i..]))
+        }
+        Some(letter) => name.chars().next().is_some_and(|first| {
+            (letter == '?' || letter == first)
+                && matches(&pattern[letter.len_utf8()..], &name[first.len_utf8()..])
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_stand_for_names() {
+        assert!(matches("P*", "P1") && matches("*", "") && matches("C?", "C1") && matches("*a*", "star"));
+        assert!(!matches("P*", "C1") && !matches("C?", "C12") && !matches("P", "P1"));
+    }
+}

@@ -1,0 +1,84 @@
+//! The meet network of a design: which facets pass through which corners, recovered from the planes
+//! alone, and solved again when angles change, so that what met still meets.
+//!
+//! The unknowns are one distance a part of the design (facets of one angle and distance, which move as
+//! one), and angles where they have to follow. A corner in which more than three facets meet gives one
+//! equation for each facet beyond three. What these leave open is decided in this order: angles stay, the
+//! girdle stays where it is, the table keeps its size, and every other facet stays at its corner nearest
+//! the girdle. Checked in `tests/library/meet_network.rs`.
+
+mod check;
+mod corners;
+mod error;
+mod holds;
+mod least_squares;
+mod parts;
+mod scaling;
+mod solver;
+
+pub use check::Kept;
+pub use corners::Corner;
+pub use error::NetworkError;
+pub use parts::Part;
+pub use solver::{Change, Solved};
+
+use super::tiers::Design;
+use crate::geometry::{Plane, Polyhedron};
+use glam::DVec3;
+use holds::Holds;
+use parts::{FacetOfPart, Frame};
+
+/// The parts of a design and the corners in which their facets meet. Lengths are in the design's unit.
+#[derive(Debug, Clone)]
+pub struct MeetNetwork {
+    /// What moves as one.
+    pub parts: Vec<Part>,
+    /// Every corner of the stone.
+    pub corners: Vec<Corner>,
+    /// Girdle width.
+    pub width: f64,
+    /// The facets, in the order of [`Design::facets`].
+    facets: Vec<FacetOfPart>,
+    /// Origin of the solver: on the axis.
+    frame: Frame,
+    /// Of corners that are each other's images the first: what the equations are of.
+    representatives: Vec<usize>,
+    holds: Holds,
+    /// Which facets bound the stone.
+    stands: Vec<bool>,
+}
+
+impl MeetNetwork {
+    /// Recovers the network of a design.
+    ///
+    /// - `solid`: of the design
+    pub fn recover(design: &Design, solid: &Polyhedron) -> MeetNetwork {
+        let width = solid.width();
+        let frame = Frame::of(design, solid);
+        let (parts, facets) = parts::of_design(design, solid, &frame);
+        let planes: Vec<Plane> = design.planes().iter().map(|p| frame.to(p)).collect();
+        let corners = corners::recover(solid, &planes, &frame, width);
+        let representatives = corners::representatives(&corners, &facets, width);
+        let holds = Holds::new(&parts, &facets, &corners);
+        let mut stands = vec![false; facets.len()];
+        solid.faces.iter().for_each(|f| stands[f.plane] = true);
+        MeetNetwork { parts, corners, width, facets, frame, representatives, holds, stands }
+    }
+
+    /// The part that a facet is of.
+    ///
+    /// - `facet`: its number in [`Design::facets`]
+    pub fn part_of(&self, facet: usize) -> usize {
+        self.facets[facet].part
+    }
+
+    /// Corners in which more facets meet than make a corner, of each set of images one.
+    pub fn meets(&self) -> impl Iterator<Item = &Corner> {
+        self.representatives.iter().map(|c| &self.corners[*c])
+    }
+
+    /// Where a corner is, in the design's frame.
+    pub fn position(&self, corner: &Corner) -> DVec3 {
+        corner.position + self.frame.origin
+    }
+}

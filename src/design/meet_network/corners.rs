@@ -1,0 +1,113 @@
+//! Corners of a stone: the facets that pass through each, and by how much they miss it.
+
+use super::parts::{FacetOfPart, Frame};
+use crate::geometry::{Plane, Polyhedron};
+use glam::{DMat3, DVec3};
+use std::collections::BTreeSet;
+
+/// Edges shorter than this part of the width have no length that is meant: the facets at their ends meet
+/// in one corner. A tenth of the smallest that a faceter sees on a stone of 10 mm, and above what three
+/// decimals of a file leave.
+const ONE_CORNER: f64 = 1e-4;
+
+/// A corner of the stone.
+#[derive(Debug, Clone)]
+pub struct Corner {
+    /// The facets that meet there, numbers in the design; the first three fix it.
+    pub facets: Vec<usize>,
+    /// Where it is, in the network's frame.
+    pub(super) position: DVec3,
+    /// Height of the corner above each facet's plane: 0 for the first three, rounding of the file for the
+    /// others.
+    pub(super) misses: Vec<f64>,
+    /// Columns: what the corner moves by for a distance of each of the first three.
+    pub(super) moves: DMat3,
+}
+
+impl Corner {
+    /// The corner of these facets when their planes are `planes`.
+    pub(super) fn moved(&self, planes: &[Plane]) -> (DVec3, DMat3) {
+        let [a, b, c] = [0, 1, 2].map(|i| planes[self.facets[i]]);
+        let moves = DMat3::from_cols(a.normal, b.normal, c.normal).transpose().inverse();
+        (moves * DVec3::new(a.distance, b.distance, c.distance), moves)
+    }
+}
+
+/// The corners of a solid.
+///
+/// - `planes`: of the design, in the network's frame
+pub(super) fn recover(solid: &Polyhedron, planes: &[Plane], frame: &Frame, width: f64) -> Vec<Corner> {
+    let mut root: Vec<usize> = (0..solid.vertices.len()).collect();
+    fn find(root: &mut [usize], mut v: usize) -> usize {
+        while root[v] != v {
+            root[v] = root[root[v]];
+            v = root[v];
+        }
+        v
+    }
+    for face in &solid.faces {
+        for (i, &a) in face.corners.iter().enumerate() {
+            let b = face.corners[(i + 1) % face.corners.len()];
+            if solid.vertices[a].distance(solid.vertices[b]) < ONE_CORNER * width {
+                let (a, b) = (find(&mut root, a), find(&mut root, b));
+                root[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    let mut around: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); solid.vertices.len()];
+    for face in &solid.faces {
+        for &v in &face.corners {
+            around[find(&mut root, v)].insert(face.plane);
+        }
+    }
+    let clusters = around.iter().enumerate().filter(|(_, facets)| facets.len() > 2);
+    clusters.filter_map(|(v, facets)| corner(facets, planes, solid.vertices[v] - frame.origin)).collect()
+}
+
+/// The corner of facets near a place: the three that cross most squarely fix it.
+fn corner(facets: &BTreeSet<usize>, planes: &[Plane], near: DVec3) -> Option<Corner> {
+    /// Of many facets so many are tried by threes.
+    const TRIED: usize = 12;
+    let all: Vec<usize> = facets.iter().copied().collect();
+    let step = all.len().div_ceil(TRIED);
+    let some: Vec<usize> = all.iter().copied().step_by(step).collect();
+    let mut best: Option<(f64, [usize; 3])> = None;
+    for (i, &a) in some.iter().enumerate() {
+        for (j, &b) in some.iter().enumerate().skip(i + 1) {
+            for &c in &some[j + 1..] {
+                let square = planes[a].normal.cross(planes[b].normal).dot(planes[c].normal).abs();
+                // ties go to the first, whatever the rounding
+                if best.is_none_or(|(s, _)| square > s * (1.0 + 1e-6)) {
+                    best = Some((square, [a, b, c]));
+                }
+            }
+        }
+    }
+    let (_, basis) = best.filter(|(square, _)| *square > 1e-6)?;
+    let mut ordered = basis.to_vec();
+    ordered.extend(all.into_iter().filter(|f| !basis.contains(f)));
+    let mut corner = Corner { facets: ordered, position: near, misses: Vec::new(), moves: DMat3::IDENTITY };
+    (corner.position, corner.moves) = corner.moved(planes);
+    corner.misses = corner.facets.iter().map(|&f| planes[f].signed_distance(corner.position)).collect();
+    corner.misses[..3].fill(0.0);
+    Some(corner)
+}
+
+/// Of corners that are each other's images under the stone's symmetry the first: same height, same
+/// distance from the axis, facets of the same parts. Only corners in which more than three facets meet.
+pub(super) fn representatives(corners: &[Corner], facets: &[FacetOfPart], width: f64) -> Vec<usize> {
+    let mut kept: Vec<(usize, f64, f64, Vec<usize>)> = Vec::new();
+    let near = 1e-5 * width;
+    for (i, corner) in corners.iter().enumerate().filter(|(_, c)| c.facets.len() > 3) {
+        let (radius, height) = (corner.position.truncate().length(), corner.position.z);
+        let mut parts: Vec<usize> = corner.facets.iter().map(|f| facets[*f].part).collect();
+        parts.sort_unstable();
+        let known = kept
+            .iter()
+            .any(|(_, r, z, p)| (r - radius).abs() < near && (z - height).abs() < near && *p == parts);
+        if !known {
+            kept.push((i, radius, height, parts));
+        }
+    }
+    kept.into_iter().map(|(i, ..)| i).collect()
+}
