@@ -46,6 +46,8 @@ pub struct MeetNetwork {
     holds: Holds,
     /// Which facets bound the stone.
     stands: Vec<bool>,
+    /// Facets by their corners.
+    outlines: Vec<corners::Outline>,
 }
 
 impl MeetNetwork {
@@ -57,12 +59,12 @@ impl MeetNetwork {
         let frame = Frame::of(design, solid);
         let (parts, facets) = parts::of_design(design, solid, &frame);
         let planes: Vec<Plane> = design.planes().iter().map(|p| frame.to(p)).collect();
-        let corners = corners::recover(solid, &planes, &frame, width);
+        let (corners, outlines) = corners::recover(solid, &planes, &frame, width);
         let representatives = corners::representatives(&corners, &facets, width);
         let holds = Holds::new(&parts, &facets, &corners);
         let mut stands = vec![false; facets.len()];
         solid.faces.iter().for_each(|f| stands[f.plane] = true);
-        MeetNetwork { parts, corners, width, facets, frame, representatives, holds, stands }
+        MeetNetwork { parts, corners, width, facets, frame, representatives, holds, stands, outlines }
     }
 
     /// The part that a facet is of.

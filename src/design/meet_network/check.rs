@@ -1,8 +1,13 @@
 //! Whether a changed stone is still the same stone: every facet stands, and what met still meets.
 
 use super::MeetNetwork;
+use super::corners::Outline;
 use super::error::NetworkError;
 use crate::geometry::{Plane, Polyhedron};
+use glam::DVec3;
+
+/// A facet is lost if less than this is left of it: of its area, or of the square of the width.
+const LEAST_AREA: f64 = 1e-6;
 
 /// How far a changed stone kept what it had.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,16 +48,30 @@ impl MeetNetwork {
                 None => {}
             }
         }
-        if kept == Kept::Meets {
-            let solid = Polyhedron::from_planes(planes).map_err(NetworkError::Solid)?;
-            let mut stands = vec![false; planes.len()];
-            solid.faces.iter().for_each(|f| stands[f.plane] = true);
-            let lost: Vec<usize> = (0..planes.len()).filter(|i| self.stands[*i] && !stands[*i]).collect();
-            if !lost.is_empty() {
-                return Err(NetworkError::Lost { facets: lost });
+        let lost = match kept {
+            Kept::Everything => {
+                let places: Vec<DVec3> = self.corners.iter().map(|c| c.moved(planes).0).collect();
+                let is_lost = |o: &&Outline| o.left(&places, planes[o.facet].normal) < LEAST_AREA;
+                self.outlines.iter().filter(is_lost).map(|o| o.facet).collect()
             }
+            Kept::Meets => {
+                let solid = Polyhedron::from_planes(planes).map_err(NetworkError::Solid)?;
+                let mut areas = vec![0.0; planes.len()];
+                solid.faces.iter().enumerate().for_each(|(i, f)| areas[f.plane] = solid.area(i));
+                let least = LEAST_AREA * self.width.powi(2);
+                let is_lost = |i: &usize| self.stands[*i] && areas[*i] <= least * f64::from(self.is_seen(*i));
+                (0..planes.len()).filter(is_lost).collect::<Vec<_>>()
+            }
+        };
+        if !lost.is_empty() {
+            return Err(NetworkError::Lost { facets: lost });
         }
         Ok(kept)
+    }
+
+    /// Whether a facet has an area that is no rounding.
+    fn is_seen(&self, facet: usize) -> bool {
+        self.outlines.iter().any(|o| o.facet == facet)
     }
 
     /// The error of a meet that opens.

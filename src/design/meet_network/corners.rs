@@ -1,6 +1,7 @@
 //! Corners of a stone: the facets that pass through each, and by how much they miss it.
 
 use super::parts::{FacetOfPart, Frame};
+use crate::geometry::polyhedron::Face;
 use crate::geometry::{Plane, Polyhedron};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeSet;
@@ -33,10 +34,37 @@ impl Corner {
     }
 }
 
-/// The corners of a solid.
+/// A facet's corners, counter-clockwise seen from outside, and its area as it was.
+#[derive(Debug, Clone)]
+pub(super) struct Outline {
+    pub facet: usize,
+    corners: Vec<usize>,
+    area: f64,
+}
+
+impl Outline {
+    /// What is left of the facet's area when its corners are at these places, in parts of what it was; negative
+    /// of a facet turned inside out.
+    pub fn left(&self, places: &[DVec3], normal: DVec3) -> f64 {
+        area(&self.corners, places, normal) / self.area
+    }
+}
+
+fn area(corners: &[usize], places: &[DVec3], normal: DVec3) -> f64 {
+    let first = places[corners[0]];
+    let fan = corners[1..].windows(2).map(|w| (places[w[0]] - first).cross(places[w[1]] - first));
+    0.5 * fan.sum::<DVec3>().dot(normal)
+}
+
+/// The corners of a solid, and its facets by them.
 ///
 /// - `planes`: of the design, in the network's frame
-pub(super) fn recover(solid: &Polyhedron, planes: &[Plane], frame: &Frame, width: f64) -> Vec<Corner> {
+pub(super) fn recover(
+    solid: &Polyhedron,
+    planes: &[Plane],
+    frame: &Frame,
+    width: f64,
+) -> (Vec<Corner>, Vec<Outline>) {
     let mut root: Vec<usize> = (0..solid.vertices.len()).collect();
     fn find(root: &mut [usize], mut v: usize) -> usize {
         while root[v] != v {
@@ -60,8 +88,23 @@ pub(super) fn recover(solid: &Polyhedron, planes: &[Plane], frame: &Frame, width
             around[find(&mut root, v)].insert(face.plane);
         }
     }
-    let clusters = around.iter().enumerate().filter(|(_, facets)| facets.len() > 2);
-    clusters.filter_map(|(v, facets)| corner(facets, planes, solid.vertices[v] - frame.origin)).collect()
+    let mut corners = Vec::new();
+    let mut number = vec![None; solid.vertices.len()];
+    for (v, facets) in around.iter().enumerate().filter(|(_, facets)| facets.len() > 2) {
+        if let Some(corner) = corner(facets, planes, solid.vertices[v] - frame.origin) {
+            number[v] = Some(corners.len());
+            corners.push(corner);
+        }
+    }
+    let places: Vec<DVec3> = corners.iter().map(|c: &Corner| c.position).collect();
+    let outline = |face: &Face| {
+        let mut own: Vec<usize> = face.corners.iter().filter_map(|&v| number[find(&mut root, v)]).collect();
+        own.dedup();
+        let area = if own.len() > 2 { area(&own, &places, planes[face.plane].normal) } else { 0.0 };
+        (area > 0.0).then_some(Outline { facet: face.plane, corners: own, area })
+    };
+    let outlines = solid.faces.iter().filter_map(outline).collect();
+    (corners, outlines)
 }
 
 /// The corner of facets near a place: the three that cross most squarely fix it.

@@ -181,6 +181,18 @@ impl MeetNetwork {
         }
     }
 
+    /// Parts of which a facet shares an edge with a facet of this part.
+    fn beside(&self, part: usize) -> Vec<usize> {
+        let own: Vec<usize> = self.parts[part].facets.clone();
+        let shares_edge = |facet: usize| {
+            let both =
+                |c: &&super::Corner| c.facets.contains(&facet) && c.facets.iter().any(|f| own.contains(f));
+            self.corners.iter().filter(both).count() > 1
+        };
+        let others = (0..self.parts.len()).filter(|p| *p != part);
+        others.filter(|p| self.parts[*p].facets.iter().any(|f| shares_edge(*f))).collect()
+    }
+
     /// The next freedom: angles of the parts around the corner that opened, of those around these, and so on;
     /// then the outline. None if everything is free already.
     fn widened(&self, was: &Freedom, change: &Change, opened: usize) -> Option<Freedom> {
@@ -193,7 +205,12 @@ impl MeetNetwork {
         };
         let mut angles = was.angles.clone();
         if angles.is_empty() {
-            angles.extend(of_corner(&self.corners[opened]).iter().filter(|p| may_follow(p)));
+            let flat = |p: &usize| matches!(self.parts[*p].zone, Zone::Table | Zone::Culet);
+            let around = of_corner(&self.corners[opened]);
+            // beside a table or a culet what shares an edge with it, not the corner alone
+            let beside = around.iter().copied().find(flat).map(|flat| self.beside(flat));
+            let beside = beside.filter(|parts| parts.iter().any(may_follow));
+            angles.extend(beside.unwrap_or(around).iter().filter(|p| may_follow(p)));
             angles.sort_unstable();
             angles.dedup();
             if angles.is_empty() {
