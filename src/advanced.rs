@@ -57,6 +57,11 @@ pub mod design {
     pub use crate::design::*;
 }
 
+/// Variables, objectives and bounds of an optimisation, and its run.
+pub mod optimise {
+    pub use crate::optimise::*;
+}
+
 /// The packet kernel, its `f64` reference, non-convex stones, exact beams.
 pub mod trace {
     pub use crate::trace::*;

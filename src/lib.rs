@@ -28,6 +28,7 @@ mod limits;
 mod materials;
 mod metrics;
 mod optics;
+mod optimise;
 mod parallel;
 mod parse;
 mod progress;
@@ -79,6 +80,7 @@ pub use integrators::{Film, Pass, ToneCurve};
 pub use limits::Limits;
 pub use materials::Material;
 pub use metrics::{METRICS, Metric};
+pub use optimise::Variable;
 pub use progress::Progress;
 #[cfg(feature = "render")]
 pub use render::{

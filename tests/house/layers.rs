@@ -16,6 +16,7 @@ const ROWS: &[&[&str]] = &[
     &["stone", "metrics"],
     &["scene", "scoring"],
     &["photons", "batch"],
+    &["optimise"],
     &["integrators"],
     &["render"],
     &["report", "manual"],

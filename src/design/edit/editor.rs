@@ -8,10 +8,11 @@ use super::tier_list::{EditableTier, TierList};
 use crate::design::families;
 use crate::design::meet_network::{Change, MeetNetwork, NetworkError, Solved};
 use crate::design::tiers::{Design, Zone};
-use crate::geometry::{Plane, Polyhedron};
+use crate::geometry::Polyhedron;
 use crate::parse;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::RangeInclusive;
 
 /// A design made ready to be changed: its meets are recovered once, for any number of changes.
 #[derive(Debug, Clone)]
@@ -135,10 +136,7 @@ impl Editor {
     /// parameter's.
     fn with_parameters(&self, settings: &[Setting]) -> Result<Option<(Design, Vec<Setting>)>, EditError> {
         let family = self.design.family.as_ref();
-        let keys: Vec<&'static str> = match family {
-            Some(of) => families::family(&of.name)?.keys().map(|p| p.key).collect(),
-            None => Vec::new(),
-        };
+        let keys = self.parameter_keys()?;
         let (own, rest): (Vec<Setting>, Vec<Setting>) =
             settings.iter().cloned().partition(|s| match &s.target {
                 Target::Parameter(_) => true,
@@ -152,8 +150,7 @@ impl Editor {
         for setting in own {
             let key = setting.target.to_string();
             let (Some(of), true) = (family, keys.contains(&&*key)) else {
-                let nearest = parse::nearest_name(&key, keys.iter().copied()).map(String::from);
-                return Err(EditError::NoSuchKey { key, nearest, known: keys });
+                return Err(no_such_key(key, keys));
             };
             let was = match given.get(&key) {
                 Some(set) => *set,
@@ -290,10 +287,42 @@ impl Editor {
         FRAC_PI_2.min(if polar > FRAC_PI_2 { PI - polar } else { polar }).to_degrees()
     }
 
-    /// The planes as they are.
-    pub fn planes(&self) -> Vec<Plane> {
-        self.design.planes()
+    /// The value that table, girdle, culet or a parameter of the family has now. The error says what the design
+    /// lacks.
+    pub fn value_of(&self, target: &Target) -> Result<f64, EditError> {
+        let key = target.to_string();
+        let keys = self.parameter_keys()?;
+        if let (Some(of), true) = (&self.design.family, keys.contains(&&*key)) {
+            return Ok(of.value(&key).unwrap_or_default());
+        }
+        let size = match target {
+            Target::Table => Size::Table,
+            Target::Girdle => Size::Girdle,
+            Target::Culet => Size::Culet,
+            _ => return Err(no_such_key(key, keys)),
+        };
+        size.percent(&self.solid).ok_or(EditError::Lacks(size.name()))
     }
+
+    /// The values that a parameter of the design's family may have; none of what is no parameter.
+    pub fn parameter_range(&self, target: &Target) -> Option<RangeInclusive<f64>> {
+        let family = families::family(&self.design.family.as_ref()?.name).ok()?;
+        let parameter = family.keys().find(|p| p.key == target.to_string())?;
+        Some(parameter.range.0..=parameter.range.1)
+    }
+
+    /// The parameters of the design's family; none of a design that has none.
+    fn parameter_keys(&self) -> Result<Vec<&'static str>, EditError> {
+        Ok(match &self.design.family {
+            Some(of) => families::family(&of.name)?.keys().map(|p| p.key).collect(),
+            None => Vec::new(),
+        })
+    }
+}
+
+fn no_such_key(key: String, known: Vec<&'static str>) -> EditError {
+    let nearest = parse::nearest_name(&key, known.iter().copied()).map(String::from);
+    EditError::NoSuchKey { key, nearest, known }
 }
 
 fn zone_of(side: Side) -> Zone {
