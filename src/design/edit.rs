@@ -11,7 +11,7 @@ mod tier_list;
 
 pub use editor::{Edited, Editor};
 pub use error::EditError;
-pub use setting::{Keep, Setting, SettingError, Side, Target};
+pub use setting::{EditTarget, Keep, Setting, SettingError, Side};
 pub use tier_list::{EditableTier, TierList};
 
 use super::tiers::Design;

@@ -1,6 +1,6 @@
 //! Variables of an optimisation: what of a design may change, and how far.
 
-use crate::design::edit::{EditError, EditableTier, Editor, Setting, SettingError, Side, Target};
+use crate::design::edit::{EditError, EditTarget, EditableTier, Editor, Setting, SettingError, Side};
 use crate::design::tiers::Zone;
 use crate::parse::{self, format_number};
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ use std::str::FromStr;
 #[serde(try_from = "String", into = "String")]
 pub struct Variable {
     /// What changes.
-    pub target: Target,
+    pub target: EditTarget,
     /// The least and the greatest value, in the target's unit; none for the usual range.
     pub range: Option<(f64, f64)>,
 }
@@ -33,7 +33,7 @@ pub struct Variable {
 pub enum VariableError {
     /// What is to vary is not understood.
     #[error(transparent)]
-    Target(#[from] SettingError),
+    EditTarget(#[from] SettingError),
     /// A range that is none.
     #[error("{target}={found} is no range: write {target}=FROM:TO, the smaller first")]
     Range {
@@ -49,8 +49,8 @@ impl FromStr for Variable {
 
     fn from_str(text: &str) -> Result<Variable, VariableError> {
         let (target, range) = match text.split_once('=') {
-            Some((target, range)) => (target.parse::<Target>()?, Some(range)),
-            None => (text.parse::<Target>()?, None),
+            Some((target, range)) => (target.parse::<EditTarget>()?, Some(range)),
+            None => (text.parse::<EditTarget>()?, None),
         };
         let Some(found) = range else { return Ok(Variable { target, range: None }) };
         let wrong = || VariableError::Range { target: target.to_string(), found: found.trim().into() };
@@ -93,7 +93,7 @@ impl From<Variable> for String {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Degree {
     /// What changes: of tiers one, by its place.
-    pub target: Target,
+    pub target: EditTarget,
     /// What people call it: `P1.angle`, `crown.scale`.
     pub name: String,
     /// Its value in the design as it is, in the target's unit.
@@ -105,7 +105,7 @@ pub struct Degree {
 impl Degree {
     /// The setting that gives it a value.
     pub fn setting(&self, value: f64) -> Setting {
-        let is_added = matches!(self.target, Target::Index(_) | Target::Depth(_));
+        let is_added = matches!(self.target, EditTarget::Index(_) | EditTarget::Depth(_));
         Setting { target: self.target.clone(), is_added, value }
     }
 }
@@ -124,7 +124,9 @@ const PAVILION: RangeInclusive<f64> = 0.87..=1.15;
 
 /// The variables that there are if none is named: the two tangent ratios.
 pub fn usual() -> Vec<Variable> {
-    [Side::Crown, Side::Pavilion].map(|side| Variable { target: Target::Scale(side), range: None }).to_vec()
+    [Side::Crown, Side::Pavilion]
+        .map(|side| Variable { target: EditTarget::Scale(side), range: None })
+        .to_vec()
 }
 
 /// The degrees of freedom that variables are for a design; of several for one thing the last counts.
@@ -146,7 +148,7 @@ pub fn resolved(variables: &[Variable], editor: &Editor) -> Result<Vec<Degree>, 
 fn of_variable(variable: &Variable, editor: &Editor) -> Result<Vec<Degree>, EditError> {
     let around =
         |start: f64, by: f64, least: f64, most: f64| (start - by).max(least)..=(start + by).min(most);
-    let degree = |target: Target, name: String, start: f64, usual: RangeInclusive<f64>| Degree {
+    let degree = |target: EditTarget, name: String, start: f64, usual: RangeInclusive<f64>| Degree {
         target,
         name,
         start,
@@ -157,7 +159,7 @@ fn of_variable(variable: &Variable, editor: &Editor) -> Result<Vec<Degree>, Edit
         Ok(all.map(|t| (t.clone(), format!("{}.{property}", t.label()))).collect())
     };
     Ok(match &variable.target {
-        Target::Angle(asked) => {
+        EditTarget::Angle(asked) => {
             let is_pattern = asked.contains(['*', '?']);
             let slanted = |t: &EditableTier| matches!(t.zone, Zone::Crown | Zone::Pavilion);
             let all = tiers(asked, "angle")?;
@@ -166,36 +168,36 @@ fn of_variable(variable: &Variable, editor: &Editor) -> Result<Vec<Degree>, Edit
             }
             let of = |(tier, name): (EditableTier, String)| {
                 let start = editor.angle_deg(&tier);
-                degree(Target::Angle(tier.place.clone()), name, start, around(start, ANGLE, 0.5, 89.5))
+                degree(EditTarget::Angle(tier.place.clone()), name, start, around(start, ANGLE, 0.5, 89.5))
             };
             all.into_iter().filter(|(t, _)| slanted(t)).map(of).collect()
         }
-        Target::Index(asked) => {
+        EditTarget::Index(asked) => {
             let of = |(tier, name): (EditableTier, String)| {
-                degree(Target::Index(tier.place), name, 0.0, -INDEX..=INDEX)
+                degree(EditTarget::Index(tier.place), name, 0.0, -INDEX..=INDEX)
             };
             tiers(asked, "index")?.into_iter().map(of).collect()
         }
-        Target::Depth(asked) => {
+        EditTarget::Depth(asked) => {
             let of = |(tier, name): (EditableTier, String)| {
-                degree(Target::Depth(tier.place), name, 0.0, -DEPTH..=DEPTH)
+                degree(EditTarget::Depth(tier.place), name, 0.0, -DEPTH..=DEPTH)
             };
             tiers(asked, "depth")?.into_iter().map(of).collect()
         }
-        Target::Scale(Side::Crown) => {
+        EditTarget::Scale(Side::Crown) => {
             vec![degree(variable.target.clone(), variable.target.to_string(), 1.0, CROWN)]
         }
-        Target::Scale(Side::Pavilion) => {
+        EditTarget::Scale(Side::Pavilion) => {
             vec![degree(variable.target.clone(), variable.target.to_string(), 1.0, PAVILION)]
         }
-        Target::Shift(_) => {
+        EditTarget::Shift(_) => {
             vec![degree(variable.target.clone(), variable.target.to_string(), 0.0, -ANGLE..=ANGLE)]
         }
-        Target::Table | Target::Girdle | Target::Culet | Target::Parameter(_) => {
+        EditTarget::Table | EditTarget::Girdle | EditTarget::Culet | EditTarget::Parameter(_) => {
             let start = editor.value_of(&variable.target)?;
             let usual = match &variable.target {
-                Target::Table => around(start, TABLE, 1.0, 99.0),
-                Target::Girdle | Target::Culet => 0.5 * start..=2.0 * start,
+                EditTarget::Table => around(start, TABLE, 1.0, 99.0),
+                EditTarget::Girdle | EditTarget::Culet => 0.5 * start..=2.0 * start,
                 target => editor.parameter_range(target).unwrap_or(0.8 * start..=1.2 * start),
             };
             vec![degree(variable.target.clone(), variable.target.to_string(), start, usual)]
