@@ -1,0 +1,111 @@
+//! The request of an optimisation, as data.
+
+use super::guards::Guards;
+use super::variable::Variable;
+use crate::design::edit::Keep;
+use crate::scoring::constraint::Constraint;
+use crate::scoring::evaluator::Effort;
+use crate::scoring::objective::Objective;
+use crate::search::Method;
+use serde::{Deserialize, Serialize};
+
+/// What of a design may vary, what it is to be made better in, what it must keep, and how long to search.
+///
+/// ```
+/// use cutlab::advanced::scoring::Objective;
+/// use cutlab::{OptimiseRequest, Stone};
+///
+/// let stone = Stone::parse("classic:ri=1.54")?;
+/// let request = OptimiseRequest::new([Objective::maximise("iso".parse()?)]).evaluations(30);
+/// let found = request.run(&stone, &())?;
+/// assert!(found.finalists[0].gains[0].gain.value > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
+pub struct OptimiseRequest {
+    /// What varies; none for the two tangent ratios.
+    pub vary: Vec<Variable>,
+    /// What is made better: one, or several, between which a front is found.
+    pub objectives: Vec<Objective>,
+    /// Bounds that a design must keep; the start keeps them.
+    pub constraints: Vec<Constraint>,
+    /// Bounds that are always on.
+    pub guards: Guards,
+    /// What a change leaves as it is.
+    pub keep: Keep,
+    /// How finely candidates are scored.
+    pub effort: Effort,
+    /// How points are chosen; none for the method that was best when measured.
+    pub method: Option<Method>,
+    /// The most designs that are scored, the start among them.
+    pub evaluations: usize,
+    /// How many improvements run side by side.
+    pub starts: usize,
+    /// Of the random numbers of the search.
+    pub seed: u64,
+    /// How many distinct designs are kept at most; none keeps one, or of a front up to eight.
+    pub keep_best: Option<usize>,
+}
+
+impl Default for OptimiseRequest {
+    fn default() -> OptimiseRequest {
+        OptimiseRequest {
+            vary: Vec::new(),
+            objectives: Vec::new(),
+            constraints: Vec::new(),
+            guards: Guards::default(),
+            keep: Keep::default(),
+            effort: Effort::default(),
+            method: None,
+            evaluations: 200,
+            starts: 1,
+            seed: 1,
+            keep_best: None,
+        }
+    }
+}
+
+impl OptimiseRequest {
+    /// A request with these objectives, of the two tangent ratios.
+    pub fn new(objectives: impl IntoIterator<Item = Objective>) -> OptimiseRequest {
+        OptimiseRequest { objectives: objectives.into_iter().collect(), ..OptimiseRequest::default() }
+    }
+
+    /// With these variables.
+    pub fn vary(mut self, variables: impl IntoIterator<Item = Variable>) -> OptimiseRequest {
+        self.vary = variables.into_iter().collect();
+        self
+    }
+
+    /// With one more bound.
+    pub fn constraint(mut self, constraint: Constraint) -> OptimiseRequest {
+        self.constraints.push(constraint);
+        self
+    }
+
+    /// With so many designs scored at most.
+    pub fn evaluations(mut self, evaluations: usize) -> OptimiseRequest {
+        self.evaluations = evaluations;
+        self
+    }
+
+    /// With so many improvements side by side.
+    pub fn starts(mut self, starts: usize) -> OptimiseRequest {
+        self.starts = starts;
+        self
+    }
+
+    /// With a seed of the search.
+    pub fn seed(mut self, seed: u64) -> OptimiseRequest {
+        self.seed = seed;
+        self
+    }
+
+    /// With so many distinct designs kept at most.
+    pub fn keep_best(mut self, count: usize) -> OptimiseRequest {
+        self.keep_best = Some(count);
+        self
+    }
+}
