@@ -187,6 +187,7 @@ impl ScoreInput {
             view_frame: self.tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth)),
             stop_power: plan.stop_power(),
             observer: plan.observer,
+            by_symmetry: false,
         }
     }
 }
