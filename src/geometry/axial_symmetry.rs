@@ -148,7 +148,9 @@ mod tests {
     #[test]
     fn walls_hold_the_share_of_the_circle_that_the_images_make_whole() {
         let at = |degrees: f64| DVec2::from_angle(degrees.to_radians()).extend(0.3);
-        for (order, mirror) in [(1, None), (1, Some(0.3)), (2, None), (2, Some(1.0)), (3, None), (8, Some(0.2))] {
+        for (order, mirror) in
+            [(1, None), (1, Some(0.3)), (2, None), (2, Some(1.0)), (3, None), (8, Some(0.2))]
+        {
             let symmetry = AxialSymmetry { order, mirror };
             let walls = symmetry.walls();
             let inside = (0..3600).filter(|i| {

@@ -9,9 +9,6 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// Marks a face of the starting box instead of a given plane.
 const OF_THE_BOX: usize = usize::MAX;
 
-/// The side of a corner of no face.
-const UNJUDGED: i8 = 2;
-
 /// The solid while it is being cut, with buffers that serve every cut.
 pub(super) struct HalfSpaceClipper {
     vertices: Vec<DVec3>,
@@ -84,26 +81,23 @@ impl HalfSpaceClipper {
         }
     }
 
-    /// Judges every corner of a face by a plane; what all of them together are.
+    /// Judges every corner by a plane, and counts by faces; what all faces together have.
     fn judge(&mut self, plane: &Plane) -> FaceReach {
         let Self { vertices, faces, on_plane, side, reach, .. } = self;
         side.clear();
-        // of corners that were cut away long ago nothing is asked
-        side.resize(vertices.len(), UNJUDGED);
+        // corners that were cut away long ago are judged too, which is quicker than to ask
+        side.extend(vertices.iter().map(|v| {
+            let h = plane.signed_distance(*v);
+            i8::from(h > *on_plane) - i8::from(h < -*on_plane)
+        }));
         reach.clear();
         let mut all = FaceReach::default();
         for face in faces {
             let mut of_face = FaceReach::default();
             for &c in &face.corners {
-                if side[c] == UNJUDGED {
-                    let h = plane.signed_distance(vertices[c]);
-                    side[c] = if h.abs() <= *on_plane { 0 } else { h.signum() as i8 };
-                }
-                match side[c] {
-                    -1 => of_face.inside += 1,
-                    0 => of_face.on += 1,
-                    _ => of_face.outside += 1,
-                }
+                of_face.inside += u32::from(side[c] < 0);
+                of_face.on += u32::from(side[c] == 0);
+                of_face.outside += u32::from(side[c] > 0);
             }
             all.inside += of_face.inside;
             all.outside += of_face.outside;
@@ -125,7 +119,9 @@ impl HalfSpaceClipper {
             return Err(SolidError::Empty { plane: number });
         }
         let Self { vertices, faces, side, reach, kept, on_cut, rim, incidences, .. } = self;
-        (on_cut.clear(), rim.clear(), incidences.clear());
+        on_cut.clear();
+        rim.clear();
+        incidences.clear();
         let first = side.len();
         let mut reaches = reach.iter();
         faces.retain_mut(|face| {

@@ -26,27 +26,28 @@ pub use facets::{WELD_DISTANCE, WeldedFacets};
 
 use super::ConvexStone;
 use beam_tracer::BeamTracer;
-use sector::Sector;
+use sector::StoneSymmetry;
 
 /// A stone made ready for beams.
 #[derive(Debug, Clone)]
 pub struct Beams<'a> {
     stone: &'a ConvexStone,
     facets: WeldedFacets,
-    /// The part that is lit for all of a symmetric stone.
-    sector: Option<Sector>,
+    /// By which one sector may stand for the whole stone.
+    symmetry: Option<StoneSymmetry>,
 }
 
 impl<'a> Beams<'a> {
     /// Welds the corners of a stone.
     pub fn new(stone: &'a ConvexStone) -> Self {
-        Beams { stone, facets: WeldedFacets::new(stone), sector: None }
+        Beams { stone, facets: WeldedFacets::new(stone), symmetry: None }
     }
 
     /// The same for sums that stay as they are when a symmetric stone is turned or mirrored into itself: of
-    /// light along its axis one sector is followed for all of it. Sums are those of [`Beams::new`] to 1e-6.
+    /// light along its axis, or along a mirror plane, one sector is followed for the whole. Sums are those of
+    /// [`Beams::new`] to a part in a million. Checked in `tests/library/objective.rs`.
     pub fn by_symmetry(stone: &'a ConvexStone) -> Self {
-        Beams { sector: Sector::of_stone(stone), ..Beams::new(stone) }
+        Beams { symmetry: Some(StoneSymmetry::of_stone(stone)), ..Beams::new(stone) }
     }
 
     /// The stone.
@@ -72,8 +73,7 @@ impl<'a> Beams<'a> {
         until: StopCriteria,
         watch: &mut impl BeamVisitor<L, K>,
     ) -> EnergyBudget {
-        let is_axial = lit.direction.truncate().length() < 1e-12;
-        let sector = self.sector.as_ref().filter(|_| is_axial);
+        let sector = self.symmetry.and_then(|symmetry| symmetry.sector(lit.direction));
         self.stone.isa.run(BeamTracer::new(self.stone, (&self.facets, sector), lit, light, until, watch))
     }
 }

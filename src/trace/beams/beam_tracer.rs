@@ -44,7 +44,8 @@ struct BeamOrigin {
 pub(super) struct BeamTracer<'a, L, V, const K: usize> {
     stone: &'a ConvexStone,
     facets: &'a WeldedFacets,
-    sector: Option<&'a Sector>,
+    /// The part that is lit for the whole stone.
+    sector: Option<Sector>,
     lit: &'a IncidentBeam<K>,
     /// What falls on the stone, power 1.
     light: L,
@@ -75,7 +76,7 @@ impl<L: BeamLight, V: BeamVisitor<L, K>, const K: usize> Vectorised for BeamTrac
 impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V, K> {
     pub(super) fn new(
         stone: &'a ConvexStone,
-        (facets, sector): (&'a WeldedFacets, Option<&'a Sector>),
+        (facets, sector): (&'a WeldedFacets, Option<Sector>),
         lit: &'a IncidentBeam<K>,
         light: L,
         until: StopCriteria,
@@ -108,7 +109,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         let lit =
             || (0..facets.count()).filter(|f| cosine(*f) > MIN_FACING_COS && !facets.ring(*f).is_empty());
         self.totals.outline = lit().map(|f| facets.area(f) * cosine(f)).sum();
-        let images = self.sector.map_or(1.0, |sector| sector.images);
+        let images = self.sector.as_ref().map_or(1.0, |sector| sector.images);
         for facet in lit() {
             let entrance = EntryFacet::new(facet, facets.planes[facet], toward);
             self.enter(BeamOrigin { entrance, density: images * cosine(facet) / self.totals.outline });
@@ -177,7 +178,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         let frames = met.map(|at| entrance.coords(at.transmitted));
         let (inside, reflected) = self.light.split(&met[0]);
         let ring = facets.ring(entrance.facet);
-        let part = self.sector.map(|sector| sector.part_of(ring));
+        let part = self.sector.as_ref().map(|sector| sector.part_of(ring));
         let lit_ring = part.as_deref().unwrap_or(ring);
         let corners: Vec<_> = lit_ring.iter().map(|p| entrance.coordinates(*p)).collect();
         let area = if part.is_some() { clip::area(&corners) } else { facets.area(entrance.facet) };
