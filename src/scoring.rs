@@ -2,11 +2,21 @@
 
 mod adaptive;
 pub mod comparison;
+pub mod constraint;
+pub mod evaluator;
+pub mod gain;
+pub mod objective;
+mod paired_runs;
 pub mod score;
 pub mod scores;
 pub mod settings;
+pub mod tier_effects;
 
 pub use comparison::Comparison;
+pub use evaluator::{Effort, Evaluator, Values};
+pub use gain::Gain;
+pub use objective::{Aim, Objective, ObjectiveError, TiltedMetric};
 pub use score::{score, score_all};
 pub use scores::{ScoreError, Scores};
 pub use settings::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt};
+pub use tier_effects::TierEffect;

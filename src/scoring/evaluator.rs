@@ -1,0 +1,411 @@
+//! Evaluator: what a candidate of a search is worth: its objectives and constraints, with errors.
+
+use super::comparison::RUNS;
+use super::constraint::{Bound, BrokenBound, Constraint, Quantity};
+use super::objective::{Aim, Objective, ObjectiveError, OverTilts, TiltedMetric};
+use super::paired_runs::PairedRuns;
+use super::score::score_candidate;
+use super::settings::{ScoreRequest, Tilt};
+use crate::design::{USUAL_WIDTH_MM, proportions};
+use crate::estimators::catalogue::BeamNoise;
+use crate::geometry::Polyhedron;
+use crate::limits::Limits;
+use crate::materials::Material;
+use crate::metrics::{Metric, MetricSource};
+use crate::sampling::stats::Estimate;
+use crate::trace::ConvexStone;
+use serde::{Deserialize, Serialize};
+
+/// How finely candidates are scored.
+///
+/// Where beams of one direction have no noise (the faceters' view in a clear stone) they are followed until no
+/// more light is left than `error` allows. Else `samples` decide, with the same random numbers for every
+/// candidate, so that two candidates differ by less than their errors say.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Effort {
+    /// The most that a score by beams without noise may be off, times the metric's scale.
+    pub error: f64,
+    /// Points of the hemisphere and the view, fewer of dearer estimators.
+    pub samples: u64,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Whether light keeps its polarisation from facet to facet.
+    pub polarised: bool,
+    /// Girdle width in millimetres of a stone that absorbs, whose size matters.
+    pub size_mm: f64,
+}
+
+impl Default for Effort {
+    /// A tenth of a point of ISO, ±.0004 of WLR.
+    fn default() -> Effort {
+        Effort { error: 1e-3, samples: 1 << 17, seed: 1, polarised: true, size_mm: USUAL_WIDTH_MM }
+    }
+}
+
+impl Effort {
+    /// With the most that a score by beams without noise may be off, times the metric's scale.
+    pub fn error(self, error: f64) -> Effort {
+        Effort { error, ..self }
+    }
+
+    /// With so many points of the hemisphere and the view.
+    pub fn samples(self, samples: u64) -> Effort {
+        Effort { samples, ..self }
+    }
+
+    /// With a seed of the random numbers.
+    pub fn seed(self, seed: u64) -> Effort {
+        Effort { seed, ..self }
+    }
+
+    /// Whether light keeps its polarisation from facet to facet.
+    pub fn polarised(self, polarised: bool) -> Effort {
+        Effort { polarised, ..self }
+    }
+
+    /// With a girdle width in millimetres of stones that absorb.
+    pub fn size_mm(self, size_mm: f64) -> Effort {
+        Effort { size_mm, ..self }
+    }
+}
+
+/// Metrics of one view.
+struct View {
+    material: Material,
+    observer: Option<f64>,
+    tilt: Option<Tilt>,
+    /// Whether they have no noise.
+    is_closed: bool,
+    metrics: Vec<&'static Metric>,
+}
+
+/// A metric among the views.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    view: usize,
+    column: usize,
+}
+
+/// Where the values are that a metric at tilts is made of: tilt by tilt, those about each axis.
+struct Places {
+    tilts: Vec<Vec<Place>>,
+    over: OverTilts,
+    aim: Aim,
+}
+
+/// What a constraint bounds.
+enum Bounded {
+    Score(Places),
+    Proportion(fn(&proportions::Proportions) -> Option<f64>),
+}
+
+/// What a candidate is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Values {
+    /// One an objective, in the metric's unit.
+    pub objectives: Vec<Estimate>,
+    /// One a constraint, in the quantity's unit.
+    pub constraints: Vec<Estimate>,
+    /// By how much bounds are missed together, in parts of the quantities' scales; 0 for a candidate that
+    /// keeps them all.
+    pub violation: f64,
+}
+
+/// A design's objectives and constraints, ready to be computed for many candidates.
+///
+/// A pure function of the candidate: the number of threads shows in no bit. Checked in
+/// `tests/library/objective.rs`.
+///
+/// ```
+/// use cutlab::advanced::scoring::{Effort, Evaluator, Objective, constraint::Constraint};
+/// use cutlab::{Material, Stone};
+///
+/// let [start, other] = ["tolkowsky", "eppler"].map(|name| Stone::parse(name).unwrap());
+/// let diamond = Material::named("diamond")?;
+/// let evaluator = Evaluator::new(
+///     vec![Objective::maximise("iso".parse()?)],
+///     vec![Constraint::at_least("weight_ratio=0.9*start")?],
+///     &diamond,
+///     Effort::default(),
+///     start.solid().unwrap(),
+/// )?;
+/// let values = evaluator.values(other.solid().unwrap())?;
+/// assert!(values.objectives[0].value > 60.0 && values.violation == 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Evaluator {
+    /// The objectives.
+    pub objectives: Vec<Objective>,
+    /// The constraints.
+    pub constraints: Vec<Constraint>,
+    effort: Effort,
+    views: Vec<View>,
+    of_objectives: Vec<Places>,
+    of_constraints: Vec<Bounded>,
+    /// Bounds as numbers.
+    bounds: Vec<f64>,
+    start: Values,
+}
+
+impl Evaluator {
+    /// Objectives and constraints of stones of a material.
+    ///
+    /// - `start`: the design before it is changed: bounds may be parts of what it has
+    ///
+    /// Refuses names, tilts and materials that do not exist, and what the start has no value of.
+    pub fn new(
+        objectives: Vec<Objective>,
+        constraints: Vec<Constraint>,
+        material: &Material,
+        effort: Effort,
+        start: &Polyhedron,
+    ) -> Result<Evaluator, ObjectiveError> {
+        if objectives.is_empty() {
+            return Err(ObjectiveError::Nothing);
+        }
+        let mut views = Vec::new();
+        let mut of_objectives = Vec::new();
+        for objective in &objectives {
+            of_objectives.push(places(&mut views, &objective.of, objective.aim, material)?);
+        }
+        let mut of_constraints = Vec::new();
+        for constraint in &constraints {
+            of_constraints.push(match &constraint.of {
+                Quantity::Score(of) => Bounded::Score(places(&mut views, of, constraint.aim(), material)?),
+                Quantity::Proportion(of) => Bounded::Proportion(of.of),
+            });
+        }
+        let nothing = Values { objectives: Vec::new(), constraints: Vec::new(), violation: 0.0 };
+        let bounds = vec![f64::NAN; constraints.len()];
+        let mut evaluator = Evaluator {
+            objectives,
+            constraints,
+            effort,
+            views,
+            of_objectives,
+            of_constraints,
+            bounds,
+            start: nothing,
+        };
+        let mut values = evaluator.values(start)?;
+        for (i, constraint) in evaluator.constraints.iter().enumerate() {
+            evaluator.bounds[i] = match constraint.bound {
+                Bound::Value(bound) => bound,
+                Bound::OfStart(times) => times * values.constraints[i].value,
+            };
+        }
+        values.violation = evaluator.violation(&values.constraints);
+        evaluator.start = values;
+        Ok(evaluator)
+    }
+
+    /// What the start is worth.
+    pub fn start(&self) -> &Values {
+        &self.start
+    }
+
+    /// How finely candidates are scored.
+    pub fn effort(&self) -> Effort {
+        self.effort
+    }
+
+    /// The bounds that the start does not keep.
+    pub fn broken_by_start(&self) -> Vec<BrokenBound> {
+        let bounds = self.constraints.iter().zip(&self.bounds).zip(&self.start.constraints);
+        let broken = bounds.filter(|((c, bound), value)| c.violation(value.value, **bound) > 0.0);
+        let told = |((c, bound), value): ((&Constraint, &f64), &Estimate)| BrokenBound {
+            quantity: c.of.name(),
+            side: c.side,
+            value: value.value,
+            bound: *bound,
+        };
+        broken.map(told).collect()
+    }
+
+    /// What a candidate is worth; an error names what it has no value of, or why it cannot be lit.
+    pub fn values(&self, candidate: &Polyhedron) -> Result<Values, ObjectiveError> {
+        let stone = self.prepared(candidate);
+        let Effort { error, samples, seed, .. } = self.effort;
+        // half of what is left untraced may be the error
+        let runs = vec![self.scored(&stone, 2.0 * error, samples, seed, |_| true)?];
+        let objectives = self.of_objectives.iter().map(|of| value(of, &runs[0])).collect();
+        let mut constraints = Vec::with_capacity(self.of_constraints.len());
+        let mut measured = None;
+        for (of, constraint) in self.of_constraints.iter().zip(&self.constraints) {
+            constraints.push(match of {
+                Bounded::Score(of) => value(of, &runs[0]),
+                Bounded::Proportion(of) => {
+                    let measured = measured.get_or_insert_with(|| proportions::measure(candidate));
+                    let why = || not_measured(&constraint.of.name(), "the stone has no such proportion");
+                    Estimate::exact(of(measured).ok_or_else(why)?)
+                }
+            });
+        }
+        let violation = self.violation(&constraints);
+        Ok(Values { objectives, constraints, violation })
+    }
+
+    fn violation(&self, constraints: &[Estimate]) -> f64 {
+        let each = self.constraints.iter().zip(constraints).zip(&self.bounds);
+        each.map(|((c, value), bound)| c.violation(value.value, *bound)).sum()
+    }
+
+    /// Each objective in runs with fresh random numbers, the same for every stone that is given the same
+    /// `seed`, and without light left untraced.
+    pub(super) fn paired(&self, solid: &Polyhedron, seed: u64) -> Result<Vec<PairedRuns>, ObjectiveError> {
+        let stone = self.prepared(solid);
+        let closed = self.scored(&stone, 0.0, self.effort.samples, seed, |view| view.is_closed)?;
+        let noisy = self.views.iter().any(|view| !view.is_closed);
+        let mut runs = vec![closed];
+        if noisy {
+            let closed = runs.remove(0);
+            for run in 0..RUNS {
+                let seed = seed.wrapping_mul(RUNS).wrapping_add(run);
+                let samples = (self.effort.samples / RUNS).max(1);
+                let mut scored = self.scored(&stone, 0.0, samples, seed, |view| !view.is_closed)?;
+                for (scored, closed) in scored.iter_mut().zip(&closed) {
+                    if scored.is_empty() {
+                        scored.clone_from(closed);
+                    }
+                }
+                runs.push(scored);
+            }
+        }
+        Ok(self.of_objectives.iter().map(|of| paired(of, &runs)).collect())
+    }
+
+    /// A solid ready for tracing.
+    fn prepared(&self, solid: &Polyhedron) -> ConvexStone {
+        let absorbing = self.views.iter().map(|view| &view.material).find(|material| !material.is_clear());
+        ConvexStone::new(absorbing.map_or_else(|| solid.clone(), |material| self.sized(solid, material)))
+    }
+
+    /// A solid in millimetres if its size matters.
+    pub(super) fn sized(&self, solid: &Polyhedron, material: &Material) -> Polyhedron {
+        let mut solid = solid.clone();
+        if !material.is_clear() {
+            let to_mm = self.effort.size_mm / solid.width();
+            solid.vertices.iter_mut().for_each(|v| *v *= to_mm);
+        }
+        solid
+    }
+
+    /// The scores of the views that are asked for, one list a view; the others' are empty.
+    fn scored(
+        &self,
+        stone: &ConvexStone,
+        untraced: f64,
+        samples: u64,
+        seed: u64,
+        asked: impl Fn(&View) -> bool,
+    ) -> Result<Vec<Vec<Estimate>>, ObjectiveError> {
+        let one = |view: &View| {
+            let plan = ScoreRequest { observer: view.observer, ..ScoreRequest::default() }
+                .metrics(view.metrics.iter().copied())
+                .samples(samples)
+                .seed(seed)
+                .polarised(self.effort.polarised);
+            let row = score_candidate(stone, &view.material, view.tilt, &plan, untraced);
+            let scores = view.metrics.iter().zip(&row.scores).map(|(metric, score)| {
+                let why = row.why_left_out(metric).or(row.error.as_deref()).unwrap_or("it has no value");
+                score.ok_or_else(|| not_measured(metric.name, why))
+            });
+            scores.collect()
+        };
+        self.views.iter().map(|view| if asked(view) { one(view) } else { Ok(Vec::new()) }).collect()
+    }
+}
+
+fn not_measured(quantity: &str, why: &str) -> ObjectiveError {
+    ObjectiveError::NotMeasured { quantity: quantity.into(), why: why.into() }
+}
+
+/// The places of a metric at its tilts; views that nothing else has asked for are added.
+fn places(
+    views: &mut Vec<View>,
+    of: &TiltedMetric,
+    aim: Aim,
+    material: &Material,
+) -> Result<Places, ObjectiveError> {
+    of.check()?;
+    let material = match &of.material {
+        Some(name) => Material::open(name, Limits::default()).map_err(ObjectiveError::Material)?,
+        None => material.clone(),
+    };
+    let is_solid = matches!(of.metric.read_from, MetricSource::Solid(_));
+    let is_closed = is_solid || material.is_clear() && of.metric.beam_noise() == Some(BeamNoise::None);
+    let mut place = |tilt: Option<Tilt>| {
+        let same = |v: &View| {
+            v.is_closed == is_closed && v.observer == of.observer && v.tilt == tilt && v.material == material
+        };
+        let view = views.iter().position(same).unwrap_or_else(|| {
+            let material = material.clone();
+            views.push(View { material, observer: of.observer, tilt, is_closed, metrics: Vec::new() });
+            views.len() - 1
+        });
+        let metrics = &mut views[view].metrics;
+        let column = metrics.iter().position(|m| m.name == of.metric.name).unwrap_or_else(|| {
+            metrics.push(of.metric);
+            metrics.len() - 1
+        });
+        Place { view, column }
+    };
+    let tilts = of.views().into_iter().map(|about| about.into_iter().map(&mut place).collect()).collect();
+    Ok(Places { tilts, over: of.tilts.over, aim })
+}
+
+/// The mean of estimates; their errors may have a cause in common, so they add up.
+fn mean(of: impl ExactSizeIterator<Item = Estimate>) -> Estimate {
+    let n = of.len() as f64;
+    let sum = of.fold(Estimate::exact(0.0), |sum, e| Estimate {
+        value: sum.value + e.value,
+        error: sum.error + e.error,
+    });
+    Estimate { value: sum.value / n, error: sum.error / n }
+}
+
+/// A metric at its tilts from the scores of one run.
+fn value(of: &Places, scores: &[Vec<Estimate>]) -> Estimate {
+    let tilts: Vec<Estimate> = of
+        .tilts
+        .iter()
+        .map(|about| mean(about.iter().map(|place| scores[place.view][place.column])))
+        .collect();
+    let badness = |e: &Estimate| -of.aim.sign() * e.value;
+    let worst = match of.over {
+        OverTilts::Mean => return mean(tilts.iter().copied()),
+        OverTilts::Worst => tilts.iter().copied().max_by(|a, b| badness(a).total_cmp(&badness(b))),
+    };
+    let worst = worst.unwrap_or(Estimate::exact(f64::NAN));
+    // any tilt may be the worst that is within the errors of it
+    let could_be = |e: &&Estimate| badness(e) + 2.0 * e.error >= badness(&worst) - 2.0 * worst.error;
+    Estimate { error: tilts.iter().filter(could_be).map(|e| e.error).fold(0.0, f64::max), ..worst }
+}
+
+/// A metric at its tilts in paired runs. The worst tilt is the one that is worst in the mean over the runs.
+fn paired(of: &Places, runs: &[Vec<Vec<Estimate>>]) -> PairedRuns {
+    let at = |place: &Place| {
+        let scores = || runs.iter().map(|scores| scores[place.view][place.column]);
+        let first = scores().next().unwrap_or(Estimate::exact(f64::NAN));
+        match scores().all(|score| score == first) {
+            true => PairedRuns::new(vec![first.value], first.error),
+            // the runs differ by their noise, which their errors hold
+            false => PairedRuns::new(scores().map(|score| score.value).collect(), 0.0),
+        }
+    };
+    let mean = |parts: Vec<PairedRuns>| {
+        let weight = 1.0 / parts.len() as f64;
+        PairedRuns::combined(parts.iter().map(|part| (weight, part)))
+    };
+    let tilts: Vec<PairedRuns> = of.tilts.iter().map(|about| mean(about.iter().map(at).collect())).collect();
+    let badness = |runs: &PairedRuns| -of.aim.sign() * runs.value();
+    match of.over {
+        OverTilts::Mean => mean(tilts),
+        OverTilts::Worst => {
+            let worst = tilts.into_iter().max_by(|a, b| badness(a).total_cmp(&badness(b)));
+            worst.unwrap_or_else(|| PairedRuns::new(Vec::new(), 0.0))
+        }
+    }
+}
