@@ -11,6 +11,7 @@ pub mod meet_network;
 pub mod meet_points;
 pub mod orientation;
 pub mod proportions;
+pub mod retarget;
 pub mod round_brilliant_measures;
 pub mod scaling;
 pub mod symmetry;

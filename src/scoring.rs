@@ -2,6 +2,7 @@
 
 mod adaptive;
 pub mod comparison;
+pub mod edit_report;
 pub mod score;
 pub mod scores;
 pub mod settings;
