@@ -20,7 +20,7 @@ pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let mut request = EditRequest::default().keep(args.keep);
     request.settings.clone_from(&args.set);
     let edited = editor.edit(&request.settings, request.keep)?;
-    file.encode(&stone, &edited.design)?;
+    file.encode(&stone, &edited.design, stone.given_material())?;
     let mut report = EditReport::new(&stone, &edited.design, DesignChanges::new(&editor, &edited))?;
     stone.warnings().iter().for_each(|warning| console.note(&format!("note: {warning}")));
     if !args.score.is_empty() {

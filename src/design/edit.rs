@@ -15,7 +15,7 @@ pub use changes::{BeforeAfter, DesignChanges, MeasureChange, TierChange, TierSta
 pub use editor::{Edited, Editor};
 pub use error::EditError;
 pub use setting::{Keep, Setting, SettingError, Side, Target};
-pub use tier_list::{EditableTier, TierList};
+pub use tier_list::{EditableTier, TierList, places, places_of_tiers};
 
 use super::tiers::Design;
 use serde::{Deserialize, Serialize};

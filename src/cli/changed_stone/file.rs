@@ -8,9 +8,9 @@ use crate::cli::exit_code::ExitStatus;
 use crate::cli::limits::limits;
 use crate::cli::outputs::{self, Outputs};
 use crate::design::Design;
+use crate::materials::Material;
 use crate::report::edited_file;
 use crate::report::target_format::TargetFormat;
-use crate::scoring::edit_report::EditReport;
 use crate::stone::Stone;
 use crate::storage::{atomic_write, output_path};
 use serde::Serialize;
@@ -62,14 +62,21 @@ impl<'a> ChangedFile<'a> {
     }
 
     /// Makes the bytes of the file, and takes its place.
-    pub fn encode(&mut self, stone: &Stone, changed: &Design) -> Result<(), CliError> {
+    ///
+    /// - `material`: what it is of, if that was asked for
+    pub fn encode(
+        &mut self,
+        stone: &Stone,
+        changed: &Design,
+        material: Option<&Material>,
+    ) -> Result<(), CliError> {
         let Some(path) = &self.args.output else { return Ok(()) };
         let to = self.args.to.as_deref();
         let target = match atomic_write::is_stream(path) {
             true => TargetFormat::for_stream(path, to, edited_file::usual_format(stone))?,
             false => TargetFormat::from_path(path, to)?,
         };
-        let encoded = edited_file::encode(&self.spec, stone, changed, target, limits())?;
+        let encoded = edited_file::encode((&self.spec, stone), changed, material, target, limits())?;
         self.outputs.claim(path, |there| outputs::has_bytes(there, &encoded.bytes))?;
         self.remarks = encoded.remarks;
         self.encoded = Some((path.clone(), encoded.bytes));

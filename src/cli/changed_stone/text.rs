@@ -21,6 +21,11 @@ impl ChangedText<'_> {
         ChangedText { report, head: Vec::new() }
     }
 
+    /// What is to be said of the scores.
+    pub fn warnings(&self) -> &[String] {
+        &self.report.warnings
+    }
+
     /// The tables.
     pub fn text(&self) -> String {
         let report = self.report;
