@@ -4,10 +4,12 @@
 
 mod args;
 mod arguments;
+mod changed_stone;
 mod compare;
 mod completions;
 mod console;
 mod each_stone;
+mod edit;
 mod error;
 mod exit_code;
 mod generate;
@@ -26,6 +28,7 @@ mod plot_output;
 mod progress;
 mod render;
 mod report;
+mod retarget;
 mod score;
 mod score_text;
 mod show;
@@ -81,6 +84,10 @@ enum Command {
     Import(import::ImportArgs),
     /// Proportions, faceter's ratios, symmetry, tiers, volume and weight
     Show(show::ShowArgs),
+    /// Change angles, table, girdle or parameters of a stone; what met still meets
+    Edit(edit::EditArgs),
+    /// Make a design for a stone of another refractive index
+    Retarget(retarget::RetargetArgs),
     /// Take a photon-mapped picture, or a turntable of pictures
     Render(render::RenderArgs),
     /// Scores of brilliance and fire, one row a stone
@@ -113,6 +120,8 @@ impl Command {
             Command::Generate(args) => generate::run(args, console),
             Command::Import(args) => import::run(args, console),
             Command::Show(args) => show::run(args, console),
+            Command::Edit(args) => edit::run(args, console),
+            Command::Retarget(args) => retarget::run(args, console),
             Command::Render(args) => render::run(args, console),
             Command::Score(args) => score::run(args, console),
             Command::Sweep(args) => sweep::run(args, console),

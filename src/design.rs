@@ -12,6 +12,7 @@ pub mod meet_points;
 pub mod orientation;
 pub mod proportion_catalogue;
 pub mod proportions;
+pub mod retarget;
 pub mod round_brilliant_measures;
 pub mod scaling;
 pub mod symmetry;

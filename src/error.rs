@@ -10,6 +10,7 @@ use crate::batch::table::TableError;
 use crate::batch::table_job::TableJobError;
 use crate::design::CutError;
 use crate::design::edit::{EditError, SettingError};
+use crate::design::retarget::RetargetError;
 #[cfg(feature = "files")]
 use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
@@ -23,6 +24,7 @@ use crate::report::ReportError;
 #[cfg(feature = "render")]
 use crate::scene::SceneError;
 use crate::scoring::ScoreError;
+use crate::scoring::edit_report::EditScoreError;
 use crate::stone::StoneError;
 #[cfg(feature = "files")]
 use crate::storage::atomic_write::WriteError;
@@ -87,12 +89,18 @@ pub enum Error {
     /// Of a change of a design.
     #[error(transparent)]
     Edit(Box<EditError>),
+    /// Of a design that is made for another index.
+    #[error(transparent)]
+    Retarget(Box<RetargetError>),
     /// Of a setting that is not understood.
     #[error(transparent)]
     Setting(#[from] SettingError),
     /// A material that there is not.
     #[error(transparent)]
     Material(#[from] NoSuchMaterial),
+    /// Work that was ended early.
+    #[error("cancelled")]
+    Cancelled,
 }
 
 /// Kinds of errors.
@@ -128,9 +136,13 @@ impl Error {
             {
                 ErrorKind::NotFound
             }
-            Error::Score(_) | Error::Solid(_) | Error::Cut(_) | Error::Edit(_) | Error::Setting(_) => {
-                ErrorKind::Invalid
-            }
+            Error::Score(_)
+            | Error::Solid(_)
+            | Error::Cut(_)
+            | Error::Edit(_)
+            | Error::Retarget(_)
+            | Error::Setting(_) => ErrorKind::Invalid,
+            Error::Cancelled => ErrorKind::Cancelled,
             #[cfg(feature = "files")]
             Error::Format(error) => of_format(error),
             #[cfg(feature = "files")]
@@ -185,6 +197,24 @@ impl Error {
                 _ => None,
             },
             _ => None,
+        }
+    }
+}
+
+impl From<EditScoreError> for Error {
+    fn from(error: EditScoreError) -> Error {
+        match error {
+            EditScoreError::Stone(error) => error.into(),
+            EditScoreError::Cancelled => Error::Cancelled,
+        }
+    }
+}
+
+impl From<RetargetError> for Error {
+    fn from(error: RetargetError) -> Error {
+        match error {
+            RetargetError::Edit(error) => error.into(),
+            error => Error::Retarget(Box::new(error)),
         }
     }
 }

@@ -3,6 +3,8 @@
 //! The bytes decide which reader is used; only for writing does the file's extension decide.
 
 mod asc_triangles;
+mod changed_design;
+mod changed_polygon;
 mod cs580;
 mod cutlab_toml;
 mod cutting_table;
@@ -22,6 +24,7 @@ pub mod input;
 pub mod mesh_export;
 pub mod mesh_facts;
 mod mesh_import;
+mod numbers;
 mod obj;
 mod perfect_diamond;
 mod ply;
@@ -30,6 +33,7 @@ mod stl;
 pub mod triangle_mesh;
 mod unsupported;
 mod windows_1252;
+pub mod write_back;
 
 use crate::storage::text;
 pub use error::FormatError;
@@ -158,21 +162,7 @@ pub fn read_content_bytes(
     limits: Limits,
 ) -> Result<Content, FormatError> {
     let source = Input { name, bytes, folder, limits };
-    let found = FORMATS
-        .iter()
-        .rev()
-        .map(|f| ((f.sniff)(&source), *f))
-        .max_by_key(|(sure, _)| *sure)
-        .filter(|(sure, _)| *sure > 0);
-    // a page may quote a design: it is none all the same
-    let is_page = |sure: u8| sure < stl::SURE_BY_SIZE && unsupported::is_web_page(&source);
-    let (sure, format) =
-        found.filter(|(sure, _)| !is_page(*sure)).ok_or_else(|| unsupported::error(&source))?;
-    /// Below this other evidence is better: an extension, or how files of other kinds begin.
-    const GUESS: u8 = 30;
-    if sure < GUESS && unsupported::is_known(&source) {
-        return Err(unsupported::error(&source));
-    }
+    let format = format_of(&source)?;
     let Parsed { shape, mut warnings } =
         (format.read)(&source).map_err(|e| e.in_format(format.name, None))?;
     let format = format.name;
@@ -187,6 +177,26 @@ pub fn read_content_bytes(
             Ok(Content::Mesh(LoadedMesh { mesh, unit, format, warnings, problem }))
         }
     }
+}
+
+/// The format that a file's bytes show.
+fn format_of(source: &Input) -> Result<&'static Format, FormatError> {
+    let found = FORMATS
+        .iter()
+        .rev()
+        .map(|f| ((f.sniff)(source), *f))
+        .max_by_key(|(sure, _)| *sure)
+        .filter(|(sure, _)| *sure > 0);
+    // a page may quote a design: it is none all the same
+    let is_page = |sure: u8| sure < stl::SURE_BY_SIZE && unsupported::is_web_page(source);
+    let (sure, format) =
+        found.filter(|(sure, _)| !is_page(*sure)).ok_or_else(|| unsupported::error(source))?;
+    /// Below this other evidence is better: an extension, or how files of other kinds begin.
+    const GUESS: u8 = 30;
+    if sure < GUESS && unsupported::is_known(source) {
+        return Err(unsupported::error(source));
+    }
+    Ok(format)
 }
 
 /// Whether a file of this content may name others, which then belong to the stone.

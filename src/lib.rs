@@ -67,6 +67,7 @@ pub use batch::request::{ComparisonTable, ScoreTable, SweepTable, TableRequest};
 pub use batch::stone_files::expand_stones;
 pub use color::Illuminant;
 pub use design::edit::EditRequest;
+pub use design::retarget::RetargetRequest;
 pub use design::{Design, LengthUnit};
 pub use error::{Error, ErrorKind};
 #[cfg(feature = "files")]

@@ -5,6 +5,7 @@ pub mod comparison_page;
 pub mod diagram;
 pub mod drawing_format;
 pub mod estimates;
+pub mod edited_file;
 mod html;
 pub mod page;
 pub mod pdf;

@@ -7,6 +7,7 @@ pub mod evaluator;
 pub mod gain;
 pub mod objective;
 mod paired_runs;
+pub mod edit_report;
 pub mod score;
 pub mod scores;
 pub mod settings;

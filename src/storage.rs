@@ -11,3 +11,4 @@ pub mod output_path;
 pub mod stdin;
 pub mod terminal;
 pub mod text;
+pub mod text_patch;

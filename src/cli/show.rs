@@ -2,6 +2,7 @@
 
 mod drawings;
 mod measured;
+mod meets;
 mod mesh;
 mod options;
 mod sheet;

@@ -3,16 +3,19 @@
 //! grammar in [`crate::manual::editing`].
 
 mod apply;
+mod changes;
 mod editor;
 mod error;
 mod flat_size;
+pub mod meets;
 mod setting;
 mod tier_list;
 
+pub use changes::{BeforeAfter, DesignChanges, MeasureChange, TierChange, TierState};
 pub use editor::{Edited, Editor};
 pub use error::EditError;
 pub use setting::{EditTarget, Keep, Setting, SettingError, Side};
-pub use tier_list::{EditableTier, TierList};
+pub use tier_list::{EditableTier, TierList, places, places_of_tiers};
 
 use super::tiers::Design;
 use serde::{Deserialize, Serialize};
@@ -53,5 +56,13 @@ impl EditRequest {
     /// Changes the design. Errors name the setting, the tier or the meet.
     pub fn run(&self, design: &Design) -> Result<Edited, EditError> {
         Editor::new(design)?.edit(&self.settings, self.keep)
+    }
+
+    /// As [`EditRequest::run`], with what the change did to tiers and proportions.
+    pub fn changes(&self, design: &Design) -> Result<(Edited, DesignChanges), EditError> {
+        let editor = Editor::new(design)?;
+        let edited = editor.edit(&self.settings, self.keep)?;
+        let changes = DesignChanges::new(&editor, &edited);
+        Ok((edited, changes))
     }
 }

@@ -20,6 +20,7 @@ pub static FORMAT: Format = Format {
     sniff: |source| if first_count(source) == Some(24) { 90 } else { 0 },
     read,
     write: Some(Writer::Mesh(write)),
+    rewrite: None,
 };
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {

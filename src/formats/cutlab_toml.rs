@@ -18,6 +18,7 @@ pub static FORMAT: Format = Format {
     sniff,
     read,
     write: Some(Writer::Design(write)),
+    rewrite: None,
 };
 
 fn sniff(source: &Input) -> u8 {

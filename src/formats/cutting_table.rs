@@ -96,6 +96,24 @@ fn cut_facet(gear: Gear, tier: &Tier, facet: &Facet) -> (f64, f64) {
         .unwrap_or((angle, index))
 }
 
+/// The angle in degrees of a facet with that normal: the first of those `stated` that gives it (1e-13), else as
+/// computed.
+pub fn angle_as_stated(stated: &[f64], normal: DVec3) -> f64 {
+    let gives = |angle: &f64| {
+        let made = facet_normal(Gear::default(), *angle, 0.0);
+        (made.truncate().length() - normal.truncate().length()).hypot(made.z - normal.z) <= SAME
+    };
+    let computed = [angle_deg(normal), exact_angle(normal)];
+    stated.iter().chain(&computed).copied().find(gives).unwrap_or(computed[1])
+}
+
+/// The index of a facet with that normal, cut at `angle_deg`: the first of those `stated` that gives it (1e-13),
+/// else as computed.
+pub fn index_as_stated(gear: Gear, stated: &[f64], angle_deg: f64, normal: DVec3) -> f64 {
+    let gives = |index: &f64| facet_normal(gear, angle_deg, *index).distance(normal) <= SAME;
+    stated.iter().copied().find(gives).unwrap_or_else(|| index_of(gear, normal))
+}
+
 /// The angle of a facet from the girdle plane in degrees, with the sign (also of 0) of the normal's
 /// z, to six decimals if that is meant.
 pub fn angle_deg(normal: DVec3) -> f64 {

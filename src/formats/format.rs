@@ -1,5 +1,6 @@
 //! A format: its name and extensions, how its files are known, read and written.
 
+use super::changed_design::ChangedDesign;
 use super::error::FormatError;
 use super::input::Input;
 use super::mesh_export::MeshExport;
@@ -19,6 +20,9 @@ pub enum Writer {
     Mesh(fn(&MeshExport) -> Result<Vec<u8>, FormatError>),
 }
 
+/// Puts a changed design into the file it was read from: a file's bytes, and sentences about what could not be kept.
+pub type Rewriter = fn(&Input, &ChangedDesign, &mut Vec<String>) -> Result<Vec<u8>, FormatError>;
+
 /// A file format.
 pub struct Format {
     /// Its name, as in `--to NAME` and in reports.
@@ -33,6 +37,8 @@ pub struct Format {
     pub read: fn(&Input) -> Result<Parsed, FormatError>,
     /// Writes a design, if the format can be written.
     pub write: Option<Writer>,
+    /// Writes a changed design back into its file, if the format can; else it is written anew.
+    pub rewrite: Option<Rewriter>,
 }
 
 /// A stone as a reader found it, and what it had to overlook.

@@ -37,6 +37,15 @@ pub fn for_gemcad(design: &Design) -> Result<Cow<'_, Design>, FormatError> {
     Ok(Cow::Owned(placed(design, shift, scale)))
 }
 
+/// The design with its origin inside: as it is, or else moved to its centre of volume.
+pub fn about_origin(design: &Design) -> Result<Cow<'_, Design>, FormatError> {
+    if is_inside(design, DVec3::ZERO) {
+        return Ok(Cow::Borrowed(design));
+    }
+    let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;
+    Ok(Cow::Owned(placed(design, -solid.volume_and_centre().1, 1.0)))
+}
+
 /// The design in Gem Cut Studio's frame: max(|x|, |y|) = 1 and z from −h to h, as in all public files.
 pub fn for_gem_cut_studio(design: &Design) -> Result<Design, FormatError> {
     let solid = design.solid().map_err(|cause| FormatError::Solid { file: design.name.clone(), cause })?;

@@ -6,6 +6,7 @@ use super::error::FormatError;
 use super::frames::{for_gem_cut_studio, index_drawn_for};
 use crate::design::Design;
 use crate::geometry::polyhedron::PlaneStatus;
+use glam::DVec3;
 use std::fmt::Write;
 
 /// The design as Gem Cut Studio holds it, with max(|x|, |y|) = 1 and z from −h to h: normals, depths and
@@ -34,8 +35,7 @@ pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatErro
         );
         for cut in &row.facets {
             let n = cut.plane.normal;
-            let around = n.y.atan2(n.x).to_degrees();
-            let index_angle = if polar < 90.0 { 90.0 + around } else { 270.0 - around }.rem_euclid(360.0);
+            let index_angle = index_angle(n, polar);
             let _ = writeln!(
                 text,
                 "    <facet nx=\"{}\" ny=\"{}\" nz=\"{}\" index_angle=\"{index_angle}\">",
@@ -60,6 +60,15 @@ pub fn write(design: &Design, _: &mut Vec<String>) -> Result<Vec<u8>, FormatErro
     }
     text += " />\n</GemCutStudio>\n";
     Ok(text.into_bytes())
+}
+
+/// The index angle in degrees of a facet with that normal: counted from −y, counter-clockwise on the crown and
+/// clockwise on pavilion and girdle.
+///
+/// - `polar`: the facet's angle from +z
+pub fn index_angle(n: DVec3, polar: f64) -> f64 {
+    let around = n.y.atan2(n.x).to_degrees();
+    if polar < 90.0 { 90.0 + around } else { 270.0 - around }.rem_euclid(360.0)
 }
 
 /// The text as an attribute's value.

@@ -81,7 +81,7 @@ pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, Form
 }
 
 /// A point in GemCad's frame.
-fn point(p: DVec3) -> impl Iterator<Item = u8> {
+pub fn point(p: DVec3) -> impl Iterator<Item = u8> {
     [p.x, -p.y, p.z].into_iter().flat_map(f64::to_le_bytes)
 }
 

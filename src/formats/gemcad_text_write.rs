@@ -1,9 +1,10 @@
 //! Writing GemCad text as GemCad lays it out: CRLF, lines under 80 characters that go on indented, four
-//! headers and four footers, ten significant digits.
+//! headers and four footers, fifteen significant digits.
 
 use super::cutting_table::{CuttingRow, at_most, footers, headers, one_line, rows, unblank};
 use super::error::FormatError;
 use super::frames::{for_gemcad, index_drawn_for};
+use super::numbers::decimals;
 use super::windows_1252::byte_of;
 use crate::design::Design;
 use std::fmt::Write;
@@ -20,15 +21,12 @@ const LONGEST_NAME: usize = 60;
 /// Header lines, and as many footers.
 const LINES: usize = 4;
 
-/// Significant digits of a number: two more than GemCad's own distances have.
-const DIGITS: i32 = 10;
-
 /// The design as GemCad's text form holds it, its largest coordinate near 1.1.
 ///
 /// - `remarks`: gets a sentence for whatever had no room
 ///
-/// Angles have at least six decimals and distances eight, as GemCad's own, and ten significant digits
-/// where it takes them. Facets that were not cut by index get the index of their normal, fractional
+/// Angles have at least six decimals and distances eight, as GemCad's own, and fifteen significant digits
+/// where it takes them: planes come back to rounding. Facets that were not cut by index get the index of their normal, fractional
 /// where it must be. Bytes are Windows-1252, or UTF-8 if that cannot hold the texts. Checked in
 /// `tests/library/receivers.rs`.
 pub fn write(design: &Design, remarks: &mut Vec<String>) -> Result<Vec<u8>, FormatError> {
@@ -118,36 +116,4 @@ fn in_lines(text: &str, most: usize) -> Vec<String> {
 /// The beginning of the text in at most `most` bytes.
 fn cut_off(text: &str, most: usize) -> &str {
     &text[..text.floor_char_boundary(most)]
-}
-
-/// The number with `least` decimals, or with more if it takes them for [`DIGITS`] significant digits.
-fn decimals(x: f64, least: usize) -> String {
-    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
-    let most = (DIGITS - 1 - magnitude).clamp(least as i32, 17) as usize;
-    let mut text = format!("{x:.most$}");
-    let spare = text.bytes().rev().take(most - least).take_while(|b| *b == b'0').count();
-    text.truncate(text.len() - spare);
-    if text.ends_with('.') {
-        text.pop();
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_the_digits_they_need_and_no_more_than_ten() {
-        assert_eq!(decimals(-42.5, 6), "-42.500000");
-        assert_eq!(decimals(-0.0, 6), "-0.000000");
-        assert_eq!(decimals(1.0 / 3.0, 6), "0.3333333333");
-        assert_eq!(decimals(0.8814711600000001, 8), "0.88147116");
-        assert_eq!(decimals(-42.01339541369781, 6), "-42.01339541");
-        assert_eq!(decimals(96.0, 0), "96");
-        assert_eq!(decimals(2.5, 0), "2.5");
-        assert_eq!(decimals(14.523285922140165, 0), "14.52328592");
-        assert_eq!(decimals(1.54, 2), "1.54");
-        assert_eq!(decimals(0.001234567890123, 8), "0.00123456789");
-    }
 }

@@ -28,6 +28,7 @@ pub static GLB: Format = Format {
     sniff: |source| if source.bytes.starts_with(b"glTF") { 100 } else { 0 },
     read,
     write: Some(Writer::Mesh(glb_write::write_binary)),
+    rewrite: None,
 };
 
 /// glTF 2.0 as text.
@@ -38,6 +39,7 @@ pub static GLTF: Format = Format {
     sniff,
     read,
     write: Some(Writer::Mesh(glb_write::write_text)),
+    rewrite: None,
 };
 
 fn sniff(source: &Input) -> u8 {

@@ -24,6 +24,7 @@ pub static FORMAT: Format = Format {
     sniff,
     read,
     write: Some(Writer::Mesh(write)),
+    rewrite: None,
 };
 
 fn sniff(source: &Input) -> u8 {

@@ -30,6 +30,7 @@ pub static SCENE: Format = Format {
     sniff: pbrt::sniff,
     read: |source| stone(source, pbrt::meshes(source)?),
     write: None,
+    rewrite: None,
 };
 
 /// A bare list of corners and faces.
@@ -40,6 +41,7 @@ pub static LIST: Format = Format {
     sniff: list::sniff,
     read: |source| stone(source, list::mesh(source)?),
     write: None,
+    rewrite: None,
 };
 
 /// The stone among the shapes: all of them together, or the only one that is a stone by itself.

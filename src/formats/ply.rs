@@ -27,6 +27,7 @@ pub static BINARY: Format = Format {
     sniff: |source| if header::begins(source) { 97 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_binary)),
+    rewrite: None,
 };
 
 /// Text PLY.
@@ -37,6 +38,7 @@ pub static TEXT: Format = Format {
     sniff: |source| if header::begins(source) && header::says_text(source) { 98 } else { 0 },
     read,
     write: Some(Writer::Mesh(write_text)),
+    rewrite: None,
 };
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {

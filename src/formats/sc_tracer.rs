@@ -27,6 +27,7 @@ pub static FORMAT: Format = Format {
     },
     read,
     write: Some(Writer::Mesh(write)),
+    rewrite: None,
 };
 
 fn read(source: &Input) -> Result<Parsed, FormatError> {

@@ -19,6 +19,7 @@ pub static BINARY: Format = Format {
     sniff: sniff_binary,
     read: |source| stone_from_mesh(source, &binary_mesh(source)?),
     write: Some(Writer::Mesh(write_binary)),
+    rewrite: None,
 };
 
 /// Text STL.
@@ -29,6 +30,7 @@ pub static TEXT: Format = Format {
     sniff: sniff_text,
     read: |source| stone_from_mesh(source, &text_mesh(source)?),
     write: Some(Writer::Mesh(write_text)),
+    rewrite: None,
 };
 
 /// How sure it is that a file of a binary STL's size is one: no text has its number of triangles, and hardly

@@ -204,6 +204,13 @@ impl Stone {
         self
     }
 
+    /// The same stone with another convex shape: a changed design.
+    pub fn with_design(mut self, design: Design) -> Result<Stone, StoneError> {
+        self.unit = design.unit;
+        self.shape = convex(&self.name, design)?;
+        Ok(self)
+    }
+
     /// The same shape with a girdle width of `mm`. A width that is not above 0 is refused.
     pub fn with_width(mut self, mm: f64) -> Result<Stone, StoneError> {
         if !(mm > 0.0 && mm.is_finite()) {

@@ -57,13 +57,16 @@ fn marked(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
 }
 
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    match marked(bytes) {
-        Some((encoding, mark)) => encoding.decode_without_bom_handling(&bytes[mark..]).0,
-        None => match std::str::from_utf8(bytes) {
-            Ok(text) => text.into(),
-            Err(_) => declared(bytes).unwrap_or(WINDOWS_1252).decode_without_bom_handling(bytes).0,
-        },
-    }
+    let (encoding, mark) = encoding_of(bytes);
+    encoding.decode_without_bom_handling(&bytes[mark..]).0
+}
+
+/// The encoding of a file's text, as [`decode`] says, and the length of its byte-order mark.
+pub(super) fn encoding_of(bytes: &[u8]) -> (&'static Encoding, usize) {
+    marked(bytes).unwrap_or_else(|| match std::str::from_utf8(bytes) {
+        Ok(_) => (UTF_8, 0),
+        Err(_) => (declared(bytes).unwrap_or(WINDOWS_1252), 0),
+    })
 }
 
 /// The encoding that an XML declaration names.

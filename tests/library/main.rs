@@ -45,3 +45,4 @@ mod trace;
 mod validate;
 mod variants;
 mod weighted_exits;
+mod write_back;

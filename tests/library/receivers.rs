@@ -54,7 +54,7 @@ fn gemcad_words(text: &str) -> Vec<Plane> {
             let number_of = |w: Option<&str>| {
                 let w = w.unwrap_or_else(|| panic!("{line}"));
                 let digits = w.trim_start_matches('-').trim_start_matches(['0', '.']);
-                assert!(digits.bytes().filter(u8::is_ascii_digit).count() <= 10, "{w}");
+                assert!(digits.bytes().filter(u8::is_ascii_digit).count() <= 15, "{w}");
                 w.parse::<f64>().unwrap_or_else(|_| panic!("{w} in {line}"))
             };
             match word {
@@ -112,7 +112,7 @@ fn gemcad_cuts_every_stone_whole_out_of_its_rough_from_text() {
         let (low, high) = seen.bounds();
         let largest = low.abs().max(high.abs()).max_element();
         assert!((0.7..1.5).contains(&largest), "{name}: {largest}");
-        // ten digits keep the shape
+        // fifteen digits keep the shape
         let shape = |s: &Polyhedron| s.volume() / s.width().powi(3);
         assert!((shape(&seen) / shape(&solid) - 1.0).abs() < 1e-8, "{name}");
     }

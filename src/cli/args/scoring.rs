@@ -15,6 +15,13 @@ pub struct ScoringArgs {
     /// Scores to compute, all if not given (see `cutlab list metrics`)
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = metric)]
     pub metrics: Vec<&'static Metric>,
+    #[command(flatten)]
+    pub how: ScoringHow,
+}
+
+/// How to score, whatever the metrics.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ScoringHow {
     /// Trace until every standard error is below this times the metric's scale: 1 for fractions and
     /// degrees, 100 for percentages
     #[arg(long, value_name = "E", value_parser = error)]
@@ -41,12 +48,30 @@ pub struct ScoringArgs {
 }
 
 impl ScoringArgs {
+    /// What of the material asked for is a guess ([`ScoringHow::notes`]).
+    pub fn notes(&self, sized: bool) -> Vec<String> {
+        self.how.notes(&self.metrics, sized)
+    }
+
+    /// The plan that was asked for.
+    pub fn plan(&self) -> ScoreRequest {
+        self.how.plan(&self.metrics)
+    }
+
+    /// What is asked for of every stone.
+    pub fn options(&self) -> StoneOptions {
+        self.how.options()
+    }
+}
+
+impl ScoringHow {
     /// What of the material asked for is a guess: its index, or the size of stones that have none.
     /// Commands say it once nothing is refused any more.
     ///
+    /// - `metrics`: none for all
     /// - `sized`: whether all stones have a size
-    pub fn notes(&self, sized: bool) -> Vec<String> {
-        let six = self.plan().metrics.iter().any(|m| m.needs_dispersion());
+    pub fn notes(&self, metrics: &[&'static Metric], sized: bool) -> Vec<String> {
+        let six = self.plan(metrics).metrics.iter().any(|m| m.needs_dispersion());
         let coloured = self.stone_args.material.as_ref().is_some_and(|m| !m.is_clear());
         let (from, to) = match (coloured, six) {
             (true, _) => VISIBLE_NM,
@@ -67,10 +92,12 @@ impl ScoringArgs {
     }
 
     /// The plan that was asked for.
-    pub fn plan(&self) -> ScoreRequest {
+    ///
+    /// - `metrics`: none for all; one that is named again is meant once
+    pub fn plan(&self, metrics: &[&'static Metric]) -> ScoreRequest {
         let default = ScoreRequest::default();
         ScoreRequest {
-            metrics: if self.metrics.is_empty() { default.metrics.clone() } else { self.once() },
+            metrics: if metrics.is_empty() { default.metrics.clone() } else { once(metrics) },
             target: self.error.map_or(default.target, Target::Error),
             polarised: self.polarisation,
             seed: self.seed,
@@ -80,21 +107,21 @@ impl ScoringArgs {
         }
     }
 
-    /// The metrics asked for: one that is named again is meant once.
-    fn once(&self) -> Vec<&'static Metric> {
-        let mut metrics: Vec<&'static Metric> = Vec::new();
-        for metric in &self.metrics {
-            if !metrics.iter().any(|m| m.name == metric.name) {
-                metrics.push(metric);
-            }
-        }
-        metrics
-    }
-
     /// What is asked for of every stone.
     pub fn options(&self) -> StoneOptions {
         self.stone_args.options(self.size)
     }
+}
+
+/// Every metric once.
+fn once(asked: &[&'static Metric]) -> Vec<&'static Metric> {
+    let mut metrics: Vec<&'static Metric> = Vec::new();
+    for metric in asked {
+        if !metrics.iter().any(|m| m.name == metric.name) {
+            metrics.push(metric);
+        }
+    }
+    metrics
 }
 
 /// No material has a higher index; beyond it a score takes up to a hundred times as long as a diamond's.

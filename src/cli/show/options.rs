@@ -28,6 +28,10 @@ pub struct ShowArgs {
     pub carat: Option<f64>,
     #[command(flatten)]
     pub stone_args: StoneArgs,
+    /// Also the meet network: which tiers meet in which corners, which are free, and what holds outline, girdle,
+    /// table and culet when the design is edited
+    #[arg(long)]
+    pub meets: bool,
     /// Also draw the virtual facets of the stone, face-up: by exact beams, shaded by where the
     /// strongest light of each point comes from; SVG (one stone only)
     #[arg(long, value_name = "PATTERN.svg")]

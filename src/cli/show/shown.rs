@@ -5,6 +5,8 @@ use super::options::ShowArgs;
 use super::stone_sheet::StoneSheet;
 use crate::cli::error::CliError;
 use crate::cli::weight;
+use crate::design::edit::Editor;
+use crate::design::edit::meets::MeetReport;
 use crate::formats::MeshFacts;
 use crate::materials::weight::Weight;
 use serde::Serialize;
@@ -80,7 +82,11 @@ impl Shown {
             Some(carats) => Some(weight::width_mm(&Weight::new(stone.material()), design, carats)?),
             None => args.size,
         };
-        Ok(Shown::Stone(Box::new(StoneSheet::new(&stone, design, solid, size))))
+        let mut sheet = StoneSheet::new(&stone, design, solid, size);
+        if args.meets {
+            sheet.meets = Some(MeetReport::new(&Editor::new(design)?));
+        }
+        Ok(Shown::Stone(Box::new(sheet)))
     }
 
     /// Lines for people.

@@ -2,6 +2,7 @@
 
 use super::measured::{self, MeasuredProportions};
 use super::tiers::TierRow;
+use crate::design::edit::meets::MeetReport;
 use crate::design::proportions::{self, Ratios};
 use crate::design::round_brilliant_measures::FacetLengths;
 use crate::design::symmetry::Symmetry;
@@ -44,6 +45,9 @@ pub struct StoneSheet {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proportion_envelope: Option<&'static str>,
     pub tiers: Vec<TierRow>,
+    /// If it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub meets: Option<MeetReport>,
     pub material: String,
     pub refractive_index: f64,
     pub critical_angle_deg: f64,
@@ -76,6 +80,7 @@ impl StoneSheet {
             facets_by_kind: p.by_zone.iter().copied().collect(),
             measured: MeasuredProportions::new(&p, design, size, &weight).in_unit_of(unit_mm),
             tiers: TierRow::all(design, solid),
+            meets: None,
             brilliant: p.brilliant,
             proportion_envelope: gia_envelopes::envelope(&p).filter(|_| weight.is_diamond()),
             graded: weight.is_diamond(),

@@ -1,6 +1,7 @@
 //! The sheet of a convex stone, for people.
 
 use super::measured::{figure, symmetry};
+use super::meets;
 use super::sheet;
 use super::stone_sheet::StoneSheet;
 use super::tiers::TierRow;
@@ -83,6 +84,7 @@ impl StoneSheet {
         let tiers = self.tiers.chunk_by(TierRow::reads_like).map(TierRow::joined);
         tiers.enumerate().for_each(|(i, t)| line(if i == 0 { "tiers" } else { "" }, t.text()));
         self.warnings.iter().for_each(|w| line("note", w.clone()));
-        format!("{} ({})\n{}", in_line(&self.file), self.format, sheet::text(lines))
+        let meets = self.meets.as_ref().map_or_else(String::new, |m| format!("\n{}", meets::text(m)));
+        format!("{} ({})\n{}{meets}", in_line(&self.file), self.format, sheet::text(lines))
     }
 }

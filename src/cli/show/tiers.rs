@@ -1,5 +1,6 @@
 //! The tiers of a design, as `cutlab show` lists them.
 
+use crate::design::edit;
 use crate::design::measured_tiers::{self, MeasuredTier};
 use crate::design::tiers::same_cutting_row;
 use crate::design::{Design, Tier};
@@ -10,31 +11,40 @@ use serde::Serialize;
 #[derive(Debug, Serialize)]
 pub struct TierRow {
     name: String,
+    /// Its place in its part of the stone, by which it can be changed: `P1`, `C2`.
+    place: String,
     angle_deg: Option<f64>,
     facets: Vec<String>,
     /// On the index wheel, as far as they are known.
     indices: Vec<f64>,
     #[serde(skip_serializing_if = "String::is_empty")]
     instructions: String,
+    /// Whether it was read off the planes, and its name is that of its zone.
+    #[serde(skip)]
+    is_measured: bool,
 }
 
 impl TierRow {
     /// The rows of a design: its own tiers, or, of a mesh, which has none, those read off its planes.
     pub fn all(design: &Design, solid: &Polyhedron) -> Vec<TierRow> {
         if design.tiers.iter().all(|t| t.angle_deg.is_none()) {
+            let tiers = measured_tiers::tiers(design, solid);
+            let zones: Vec<_> = tiers.iter().map(|t| (t.zone, "")).collect();
             let labels: Vec<String> =
                 design.tiers.iter().enumerate().flat_map(|(i, t)| t.labels(i + 1)).collect();
-            return measured_tiers::tiers(design, solid)
-                .iter()
-                .map(|t| TierRow::measured(t, &labels))
-                .collect();
+            let places = edit::places(&zones);
+            return tiers.iter().zip(places).map(|(t, place)| TierRow::measured(t, place, &labels)).collect();
         }
-        design.tiers.iter().enumerate().map(|(i, tier)| TierRow::from_tier(tier, i + 1)).collect()
+        let places = edit::places_of_tiers(design);
+        let numbered = design.tiers.iter().zip(places).enumerate();
+        numbered.map(|(i, (tier, place))| TierRow::from_tier(tier, place, i + 1)).collect()
     }
 
-    fn from_tier(tier: &Tier, number: usize) -> TierRow {
+    fn from_tier(tier: &Tier, place: String, number: usize) -> TierRow {
         TierRow {
             name: tier.name.clone(),
+            is_measured: false,
+            place,
             angle_deg: tier.angle_deg,
             facets: tier.labels(number),
             indices: tier.facets.iter().filter_map(|f| f.index).collect(),
@@ -42,9 +52,11 @@ impl TierRow {
         }
     }
 
-    fn measured(tier: &MeasuredTier, labels: &[String]) -> TierRow {
+    fn measured(tier: &MeasuredTier, place: String, labels: &[String]) -> TierRow {
         TierRow {
             name: tier.zone.name().into(),
+            is_measured: true,
+            place,
             angle_deg: Some(tier.angle_deg),
             facets: tier.facets.iter().map(|&f| labels[f].clone()).collect(),
             indices: tier.indices.clone(),
@@ -61,6 +73,8 @@ impl TierRow {
     pub fn joined(rows: &[TierRow]) -> TierRow {
         TierRow {
             name: rows.first().map(|r| r.name.clone()).unwrap_or_default(),
+            is_measured: rows.first().is_some_and(|r| r.is_measured),
+            place: rows.first().map(|r| r.place.clone()).unwrap_or_default(),
             angle_deg: rows.first().and_then(|r| r.angle_deg),
             facets: rows.iter().flat_map(|r| r.facets.clone()).collect(),
             indices: rows.iter().flat_map(|r| r.indices.clone()).collect(),
@@ -81,8 +95,9 @@ impl TierRow {
         }
         // a file without tier names may name its facets
         let labelled = |label: &&String| self.name.is_empty() && !label.starts_with("tier ");
-        let name = self.facets.first().filter(labelled).or(Some(&self.name));
-        let name = name.filter(|n| !n.is_empty()).map_or(String::new(), |n| format!("  {n}"));
-        format!("{angle:>8}{name}  {}", indices.join(" "))
+        let name = self.facets.first().filter(labelled).unwrap_or(&self.name);
+        // what has no name of its own is changed by its place
+        let name = if name.is_empty() || self.is_measured { &self.place } else { name };
+        format!("{angle:>8}  {name}  {}", indices.join(" "))
     }
 }

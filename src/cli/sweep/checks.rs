@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 
 /// Refuses what cannot be swept or drawn, before anything is scored.
 pub fn check(args: &SweepArgs) -> Result<(), CliError> {
-    args.scoring.stone_args.open(&args.stone)?;
+    args.scoring.how.stone_args.open(&args.stone)?;
     for (i, varied) in args.vary.iter().enumerate() {
         if args.vary[..i].iter().any(|v| v.key == varied.key) {
             return Err(CliError::input(format!("--vary {} is given twice", varied.key)));
@@ -37,7 +37,7 @@ fn check_parameter(args: &SweepArgs, varied: &SweptParameter) -> Result<(), CliE
         )));
     }
     let (from, to) = (varied.steps.from, varied.steps.to);
-    if key == INDEX && (args.scoring.stone_args.material.is_some() || args.scoring.stone_args.ri.is_some()) {
+    if key == INDEX && (args.scoring.how.stone_args.material.is_some() || args.scoring.how.stone_args.ri.is_some()) {
         return Err(CliError::input("--vary ri does not go with --material and --ri"));
     }
     let (low, high, what) = match key {

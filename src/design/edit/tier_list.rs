@@ -5,13 +5,17 @@ use crate::design::meet_network::MeetNetwork;
 use crate::design::tiers::{Design, Zone};
 use crate::parse;
 
+/// Facets of a tier whose angles differ by less, in radians, are set as one: above the rounding of three decimals of
+/// a degree.
+const ONE_ANGLE: f64 = 2e-5;
+
 /// A tier as it can be changed: facets that one angle is set for.
 #[derive(Debug, Clone)]
 pub struct EditableTier {
     /// Its name in the file; empty if it has none.
     pub name: String,
     /// Its place in the cutting order of its part of the stone: `P1`, `C2`, `G1`; of a mesh, whose facets have no
-    /// order, the steepest first.
+    /// order, the steepest first. Its number (`#7`) where another tier has that name.
     pub place: String,
     /// Where its facets are.
     pub zone: Zone,
@@ -50,7 +54,7 @@ impl TierList {
                 let polar = network.parts[part].polar;
                 let same = |t: &&mut EditableTier| {
                     let of = &network.parts[t.parts[0]];
-                    t.zone == zone && (of.polar - polar).abs() < 2e-5 && (is_cut || t.parts.contains(&part))
+                    t.zone == zone && (of.polar - polar).abs() < ONE_ANGLE && (is_cut || t.parts.contains(&part))
                 };
                 match tiers[first..].iter_mut().find(same) {
                     Some(known) => {
@@ -78,18 +82,9 @@ impl TierList {
                 |t: &EditableTier| (network.parts[t.parts[0]].polar - std::f64::consts::FRAC_PI_2).abs();
             tiers.sort_by(|a, b| a.zone.cmp(&b.zone).then(steep(a).total_cmp(&steep(b))));
         }
-        let mut counts = [0; 5];
-        for tier in &mut tiers {
-            let count = &mut counts[tier.zone as usize];
-            *count += 1;
-            tier.place = match tier.zone {
-                Zone::Table => format!("T{count}"),
-                Zone::Crown => format!("C{count}"),
-                Zone::Girdle => format!("G{count}"),
-                Zone::Pavilion => format!("P{count}"),
-                Zone::Culet => format!("K{count}"),
-            };
-        }
+        let named: Vec<(Zone, &str)> = tiers.iter().map(|t| (t.zone, t.name.as_str())).collect();
+        let places = places(&named);
+        tiers.iter_mut().zip(places).for_each(|(tier, place)| tier.place = place);
         TierList { tiers }
     }
 
@@ -105,7 +100,9 @@ impl TierList {
         } else {
             let exact = all(&|t| t.name == asked.trim());
             let by_name = if exact.is_empty() { all(&|t| parse::is_name(&t.name, asked)) } else { exact };
-            let by_place = || all(&|t| parse::is_name(&t.place, asked));
+            // the only table of a stone is T in its diagram, the only culet K
+            let alone = |t: &EditableTier| matches!(&*t.place, "T1" | "K1") && t.place.starts_with(asked.trim());
+            let by_place = || all(&|t| parse::is_name(&t.place, asked) || (asked.trim().len() == 1 && alone(t)));
             let number = asked.trim().trim_start_matches('#').parse::<usize>().ok();
             let by_number = || number.and_then(|n| self.tiers.get(n.checked_sub(1)?)).into_iter().collect();
             [&|| by_name.clone(), &by_place as &dyn Fn() -> Vec<_>, &by_number]
@@ -140,6 +137,48 @@ impl TierList {
             }
         }
     }
+}
+
+/// The place of each tier in its part of the stone: `P1`, `C2`, `G1`, `T1`, `K1`. Where another tier has that as its
+/// name, the tier's number: `#7`.
+///
+/// - `tiers`: zone and name of each, in cutting order
+pub fn places(tiers: &[(Zone, &str)]) -> Vec<String> {
+    let mut counts = [0; 5];
+    let place = |(number, (zone, name)): (usize, &(Zone, &str))| {
+        let count = &mut counts[*zone as usize];
+        *count += 1;
+        let letter = match zone {
+            Zone::Table => "T",
+            Zone::Crown => "C",
+            Zone::Girdle => "G",
+            Zone::Pavilion => "P",
+            Zone::Culet => "K",
+        };
+        let place = format!("{letter}{count}");
+        let is_taken = !parse::is_name(name, &place) && tiers.iter().any(|(_, n)| parse::is_name(n, &place));
+        if is_taken { format!("#{}", number + 1) } else { place }
+    };
+    tiers.iter().enumerate().map(place).collect()
+}
+
+/// The place of the first facet of each tier of a design that was cut by angle and index.
+pub fn places_of_tiers(design: &Design) -> Vec<String> {
+    let (mut named, mut first) = (Vec::new(), Vec::new());
+    for tier in &design.tiers {
+        first.push(named.len());
+        let mut known: Vec<(Zone, f64)> = Vec::new();
+        for facet in &tier.facets {
+            let normal = facet.plane.normal;
+            let (zone, polar) = (Zone::from_normal(normal), normal.truncate().length().atan2(normal.z));
+            if !known.iter().any(|(z, p)| *z == zone && (p - polar).abs() < ONE_ANGLE) {
+                known.push((zone, polar));
+                named.push((zone, if tier.name.is_empty() { &*facet.name } else { &*tier.name }));
+            }
+        }
+    }
+    let places = places(&named);
+    first.iter().map(|i| places.get(*i).cloned().unwrap_or_default()).collect()
 }
 
 /// Whether a name fits a pattern: `*` stands for any letters, `?` for one.

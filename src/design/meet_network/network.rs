@@ -62,4 +62,25 @@ impl MeetNetwork {
     pub fn position(&self, corner: &Corner) -> DVec3 {
         corner.position + self.frame.origin
     }
+
+    /// A place on the axis: the origin of a design that was cut by angle and index, the centre of mass of another.
+    pub fn middle(&self) -> DVec3 {
+        self.frame.origin
+    }
+
+    /// Distance of a plane of the design from the middle ([`MeetNetwork::middle`]).
+    pub fn distance_from_middle(&self, plane: &Plane) -> f64 {
+        self.frame.to(plane).distance
+    }
+
+    /// The corners by which the girdle is held: the highest that it has in common with the crown and the lowest
+    /// with the pavilion. None of a stone whose crown and pavilion have no girdle facets between them.
+    pub fn girdle_corners(&self) -> Option<[&Corner; 2]> {
+        self.holds.girdle.map(|corners| corners.map(|c| &self.corners[c]))
+    }
+
+    /// The corner by which the outline of a stone without girdle facets is held: the farthest from the axis.
+    pub fn outline_corner(&self) -> Option<&Corner> {
+        self.holds.outline.map(|c| &self.corners[c])
+    }
 }

@@ -3,12 +3,15 @@
 
 use crate::formats::input::{lines, number};
 use std::collections::VecDeque;
+use std::ops::Range;
 
 /// One word and where it stands.
 #[derive(Debug, Clone, Copy)]
 pub struct AscWord<'t> {
     /// The line, from 1.
     pub line: usize,
+    /// Where it begins in the text, in bytes.
+    pub at: usize,
     /// The word itself.
     pub text: &'t str,
     /// What follows it on its line.
@@ -25,6 +28,11 @@ impl<'t> AscWord<'t> {
         format!("{} {}", self.text, self.rest).trim_end().to_owned()
     }
 
+    /// Its place in the text, in bytes.
+    pub fn place(&self) -> Range<usize> {
+        self.at..self.at + self.text.len()
+    }
+
     /// Whether it begins a comment.
     pub fn is_comment(&self) -> bool {
         self.text.starts_with([';', '#'])
@@ -33,6 +41,7 @@ impl<'t> AscWord<'t> {
 
 /// The words that are still to be read.
 pub struct AscWords<'t> {
+    whole: &'t str,
     lines: Box<dyn Iterator<Item = (usize, &'t str)> + 't>,
     ahead: VecDeque<AscWord<'t>>,
     /// What is left of the line whose words are looked at, and its number.
@@ -44,7 +53,7 @@ pub struct AscWords<'t> {
 impl<'t> AscWords<'t> {
     pub fn new(text: &'t str) -> AscWords<'t> {
         let (ahead, line) = (VecDeque::new(), (1, ""));
-        AscWords { lines: Box::new(lines(text)), ahead, line, first: false, indented: false }
+        AscWords { whole: text, lines: Box::new(lines(text)), ahead, line, first: false, indented: false }
     }
 
     /// The number of the line that was looked at last.
@@ -82,6 +91,8 @@ impl<'t> AscWords<'t> {
         self.line.1 = rest;
         Some(AscWord {
             line,
+            // a part of the whole text: its address tells its place
+            at: text.as_ptr() as usize - self.whole.as_ptr() as usize,
             text,
             rest: rest.trim(),
             first: std::mem::take(&mut self.first),

@@ -1,13 +1,13 @@
 //! The tiers as a cutter reads them: a short name for the drawings, angle, indices, what to do.
 
 use super::wheel::index_name;
+use crate::design::edit;
 use crate::design::proportions::SLIVER;
 use crate::design::tiers::same_cutting_row;
 use crate::design::{Design, Gear, Tier, Zone};
 use crate::geometry::Polyhedron;
 use crate::geometry::polyhedron::PlaneStatus;
 use glam::DVec3;
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// One line of the table of tiers.
@@ -15,6 +15,8 @@ use std::f64::consts::TAU;
 pub struct DiagramRow {
     /// What stands in the drawings: P1, G1, C2, T, or the design's own name if it is short.
     pub code: String,
+    /// Its place in its part of the stone, by which `cutlab edit` finds it: P1, C2.
+    pub place: String,
     /// Where its facets are, as its first one lies.
     pub zone: Zone,
     /// Angle from the girdle plane in degrees, 0 to 90.
@@ -52,6 +54,7 @@ struct RowFacet<'a> {
 pub fn rows(design: &Design, solid: &Polyhedron) -> Vec<DiagramRow> {
     let mut rows = Vec::new();
     let mut number = 0;
+    let mut places = edit::places_of_tiers(design).into_iter();
     let alike = |a: &Tier, b: &Tier| same_cutting_row((&a.name, a.angle_deg), (&b.name, b.angle_deg));
     for tiers in design.tiers.chunk_by(alike) {
         let mut cuts: Vec<RowFacet> = Vec::new();
@@ -60,8 +63,13 @@ pub fn rows(design: &Design, solid: &Polyhedron) -> Vec<DiagramRow> {
             cuts.push(RowFacet { number, name: &facet.name, index: facet.index, normal, distance });
             number += 1;
         }
+        let place = places.next().unwrap_or_default();
+        tiers[1..].iter().for_each(|_| drop(places.next()));
         match tiers[0].angle_deg {
-            Some(angle) => rows.extend(row(design, solid, tiers, angle.abs(), &cuts)),
+            Some(angle) => {
+                let row = row(design, solid, tiers, angle.abs(), &cuts);
+                rows.extend(row.map(|row| DiagramRow { place, ..row }));
+            }
             None => rows.extend(measured(design, solid, tiers, cuts)),
         }
     }
@@ -72,6 +80,9 @@ pub fn rows(design: &Design, solid: &Polyhedron) -> Vec<DiagramRow> {
             Zone::Crown | Zone::Table => 2,
         };
         rows.sort_by(|a, b| place(a.zone).cmp(&place(b.zone)).then(b.angle_deg.total_cmp(&a.angle_deg)));
+        let zones: Vec<(Zone, &str)> = rows.iter().map(|row| (row.zone, "")).collect();
+        let places = edit::places(&zones);
+        rows.iter_mut().zip(places).for_each(|(row, place)| row.place = place);
     }
     name(&mut rows);
     rows
@@ -152,6 +163,7 @@ fn row(
     }
     Some(DiagramRow {
         code: own.unwrap_or_default().into(), // until `name` has seen them all
+        place: String::new(),
         zone: Zone::from_normal(cuts.first()?.normal),
         angle_deg,
         indices: if level { Vec::new() } else { indices },
@@ -169,23 +181,18 @@ fn on_wheel(index: f64, gear: Gear) -> f64 {
     if teeth - index < 0.005 { 0.0 } else { index }
 }
 
-/// Gives every row whose name is long or missing a letter for its zone and a number.
+/// Gives every row whose name is long or missing its place for a code; the only table is T, the only culet K.
 fn name(rows: &mut [DiagramRow]) {
     let short =
         |name: &str| (1..=SHORT).contains(&name.chars().count()) && !name.contains(char::is_whitespace);
-    let mut taken: BTreeSet<String> = rows.iter().map(|r| r.code.clone()).filter(|c| short(c)).collect();
+    let is_alone = |zone: Zone| rows.iter().filter(|r| r.zone == zone).count() == 1;
+    let alone = [(Zone::Table, "T"), (Zone::Culet, "K")].map(|(zone, letter)| {
+        let is_free = !rows.iter().any(|r| r.code == letter);
+        (is_alone(zone) && is_free).then_some((zone, letter))
+    });
     for row in rows.iter_mut().filter(|r| !short(&r.code)) {
-        let letter = match row.zone {
-            Zone::Table => "T",
-            Zone::Crown => "C",
-            Zone::Girdle => "G",
-            Zone::Pavilion => "P",
-            Zone::Culet => "K",
-        };
-        let alone = matches!(row.zone, Zone::Table | Zone::Culet).then(|| letter.to_string());
-        let numbered = (1..).map(|n| format!("{letter}{n}"));
-        let code = alone.into_iter().chain(numbered).find(|code| !taken.contains(code)).unwrap_or_default();
-        taken.insert(code.clone());
+        let letter = alone.iter().flatten().find(|(zone, _)| *zone == row.zone);
+        let code = letter.map_or_else(|| row.place.clone(), |(_, letter)| letter.to_string());
         let said = std::mem::replace(&mut row.code, code);
         let parts = [said, std::mem::take(&mut row.notes)];
         row.notes = parts.into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>().join(": ");

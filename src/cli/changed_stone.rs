@@ -1,0 +1,7 @@
+//! A changed stone on the command line: the file it goes to, and its tables.
+
+mod file;
+mod text;
+
+pub use file::{ChangedFile, WrittenArgs};
+pub use text::ChangedText;

@@ -1,0 +1,31 @@
+//! `cutlab edit`: a design changed by settings, shown before and after, and written.
+
+mod options;
+
+use super::changed_stone::{ChangedFile, ChangedText};
+use super::console::Console;
+use super::error::CliError;
+use super::exit_code::ExitStatus;
+use super::progress::BarProgress;
+use crate::design::edit::{DesignChanges, EditRequest, Editor};
+use crate::scoring::edit_report::EditReport;
+pub use options::EditArgs;
+
+/// Changes the stone, prints what changed and writes the result.
+pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {
+    let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
+    let stone = args.how.stone_args.open(&args.stone).map_err(CliError::from)?;
+    let design = stone.convex_design().map_err(|error| CliError::needs_convex("a change", error))?;
+    let editor = Editor::new(design)?;
+    let mut request = EditRequest::default().keep(args.keep);
+    request.settings.clone_from(&args.set);
+    let edited = editor.edit(&request.settings, request.keep)?;
+    file.encode(&stone, &edited.design, stone.given_material())?;
+    let mut report = EditReport::new(&stone, &edited.design, DesignChanges::new(&editor, &edited))?;
+    stone.warnings().iter().for_each(|warning| console.note(&format!("note: {warning}")));
+    if !args.score.is_empty() {
+        args.how.notes(&args.score, false).iter().for_each(|note| console.note(note));
+        report.score(&args.how.plan(&args.score), args.how.size, &BarProgress::new(console))?;
+    }
+    file.finish(&report, &ChangedText::new(&report), console)
+}

@@ -1,0 +1,68 @@
+//! Options of `cutlab retarget`.
+
+use crate::cli::args::scoring::{self, ScoringHow};
+use crate::cli::changed_stone::WrittenArgs;
+use crate::design::retarget::{CrownRule, PavilionRule};
+use crate::metrics::Metric;
+use crate::parse::{self, NumberUnit};
+use crate::stone::grammar;
+use std::ffi::OsString;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab retarget classic --material sapphire               a design for quartz, for sapphire
+  cutlab retarget mine.asc --ri 1.62 --from 1.54 -o topaz.asc
+  cutlab retarget mine.asc --material spinel --pavilion margin --crown keep
+
+The formulas are in `cutlab help editing`. Every meet of the design is kept: crown and pavilion are each
+scaled by the ratio of tangents. Scores are those of both designs in the new material, with the same
+random numbers.")]
+pub struct RetargetArgs {
+    /// The stone: a name from `cutlab list cuts`, with parameters or not, a file, or - for standard input. It is
+    /// made for the stone that --material or --ri says
+    #[arg(value_name = "STONE")]
+    pub stone: OsString,
+    /// The refractive index that the design is drawn for [what it states, or diamond's]
+    #[arg(long, value_name = "N", value_parser = grammar::refractive_index)]
+    pub from: Option<f64>,
+    /// Angle of the pavilion's main facets: range (the same place in the range of angles that reflect light along
+    /// the axis twice), margin (as far above the critical angle as before), keep, or degrees
+    #[arg(long, value_name = "range|margin|keep|DEGREES", default_value = "range", value_parser = pavilion)]
+    pub pavilion: PavilionRule,
+    /// What the tangents of the crown's angles are multiplied by: index (old index over new), keep, or a ratio
+    #[arg(long, value_name = "index|keep|RATIO", default_value = "index", value_parser = crown)]
+    pub crown: CrownRule,
+    #[command(flatten)]
+    pub written: WrittenArgs,
+    /// Scores before and after [windowing,iso,wlr,leakage]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = scoring::metric)]
+    pub score: Vec<&'static Metric>,
+    #[command(flatten)]
+    pub how: ScoringHow,
+}
+
+/// Value parser of `--pavilion`.
+fn pavilion(text: &str) -> Result<PavilionRule, String> {
+    match &*text.trim().to_lowercase() {
+        "range" => Ok(PavilionRule::Range),
+        "margin" => Ok(PavilionRule::Margin),
+        "keep" => Ok(PavilionRule::Keep),
+        _ => {
+            let what = "the pavilion's rule is range, margin, keep or an angle";
+            Ok(PavilionRule::Angle(parse::parse_number_within(text, NumberUnit::Degrees, 1.0..=89.0, what)?))
+        }
+    }
+}
+
+/// Value parser of `--crown`.
+fn crown(text: &str) -> Result<CrownRule, String> {
+    match &*text.trim().to_lowercase() {
+        "index" => Ok(CrownRule::Index),
+        "keep" => Ok(CrownRule::Keep),
+        _ => {
+            let what = "the crown's rule is index, keep or a ratio";
+            Ok(CrownRule::Ratio(parse::parse_number_within(text, NumberUnit::None, 0.01..=100.0, what)?))
+        }
+    }
+}
