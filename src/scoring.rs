@@ -3,11 +3,11 @@
 mod adaptive;
 pub mod comparison;
 pub mod constraint;
+pub mod edit_report;
 pub mod evaluator;
 pub mod gain;
 pub mod objective;
 mod paired_runs;
-pub mod edit_report;
 pub mod score;
 pub mod scores;
 pub mod settings;

@@ -73,10 +73,7 @@ fn metrics(args: &RetargetArgs) -> Vec<&'static Metric> {
 fn head(figures: &RetargetFigures) -> Vec<String> {
     let (n, c, p) = (figures.refractive_index, figures.critical_angle_deg, figures.pavilion_angle_deg);
     vec![
-        format!(
-            "n {:.4} → {:.4}, critical angle {:.2}° → {:.2}°",
-            n.before, n.after, c.before, c.after
-        ),
+        format!("n {:.4} → {:.4}, critical angle {:.2}° → {:.2}°", n.before, n.after, c.before, c.after),
         format!(
             "pavilion by {} {:.2}° → {:.2}°: tangents × {:.4}; crown: tangents × {:.4}",
             figures.pavilion_tier, p.before, p.after, figures.pavilion_scale, figures.crown_scale

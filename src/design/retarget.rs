@@ -1,7 +1,7 @@
 //! A design for a stone of another refractive index: pavilion by the critical angle, crown by a tangent ratio. The
 //! formulas are in [`crate::manual::editing`].
 
-use super::edit::{BeforeAfter, EditError, Edited, Editor, Keep, Setting, Side, EditTarget};
+use super::edit::{BeforeAfter, EditError, EditTarget, Edited, Editor, Keep, Setting, Side};
 use super::tiers::{Design, Zone};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
@@ -240,7 +240,13 @@ impl RetargetRequest {
                 let is_beyond = |angle: f64, low: f64, high: f64| angle < low || angle > high;
                 if is_beyond(after, c_to, most_to) && !is_beyond(before, c_from, most_from) {
                     let (tier, index) = (tier.into(), self.to);
-                    return Err(RetargetError::Beyond { tier, angle: after, low: c_to, high: most_to, index });
+                    return Err(RetargetError::Beyond {
+                        tier,
+                        angle: after,
+                        low: c_to,
+                        high: most_to,
+                        index,
+                    });
                 }
                 Ok(after)
             }

@@ -24,6 +24,13 @@ impl Default for Guards {
     }
 }
 
+impl Guards {
+    /// - `least_facet_percent`: of the girdle width; `least_girdle`: a part of what the girdle is
+    pub fn new(least_facet_percent: f64, least_girdle: f64) -> Guards {
+        Guards { least_facet_percent, least_girdle }
+    }
+}
+
 /// The bounds of one stone: what it has of each at the start.
 #[derive(Debug, Clone)]
 pub struct GuardedStone {

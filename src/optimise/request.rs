@@ -38,6 +38,7 @@ pub struct OptimiseRequest {
     /// How finely candidates are scored.
     pub effort: Effort,
     /// How points are chosen; none for the method that was best when measured.
+    #[serde(with = "method_by_name")]
     pub method: Option<Method>,
     /// The most designs that are scored, the start among them.
     pub evaluations: usize,
@@ -47,6 +48,22 @@ pub struct OptimiseRequest {
     pub seed: u64,
     /// How many distinct designs are kept at most; none keeps one, or of a front up to eight.
     pub keep_best: Option<usize>,
+}
+
+/// A method as its name.
+mod method_by_name {
+    use crate::search::Method;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(method: &Option<Method>, to: S) -> Result<S::Ok, S::Error> {
+        method.map(Method::name).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Method>, D::Error> {
+        let name: Option<String> = Option::deserialize(from)?;
+        name.map(|name| name.parse().map_err(D::Error::custom)).transpose()
+    }
 }
 
 impl Default for OptimiseRequest {

@@ -97,6 +97,9 @@ impl OptimiseRequest {
     ///
     /// Errors: tiers, parameters, metrics that the stone does not have; a bound that it breaks as it is.
     pub fn prepared(&self, stone: &Stone) -> Result<Optimisation<'_>, OptimiseError> {
+        if self.objectives.is_empty() {
+            return Err(ObjectiveError::Nothing.into());
+        }
         let editor = Editor::new(stone.convex_design()?)?;
         let usual;
         let vary = match &self.vary[..] {
@@ -127,7 +130,7 @@ impl Optimisation<'_> {
     /// - `known`: candidates of an earlier run that was interrupted
     /// - `found`: is told new candidates as they come, in their order
     pub fn run(
-        self,
+        &self,
         known: Vec<Candidate>,
         found: &dyn Fn(&[Candidate]),
         progress: &dyn Progress,

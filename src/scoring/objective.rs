@@ -142,6 +142,11 @@ impl TiltedMetric {
         TiltedMetric { metric, tilts: Tilts::default(), material: None, observer: None }
     }
 
+    /// Whether it is seen face-up alone.
+    pub fn is_face_up(&self) -> bool {
+        self.tilts.degrees == [0.0]
+    }
+
     /// The metric as it is typed, with the tilts that it is at, and what the worst of them is called.
     pub fn name(&self) -> String {
         let Tilts { degrees, over, .. } = &self.tilts;

@@ -286,7 +286,8 @@ impl Editor {
     /// Angle of a tier from the girdle plane in degrees, without sign.
     pub fn angle_deg(&self, tier: &EditableTier) -> f64 {
         let polar = self.network.parts[tier.parts[0]].polar;
-        FRAC_PI_2.min(if polar > FRAC_PI_2 { PI - polar } else { polar }).to_degrees()
+        let angle = FRAC_PI_2.min(if polar > FRAC_PI_2 { PI - polar } else { polar }).to_degrees();
+        (angle * 1e9).round() / 1e9
     }
 
     /// The value that table, girdle, culet or a parameter of the family has now. The error says what the design
