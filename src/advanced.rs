@@ -32,6 +32,12 @@ pub mod storage {
     pub use crate::storage::*;
 }
 
+/// Search for the best points of a box, for one objective or several.
+#[cfg(feature = "search")]
+pub mod search {
+    pub use crate::search::*;
+}
+
 /// CIE observer, illuminants, daylight, RGB upsampling, the colours of viewers.
 pub mod color {
     pub use crate::color::*;
