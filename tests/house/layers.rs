@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// strangers.
 const ROWS: &[&[&str]] = &[
     &["sampling", "parse", "limits", "parallel", "progress"],
-    &["storage"],
+    &["storage", "search"],
     &["color", "optics", "geometry"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],

@@ -40,6 +40,7 @@ mod round_brilliant;
 mod scintillation;
 mod score_promises;
 mod scores;
+mod search;
 mod tilts;
 mod trace;
 mod validate;

@@ -84,21 +84,15 @@ impl<const M: usize> SurrogateFront<M> {
     /// The points of the model's front that add most to the front so far.
     fn promising(&self, model: &SurrogateModel, front: &[usize]) -> Result<Vec<Vec<f64>>, SearchError> {
         // of a large front every so many, others in each round
-        let par = std::env::var("PAR").unwrap_or_default();
-        let step = if par == "first" { 1 } else { front.len().div_ceil(POPULATION / 2).max(1) };
-        let parents = front.iter().skip(self.round as usize % step).step_by(step).take(if par == "none" {
-            0
-        } else if par == "all" {
-            100
-        } else {
-            POPULATION / 2
-        });
+        let step = front.len().div_ceil(POPULATION / 2).max(1);
+        let parents = front.iter().skip(self.round as usize % step).step_by(step);
         let parents = parents.map(|&i| self.samples[i].point.clone()).collect();
         let variables = self.first[0].len();
         let mut search = nsga2::<M>(variables, parents, POPULATION, self.seed.wrapping_add(self.round))?;
         for _ in 0..GENERATIONS {
             let asked: Vec<Vec<f64>> = search.ask().iter().map(|genome| genome.to_vec()).collect();
-            search.tell(&asked.iter().map(|x| scores(&model.expect(x))).collect::<Vec<_>>())?;
+            let expected: Vec<_> = asked.iter().map(|point| scores(&model.expect(point))).collect();
+            search.tell(&expected)?;
         }
         let points = search.population().iter().map(|individual| individual.genome().to_vec());
         let is_new = |point: &Vec<f64>| self.samples.iter().all(|s| distance(&s.point, point) >= APART);

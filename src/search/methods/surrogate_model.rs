@@ -21,7 +21,7 @@ const NEAREST: f64 = 1e-5;
 
 /// The share of an objective's values below which the model takes them all for the same. A cliff in a region
 /// that nobody wants would otherwise make waves in others.
-const LEVELLED: f64 = 0.25;
+const LEVELLED: f64 = 0.2;
 
 /// The expected violation that is taken for none, as a share of the largest: a function that is level where
 /// no constraint is broken is never met exactly there.
@@ -78,14 +78,7 @@ impl SurrogateModel {
 fn floor(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    values
-        .get(
-            (values.len() as f64
-                * std::env::var("LEVEL").ok().and_then(|q| q.parse().ok()).unwrap_or(LEVELLED))
-                as usize,
-        )
-        .copied()
-        .unwrap_or(0.0)
+    values.get((values.len() as f64 * LEVELLED) as usize).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]
