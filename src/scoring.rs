@@ -3,6 +3,7 @@
 mod adaptive;
 pub mod comparison;
 pub mod constraint;
+pub mod effort;
 pub mod evaluator;
 pub mod gain;
 pub mod objective;
@@ -11,9 +12,11 @@ pub mod score;
 pub mod scores;
 pub mod settings;
 pub mod tier_effects;
+mod views;
 
 pub use comparison::Comparison;
-pub use evaluator::{Effort, Evaluator, Values};
+pub use effort::Effort;
+pub use evaluator::{Evaluator, Values};
 pub use gain::Gain;
 pub use objective::{Aim, Objective, ObjectiveError, TiltedMetric};
 pub use score::{score, score_all};
