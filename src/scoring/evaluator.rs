@@ -2,98 +2,17 @@
 
 use super::comparison::RUNS;
 use super::constraint::{Bound, BrokenBound, Constraint, Quantity};
-use super::objective::{Aim, Objective, ObjectiveError, OverTilts, TiltedMetric};
+use super::effort::Effort;
+use super::objective::{Objective, ObjectiveError};
 use super::paired_runs::PairedRuns;
 use super::score::score_candidate;
-use super::settings::{ScoreRequest, Tilt};
-use crate::design::{USUAL_WIDTH_MM, proportions};
-use crate::estimators::catalogue::BeamNoise;
+use super::settings::ScoreRequest;
+use super::views::{self, Places, View};
+use crate::design::proportions;
 use crate::geometry::Polyhedron;
-use crate::limits::Limits;
 use crate::materials::Material;
-use crate::metrics::{Metric, MetricSource};
 use crate::sampling::stats::Estimate;
 use crate::trace::ConvexStone;
-use serde::{Deserialize, Serialize};
-
-/// How finely candidates are scored.
-///
-/// Where beams of one direction have no noise (the faceters' view in a clear stone) they are followed until no
-/// more light is left than `error` allows. Else `samples` decide, with the same random numbers for every
-/// candidate, so that two candidates differ by less than their errors say.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[non_exhaustive]
-pub struct Effort {
-    /// The most that a score by beams without noise may be off, times the metric's scale.
-    pub error: f64,
-    /// Points of the hemisphere and the view, fewer of dearer estimators.
-    pub samples: u64,
-    /// Seed of the random numbers.
-    pub seed: u64,
-    /// Whether light keeps its polarisation from facet to facet.
-    pub polarised: bool,
-    /// Girdle width in millimetres of a stone that absorbs, whose size matters.
-    pub size_mm: f64,
-}
-
-impl Default for Effort {
-    /// A tenth of a point of ISO, ±.0004 of WLR.
-    fn default() -> Effort {
-        Effort { error: 1e-3, samples: 1 << 17, seed: 1, polarised: true, size_mm: USUAL_WIDTH_MM }
-    }
-}
-
-impl Effort {
-    /// With the most that a score by beams without noise may be off, times the metric's scale.
-    pub fn error(self, error: f64) -> Effort {
-        Effort { error, ..self }
-    }
-
-    /// With so many points of the hemisphere and the view.
-    pub fn samples(self, samples: u64) -> Effort {
-        Effort { samples, ..self }
-    }
-
-    /// With a seed of the random numbers.
-    pub fn seed(self, seed: u64) -> Effort {
-        Effort { seed, ..self }
-    }
-
-    /// Whether light keeps its polarisation from facet to facet.
-    pub fn polarised(self, polarised: bool) -> Effort {
-        Effort { polarised, ..self }
-    }
-
-    /// With a girdle width in millimetres of stones that absorb.
-    pub fn size_mm(self, size_mm: f64) -> Effort {
-        Effort { size_mm, ..self }
-    }
-}
-
-/// Metrics of one view.
-struct View {
-    material: Material,
-    observer: Option<f64>,
-    tilt: Option<Tilt>,
-    /// Whether they have no noise.
-    is_closed: bool,
-    metrics: Vec<&'static Metric>,
-}
-
-/// A metric among the views.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    view: usize,
-    column: usize,
-}
-
-/// Where the values are that a metric at tilts is made of: tilt by tilt, those about each axis.
-struct Places {
-    tilts: Vec<Vec<Place>>,
-    over: OverTilts,
-    aim: Aim,
-}
 
 /// What a constraint bounds.
 enum Bounded {
@@ -168,12 +87,14 @@ impl Evaluator {
         let mut views = Vec::new();
         let mut of_objectives = Vec::new();
         for objective in &objectives {
-            of_objectives.push(places(&mut views, &objective.of, objective.aim, material)?);
+            of_objectives.push(views::places(&mut views, &objective.of, objective.aim, material)?);
         }
         let mut of_constraints = Vec::new();
         for constraint in &constraints {
             of_constraints.push(match &constraint.of {
-                Quantity::Score(of) => Bounded::Score(places(&mut views, of, constraint.aim(), material)?),
+                Quantity::Score(of) => {
+                    Bounded::Score(views::places(&mut views, of, constraint.aim(), material)?)
+                }
                 Quantity::Proportion(of) => Bounded::Proportion(of.of),
             });
         }
@@ -229,13 +150,13 @@ impl Evaluator {
         let stone = self.prepared(candidate);
         let Effort { error, samples, seed, .. } = self.effort;
         // half of what is left untraced may be the error
-        let runs = vec![self.scored(&stone, 2.0 * error, samples, seed, |_| true)?];
-        let objectives = self.of_objectives.iter().map(|of| value(of, &runs[0])).collect();
+        let scores = self.scored(&stone, 2.0 * error, samples, seed, |_| true)?;
+        let objectives = self.of_objectives.iter().map(|of| views::value(of, &scores)).collect();
         let mut constraints = Vec::with_capacity(self.of_constraints.len());
         let mut measured = None;
         for (of, constraint) in self.of_constraints.iter().zip(&self.constraints) {
             constraints.push(match of {
-                Bounded::Score(of) => value(of, &runs[0]),
+                Bounded::Score(of) => views::value(of, &scores),
                 Bounded::Proportion(of) => {
                     let measured = measured.get_or_insert_with(|| proportions::measure(candidate));
                     let why = || not_measured(&constraint.of.name(), "the stone has no such proportion");
@@ -245,6 +166,13 @@ impl Evaluator {
         }
         let violation = self.violation(&constraints);
         Ok(Values { objectives, constraints, violation })
+    }
+
+    /// The objectives of a candidate so that more of each is better: the sign of those is turned of which less
+    /// is wanted.
+    pub fn maximised(&self, values: &Values) -> Vec<f64> {
+        let each = self.objectives.iter().zip(&values.objectives);
+        each.map(|(objective, found)| objective.aim.sign() * found.value).collect()
     }
 
     fn violation(&self, constraints: &[Estimate]) -> f64 {
@@ -273,7 +201,7 @@ impl Evaluator {
                 runs.push(scored);
             }
         }
-        Ok(self.of_objectives.iter().map(|of| paired(of, &runs)).collect())
+        Ok(self.of_objectives.iter().map(|of| views::paired(of, &runs)).collect())
     }
 
     /// A solid ready for tracing.
@@ -320,92 +248,4 @@ impl Evaluator {
 
 fn not_measured(quantity: &str, why: &str) -> ObjectiveError {
     ObjectiveError::NotMeasured { quantity: quantity.into(), why: why.into() }
-}
-
-/// The places of a metric at its tilts; views that nothing else has asked for are added.
-fn places(
-    views: &mut Vec<View>,
-    of: &TiltedMetric,
-    aim: Aim,
-    material: &Material,
-) -> Result<Places, ObjectiveError> {
-    of.check()?;
-    let material = match &of.material {
-        Some(name) => Material::open(name, Limits::default()).map_err(ObjectiveError::Material)?,
-        None => material.clone(),
-    };
-    let is_solid = matches!(of.metric.read_from, MetricSource::Solid(_));
-    let is_closed = is_solid || material.is_clear() && of.metric.beam_noise() == Some(BeamNoise::None);
-    let mut place = |tilt: Option<Tilt>| {
-        let same = |v: &View| {
-            v.is_closed == is_closed && v.observer == of.observer && v.tilt == tilt && v.material == material
-        };
-        let view = views.iter().position(same).unwrap_or_else(|| {
-            let material = material.clone();
-            views.push(View { material, observer: of.observer, tilt, is_closed, metrics: Vec::new() });
-            views.len() - 1
-        });
-        let metrics = &mut views[view].metrics;
-        let column = metrics.iter().position(|m| m.name == of.metric.name).unwrap_or_else(|| {
-            metrics.push(of.metric);
-            metrics.len() - 1
-        });
-        Place { view, column }
-    };
-    let tilts = of.views().into_iter().map(|about| about.into_iter().map(&mut place).collect()).collect();
-    Ok(Places { tilts, over: of.tilts.over, aim })
-}
-
-/// The mean of estimates; their errors may have a cause in common, so they add up.
-fn mean(of: impl ExactSizeIterator<Item = Estimate>) -> Estimate {
-    let n = of.len() as f64;
-    let sum = of.fold(Estimate::exact(0.0), |sum, e| Estimate {
-        value: sum.value + e.value,
-        error: sum.error + e.error,
-    });
-    Estimate { value: sum.value / n, error: sum.error / n }
-}
-
-/// A metric at its tilts from the scores of one run.
-fn value(of: &Places, scores: &[Vec<Estimate>]) -> Estimate {
-    let tilts: Vec<Estimate> = of
-        .tilts
-        .iter()
-        .map(|about| mean(about.iter().map(|place| scores[place.view][place.column])))
-        .collect();
-    let badness = |e: &Estimate| -of.aim.sign() * e.value;
-    let worst = match of.over {
-        OverTilts::Mean => return mean(tilts.iter().copied()),
-        OverTilts::Worst => tilts.iter().copied().max_by(|a, b| badness(a).total_cmp(&badness(b))),
-    };
-    let worst = worst.unwrap_or(Estimate::exact(f64::NAN));
-    // any tilt may be the worst that is within the errors of it
-    let could_be = |e: &&Estimate| badness(e) + 2.0 * e.error >= badness(&worst) - 2.0 * worst.error;
-    Estimate { error: tilts.iter().filter(could_be).map(|e| e.error).fold(0.0, f64::max), ..worst }
-}
-
-/// A metric at its tilts in paired runs. The worst tilt is the one that is worst in the mean over the runs.
-fn paired(of: &Places, runs: &[Vec<Vec<Estimate>>]) -> PairedRuns {
-    let at = |place: &Place| {
-        let scores = || runs.iter().map(|scores| scores[place.view][place.column]);
-        let first = scores().next().unwrap_or(Estimate::exact(f64::NAN));
-        match scores().all(|score| score == first) {
-            true => PairedRuns::new(vec![first.value], first.error),
-            // the runs differ by their noise, which their errors hold
-            false => PairedRuns::new(scores().map(|score| score.value).collect(), 0.0),
-        }
-    };
-    let mean = |parts: Vec<PairedRuns>| {
-        let weight = 1.0 / parts.len() as f64;
-        PairedRuns::combined(parts.iter().map(|part| (weight, part)))
-    };
-    let tilts: Vec<PairedRuns> = of.tilts.iter().map(|about| mean(about.iter().map(at).collect())).collect();
-    let badness = |runs: &PairedRuns| -of.aim.sign() * runs.value();
-    match of.over {
-        OverTilts::Mean => mean(tilts),
-        OverTilts::Worst => {
-            let worst = tilts.into_iter().max_by(|a, b| badness(a).total_cmp(&badness(b)));
-            worst.unwrap_or_else(|| PairedRuns::new(Vec::new(), 0.0))
-        }
-    }
 }
