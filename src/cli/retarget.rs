@@ -30,7 +30,8 @@ struct RetargetReport<'a> {
 pub fn run(args: &RetargetArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let asked = args.how.stone_args.options(None);
     let material = asked.asked_material().map_err(CliError::input)?;
-    let material = material.ok_or_else(|| CliError::input("for what stone? --ri N or --material NAME"))?;
+    let material = material
+        .ok_or_else(|| CliError::input("a design is made for a new stone: say --material NAME or --ri N"))?;
     let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
     // as the stone is before: of its own material
     let own = StoneOptions { material: None, ri: None, opened_material: None, ..asked };
@@ -73,10 +74,7 @@ fn metrics(args: &RetargetArgs) -> Vec<&'static Metric> {
 fn head(figures: &RetargetFigures) -> Vec<String> {
     let (n, c, p) = (figures.refractive_index, figures.critical_angle_deg, figures.pavilion_angle_deg);
     vec![
-        format!(
-            "n {:.4} → {:.4}, critical angle {:.2}° → {:.2}°",
-            n.before, n.after, c.before, c.after
-        ),
+        format!("n {:.4} → {:.4}, critical angle {:.2}° → {:.2}°", n.before, n.after, c.before, c.after),
         format!(
             "pavilion by {} {:.2}° → {:.2}°: tangents × {:.4}; crown: tangents × {:.4}",
             figures.pavilion_tier, p.before, p.after, figures.pavilion_scale, figures.crown_scale

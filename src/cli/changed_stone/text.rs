@@ -42,7 +42,10 @@ impl ChangedText<'_> {
         if report.changes.is_empty() {
             text += "nothing changed\n";
         }
-        text += &format!("\n{}", table(&["", "before", "after", ""], report.changes.measures.iter().map(measure)));
+        text += &format!(
+            "\n{}",
+            table(&["", "before", "after", ""], report.changes.measures.iter().map(measure))
+        );
         if !report.scores.is_empty() {
             let head = ["", "before", "after", "difference", "unit", "better", ""];
             text += &format!("\n{}", table(&head, report.scores.iter().map(score)));

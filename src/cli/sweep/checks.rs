@@ -37,7 +37,9 @@ fn check_parameter(args: &SweepArgs, varied: &SweptParameter) -> Result<(), CliE
         )));
     }
     let (from, to) = (varied.steps.from, varied.steps.to);
-    if key == INDEX && (args.scoring.how.stone_args.material.is_some() || args.scoring.how.stone_args.ri.is_some()) {
+    if key == INDEX
+        && (args.scoring.how.stone_args.material.is_some() || args.scoring.how.stone_args.ri.is_some())
+    {
         return Err(CliError::input("--vary ri does not go with --material and --ri"));
     }
     let (low, high, what) = match key {

@@ -159,7 +159,8 @@ fn tiers(editor: &Editor, edited: &Edited) -> Vec<TierChange> {
     if !has_same_facets(&editor.design, &edited.design) {
         return rebuilt(editor, edited, widths);
     }
-    let state = |planes: &[Plane], facets: &[usize], width| TierState::of(planes, facets, &editor.network, width);
+    let state =
+        |planes: &[Plane], facets: &[usize], width| TierState::of(planes, facets, &editor.network, width);
     let indices = |design: &Design| design.facets().map(|f| f.index).collect::<Vec<_>>();
     let (index_before, index_after) = (indices(&editor.design), indices(&edited.design));
     let teeth = editor.design.gear.teeth.abs();

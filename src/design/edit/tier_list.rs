@@ -54,7 +54,9 @@ impl TierList {
                 let polar = network.parts[part].polar;
                 let same = |t: &&mut EditableTier| {
                     let of = &network.parts[t.parts[0]];
-                    t.zone == zone && (of.polar - polar).abs() < ONE_ANGLE && (is_cut || t.parts.contains(&part))
+                    t.zone == zone
+                        && (of.polar - polar).abs() < ONE_ANGLE
+                        && (is_cut || t.parts.contains(&part))
                 };
                 match tiers[first..].iter_mut().find(same) {
                     Some(known) => {
@@ -101,8 +103,10 @@ impl TierList {
             let exact = all(&|t| t.name == asked.trim());
             let by_name = if exact.is_empty() { all(&|t| parse::is_name(&t.name, asked)) } else { exact };
             // the only table of a stone is T in its diagram, the only culet K
-            let alone = |t: &EditableTier| matches!(&*t.place, "T1" | "K1") && t.place.starts_with(asked.trim());
-            let by_place = || all(&|t| parse::is_name(&t.place, asked) || (asked.trim().len() == 1 && alone(t)));
+            let alone =
+                |t: &EditableTier| matches!(&*t.place, "T1" | "K1") && t.place.starts_with(asked.trim());
+            let by_place =
+                || all(&|t| parse::is_name(&t.place, asked) || (asked.trim().len() == 1 && alone(t)));
             let number = asked.trim().trim_start_matches('#').parse::<usize>().ok();
             let by_number = || number.and_then(|n| self.tiers.get(n.checked_sub(1)?)).into_iter().collect();
             [&|| by_name.clone(), &by_place as &dyn Fn() -> Vec<_>, &by_number]
