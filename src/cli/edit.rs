@@ -14,7 +14,7 @@ pub use options::{EditArgs, keep};
 /// Changes the stone, prints what changed and writes the result.
 pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
-    let stone = args.how.stone_args.open(&args.stone).map_err(CliError::from)?;
+    let stone = args.how.stone_args.open(&args.stone)?;
     let design = stone.convex_design().map_err(|error| CliError::needs_convex("a change", error))?;
     let editor = Editor::new(design)?;
     let mut request = EditRequest::default().keep(args.keep);

@@ -30,7 +30,8 @@ struct RetargetReport<'a> {
 pub fn run(args: &RetargetArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let asked = args.how.stone_args.options(None);
     let material = asked.asked_material().map_err(CliError::input)?;
-    let material = material.ok_or_else(|| CliError::input("for what stone? --ri N or --material NAME"))?;
+    let material = material
+        .ok_or_else(|| CliError::input("a design is made for a new stone: say --material NAME or --ri N"))?;
     let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
     // as the stone is before: of its own material
     let own = StoneOptions { material: None, ri: None, opened_material: None, ..asked };

@@ -106,15 +106,12 @@ pub enum RetargetError {
     #[error("no inclined facet of the pavilion reaches the stone's lowest point or culet")]
     NoPavilion,
     /// An index at which no angle reflects light along the axis twice.
-    #[error(
-        "at n = {0} no pavilion reflects light along the axis twice (that takes n above 1.414): keep the \
-         pavilion, its margin, or give an angle"
-    )]
+    #[error("at n = {0:.4} no pavilion reflects light along the axis twice: that takes n above 1.414")]
     NoRange(f64),
     /// An angle beyond the range at which light along the axis is reflected at both sides of the pavilion.
     #[error(
         "{tier} would have {angle:.2}°, and light along the axis is reflected at both sides of the pavilion \
-         from {low:.2}° to {high:.2}° only (n = {index})"
+         from {low:.2}° to {high:.2}° only (n = {index:.4})"
     )]
     Beyond {
         /// The tier.

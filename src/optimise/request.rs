@@ -4,7 +4,7 @@ use super::guards::Guards;
 use super::variable::Variable;
 use crate::design::edit::Keep;
 use crate::scoring::constraint::Constraint;
-use crate::scoring::evaluator::Effort;
+use crate::scoring::effort::Effort;
 use crate::scoring::objective::Objective;
 use crate::search::Method;
 use serde::{Deserialize, Serialize};

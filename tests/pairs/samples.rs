@@ -53,6 +53,19 @@ const SAMPLES: &[Sample] = &[
     ("sweep", "stone", &[&["round-brilliant:facets=73"], &["a.asc"], &["oval"]]),
     ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"], &["d"]]),
     ("report", "stones", &[&["a.asc"], &["cube", "o.stl"]]),
+    ("edit", "stone", &[&["a.asc"], &["round-brilliant"], &["b.gem"], &["-"], &["o.stl"]]),
+    ("retarget", "stone", &[&["a.asc"], &["classic"], &["b.gem"], &["-"], &["o.stl"]]),
+    // changes
+    (
+        "edit",
+        "set",
+        &[&["P1.angle+=0.1"], &["crown.scale=0.98", "C1.index+=0"], &["girdle+=0.2"], &["P*.angle-=0.2"]],
+    ),
+    ("edit", "keep", &[&["meets"], &["angles"], &["depths"]]),
+    ("retarget", "from", &[&["1.6"]]),
+    ("retarget", "pavilion", &[&["range"], &["margin"], &["keep"], &["43"]]),
+    ("retarget", "crown", &[&["index"], &["keep"], &["0.9"]]),
+    ("*", "score", &[&["spread,weight_ratio"], &["iso,wlr"]]),
     (
         "merge",
         "parts",
@@ -82,6 +95,8 @@ const SAMPLES: &[Sample] = &[
             &["-"],
         ],
     ),
+    ("edit", "output", &[&["x.asc"], &["x.toml"], &["x.gem"], &["x.stl"], &["x.svg"], &["-"]]),
+    ("retarget", "output", &[&["x.asc"], &["x.toml"], &["x.obj"], &["-"]]),
     ("*", "output", &[&["x.csv"], &["x.jsonl"], &["x.json"], &["-"]]),
     ("compare", "output", &[&["out"], &["x.md"], &["x.csv"], &["-"]]),
     ("report", "output", &[&["out"]]),
@@ -200,7 +215,9 @@ pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
         words.extend(["--width".into(), "64".into()]);
     }
     let all = ["score", "sweep", "compare"].contains(&command) && !has("--metrics");
-    if (command == "report" || all) && !has("--error") {
+    // what a retargeted stone is scored by unless it is said, too
+    let changed = command == "retarget" || (command == "edit" && has("--score"));
+    if (command == "report" || all || changed) && !has("--error") {
         words.extend(["--error".into(), "0.05".into()]);
     }
     words

@@ -12,6 +12,7 @@ mod compare;
 mod concurrent_outputs;
 mod corpus;
 mod diagram;
+mod edit;
 mod error_estimates;
 mod exits;
 mod hostile;

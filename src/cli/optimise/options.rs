@@ -6,7 +6,7 @@ use crate::design::edit::Keep;
 use crate::optimise::{Guards, OptimiseRequest, Variable};
 use crate::parse::{self, NumberUnit};
 use crate::scoring::constraint::Constraint;
-use crate::scoring::evaluator::Effort;
+use crate::scoring::effort::Effort;
 use crate::scoring::objective::{Objective, TiltedMetric};
 use crate::search::{METHODS, Method};
 use std::ffi::OsString;

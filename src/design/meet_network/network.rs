@@ -63,14 +63,21 @@ impl MeetNetwork {
         corner.position + self.frame.origin
     }
 
-    /// A place on the axis: the origin of a design that was cut by angle and index, the centre of mass of another.
+    /// The middle of the stone, in the design's frame: on the axis, halfway up the girdle. The axis goes through the
+    /// origin of a design that was cut by angle and index, through the centre of mass of another.
     pub fn middle(&self) -> DVec3 {
-        self.frame.origin
+        let height = |corner: &Corner| self.position(corner).z;
+        let z = match (self.girdle_corners(), self.outline_corner()) {
+            (Some([top, bottom]), _) => 0.5 * (height(top) + height(bottom)),
+            (None, Some(outline)) => height(outline),
+            (None, None) => self.frame.origin.z,
+        };
+        self.frame.origin.with_z(z)
     }
 
     /// Distance of a plane of the design from the middle ([`MeetNetwork::middle`]).
     pub fn distance_from_middle(&self, plane: &Plane) -> f64 {
-        self.frame.to(plane).distance
+        -plane.signed_distance(self.middle())
     }
 
     /// The corners by which the girdle is held: the highest that it has in common with the crown and the lowest

@@ -1,0 +1,225 @@
+//! `cutlab edit`, `cutlab retarget` and `cutlab show --meets`, as a user has them.
+
+use crate::bench::Bench;
+use serde_json::Value;
+
+/// A folder with a design to change, under several formats.
+fn folder() -> Bench {
+    let bench = Bench::new();
+    bench.good(&["generate", "classic", "-q", "-o", "c.asc", "-o", "c.gem", "-o", "c.stl", "-o", "c.toml"]);
+    bench
+}
+
+fn json(bench: &Bench, arguments: &[&str]) -> Value {
+    let (out, said) = bench.ends(0, &[arguments, &["--json", "-q"]].concat());
+    serde_json::from_str(&out).unwrap_or_else(|e| panic!("{arguments:?}: {e}: {said}"))
+}
+
+/// A tier of `edit --json` by its place.
+fn tier<'v>(report: &'v Value, place: &str) -> &'v Value {
+    let tiers = report["tiers"].as_array().expect("tiers");
+    tiers.iter().find(|t| t["place"] == place).unwrap_or_else(|| panic!("{place}: {report}"))
+}
+
+fn measure(report: &Value, name: &str, when: &str) -> f64 {
+    let measures = report["measures"].as_array().expect("measures");
+    let found = measures.iter().find(|m| m["name"] == name).unwrap_or_else(|| panic!("{name}: {report}"));
+    found[when].as_f64().unwrap_or_else(|| panic!("{name} {when}: {report}"))
+}
+
+fn angle(tier: &Value, when: &str) -> f64 {
+    tier[when]["angle_deg"].as_f64().expect("an angle")
+}
+
+/// What was written has the angles, the table and the girdle that were asked for, whatever the format.
+#[test]
+fn what_is_asked_for_is_what_is_written() {
+    let bench = folder();
+    for file in ["c.asc", "c.gem", "c.toml", "classic"] {
+        let output = if file == "classic" { "new.toml".to_owned() } else { file.replace("c.", "new.") };
+        let set = ["edit", file, "--set", "P1.angle+=0.5", "--set", "table-=2", "--set", "girdle=3"];
+        let report = json(&bench, &[&set[..], &["-o", &output]].concat());
+        let p1 = tier(&report, "P1");
+        assert!((angle(p1, "after") - angle(p1, "before") - 0.5).abs() < 1e-9, "{file}: {p1}");
+        assert_eq!(report["file"], output);
+        let shown = &json(&bench, &["show", &output])[0];
+        let table = shown["table_percent"].as_f64().expect("a table");
+        assert!((table - (measure(&report, "table", "before") - 2.0)).abs() < 1e-5, "{file}: {table}");
+        let girdle = shown["girdle_percent"].as_f64().expect("a girdle");
+        assert!((girdle - 3.0).abs() < 1e-5, "{file}: {girdle}");
+        let tiers = shown["tiers"].as_array().expect("tiers");
+        let of_p1 = tiers.iter().find(|t| t["place"] == "P1").expect("a first tier of the pavilion");
+        let written = of_p1["angle_deg"].as_f64().expect("an angle").abs();
+        assert!((written - angle(p1, "after")).abs() < 1e-6, "{file}: {written}");
+    }
+}
+
+/// The file's own form: what is not changed is not touched.
+#[test]
+fn all_else_stays_in_the_file() {
+    let bench = Bench::new();
+    bench.good(&["generate", "classic", "-q", "-o", "c.asc"]);
+    let with_words = String::from_utf8(bench.read("c.asc")).expect("text") + "H a header\nF a footnote\n";
+    std::fs::write(bench.path("w.asc"), &with_words).expect("writes");
+    bench.good(&["edit", "w.asc", "--set", "P1.angle+=0.0", "-q", "-o", "same.asc"]);
+    assert_eq!(String::from_utf8(bench.read("same.asc")).as_ref(), Ok(&with_words));
+    bench.good(&["edit", "w.asc", "--set", "table+=1", "-q", "-o", "new.asc"]);
+    let new = String::from_utf8(bench.read("new.asc")).expect("text");
+    assert!(new.contains("H a header\n") && new.contains("F a footnote\n"), "{new}");
+    let same = new.lines().zip(with_words.lines()).filter(|(a, b)| a == b).count();
+    assert!(same + 1 == with_words.lines().count() && new.lines().count() == same + 1, "{new}");
+    // through standard input and output as from file to file
+    let mut piped = bench.command(&["edit", "-", "--set", "table+=1", "-q", "-o", "-", "--to", "asc"]);
+    piped.stdin(std::fs::File::open(bench.path("w.asc")).expect("opens"));
+    assert_eq!(String::from_utf8(piped.output().expect("runs").stdout).as_ref(), Ok(&new));
+}
+
+/// A family whose parameters alone are set stays one.
+#[test]
+fn a_family_stays_a_family() {
+    let bench = Bench::new();
+    let set = ["--set", "crown-angle=33", "--set", "table+=1"];
+    bench.good(&[&["edit", "tolkowsky", "-q", "-o", "t.toml"], &set[..]].concat());
+    let text = String::from_utf8(bench.read("t.toml")).expect("text");
+    assert!(text.contains("family = \"round-brilliant\"") && text.contains("crown-angle = 33"), "{text}");
+    assert!(text.contains("table = 54"), "{text}");
+    let by_tier =
+        ["edit", "tolkowsky", "--set", "crown-angle=33", "--set", "P1.angle+=1", "-q", "-o", "p.toml"];
+    bench.good(&by_tier);
+    assert!(!String::from_utf8(bench.read("p.toml")).expect("text").contains("family"));
+}
+
+/// Scores are paired, and what is significant is said.
+#[test]
+fn scores_before_and_after_are_paired() {
+    let bench = folder();
+    let set = ["edit", "c.asc", "--set", "pavilion.scale=0.8", "--score", "windowing,wlr", "--error", "0.02"];
+    let report = json(&bench, &set);
+    let of = |m: usize| &report["scores"][m];
+    assert_eq!((of(0)["metric"].as_str(), of(1)["metric"].as_str()), (Some("windowing"), Some("wlr")));
+    // quartz at 80 % of the tangent lets light through
+    assert!(
+        of(0)["difference"]["value"].as_f64().expect("a difference") > 0.1 && of(0)["significant"] == true
+    );
+    let none = ["edit", "c.asc", "--set", "P1.angle+=0", "--score", "wlr", "--error", "0.02"];
+    let report = json(&bench, &none);
+    assert_eq!(report["scores"][0]["difference"]["value"], 0.0);
+    assert_eq!(report["scores"][0]["significant"], false);
+    let (text, said) = bench.ends(0, &none);
+    assert!(text.contains("not significant") && text.contains("nothing changed"), "{text}");
+    assert!(said.contains("nothing is written"), "{said}");
+    assert_eq!(bench.names(), ["c.asc", "c.gem", "c.stl", "c.toml"]);
+}
+
+/// Bad input: one line, exit code 2, nothing written.
+#[test]
+fn bad_settings_are_refused_in_one_line() {
+    let bench = folder();
+    let there = bench.names();
+    for (set, words) in [
+        ("pavilion-mian.angle=41", &["no tier is called", "did you mean 'pavilion-main'"][..]),
+        ("P1.angle=95", &["cannot have an angle of 95°"]),
+        ("P1.angle=-95", &["cannot have an angle"]),
+        ("G1.angle=80", &["girdle", "vertical"]),
+        ("T1.angle=2", &["table", "set table=PERCENT"]),
+        ("P1.tilt=4", &["angle, index and depth, not 'tilt'"]),
+        ("P1.angle", &["sets nothing"]),
+        ("table=150", &["table cannot be 150"]),
+        ("culet=2", &["no culet"]),
+        ("crown.scale=0", &["crown.scale cannot be 0"]),
+        ("crown-angle=34", &["crown-angle cannot be set"]),
+        ("P1.depth=4", &["P1.depth+=NUMBER"]),
+    ] {
+        let (out, said) = bench.ends(2, &["edit", "c.asc", "--set", set, "-o", "new.asc"]);
+        assert!(out.is_empty() && said.lines().count() == 1, "{set}: {out}{said}");
+        assert!(words.iter().all(|word| said.contains(word)), "{set}: {said}");
+    }
+    for arguments in [
+        &["edit", "c.asc"][..],
+        &["edit", "c.asc", "--set", "table=54", "--keep", "all"],
+        &["edit", "c.asc", "--set", "table=54", "-o", "new.xyz"],
+        &["edit", "c.asc", "--set", "table=54", "--score", "brilliance"],
+        &["edit", "c.asc", "--set", "table=54", "-o", "c.asc"],
+        &["retarget", "c.asc"],
+        &["retarget", "c.asc", "--ri", "0.9"],
+        &["retarget", "c.asc", "--ri", "1.3"],
+        &["retarget", "c.asc", "--ri", "1.76", "--pavilion", "95"],
+        &["retarget", "c.asc", "--ri", "1.76", "--crown", "0"],
+    ] {
+        let (out, said) = bench.ends(2, arguments);
+        assert!(out.is_empty() && said.lines().count() == 1, "{arguments:?}: {out}{said}");
+    }
+    assert_eq!(bench.names(), there);
+    // what another command made is not replaced
+    bench.good(&["edit", "c.asc", "--set", "table=54", "-q", "-o", "new.asc"]);
+    bench.good(&["edit", "c.asc", "--set", "table=54", "-q", "-o", "new.asc"]);
+    bench.ends(3, &["edit", "c.asc", "--set", "table=53.5", "-q", "-o", "new.asc"]);
+    bench.good(&["edit", "c.asc", "--set", "table=53.5", "-q", "-o", "new.asc", "--force"]);
+}
+
+/// The formulas of the manual, from figures of its own; and the index that the file then states.
+#[test]
+fn a_design_is_made_for_another_index() {
+    let bench = folder();
+    let no_scores = ["--score", "spread", "--from", "1.54", "--ri", "1.76"];
+    let run = |more: &[&str]| json(&bench, &[&["retarget", "c.asc"], &no_scores[..], more].concat());
+    let critical = |n: f64| (1.0 / n).asin().to_degrees();
+    let (c, new) = (critical(1.54), critical(1.76));
+    let report = run(&["-o", "sapphire.asc"]);
+    let figures = &report["retarget"];
+    let of = |key: &str, when: &str| figures[key][when].as_f64().expect("a figure");
+    let (was, is) = (of("pavilion_angle_deg", "before"), of("pavilion_angle_deg", "after"));
+    let share = |p: f64, c: f64| (p - c) / (60.0 - c / 3.0 - c);
+    assert!((share(was, c) - share(is, new)).abs() < 1e-9, "{figures}");
+    let ratio = is.to_radians().tan() / was.to_radians().tan();
+    for tier in report["tiers"].as_array().expect("tiers") {
+        let tangent = |when| angle(tier, when).to_radians().tan();
+        let expected = match tier["zone"].as_str() {
+            Some("pavilion") => ratio,
+            Some("crown") => 1.54 / 1.76,
+            _ => continue,
+        };
+        assert!((tangent("after") / tangent("before") - expected).abs() < 1e-9, "{tier}");
+    }
+    assert!(String::from_utf8(bench.read("sapphire.asc")).expect("text").contains("\nI 1.76"));
+    let margin = run(&["--pavilion", "margin", "--crown", "keep"]);
+    let after = margin["retarget"]["pavilion_angle_deg"]["after"].as_f64().expect("an angle");
+    assert!((after - (was + new - c)).abs() < 1e-9 && margin["retarget"]["crown_scale"] == 1.0, "{margin}");
+    let set = run(&["--pavilion", "39.5", "--crown", "0.8"]);
+    assert!((set["retarget"]["pavilion_angle_deg"]["after"].as_f64().expect("an angle") - 39.5).abs() < 1e-9);
+    // a diamond's margin is more than quartz has
+    let beyond = ["retarget", "round-brilliant", "--material", "quartz", "--pavilion", "margin"];
+    let (_, said) = bench.ends(2, &beyond);
+    assert!(said.contains("reflected at both sides") && said.contains("--pavilion"), "{said}");
+}
+
+/// Every tier by its place, every meet once: the corners that a count of the solid's own has.
+#[test]
+fn the_meet_network_is_shown() {
+    let bench = Bench::new();
+    let shown = &json(&bench, &["show", "round-brilliant", "--meets"])[0]["meets"];
+    let tiers = shown["tiers"].as_array().expect("tiers");
+    let of = |zone: &str| tiers.iter().filter(|t| t["zone"] == zone).count();
+    assert_eq!([of("table"), of("crown"), of("girdle"), of("pavilion")], [1, 3, 1, 2], "{shown}");
+    let meets = shown["meets"].as_array().expect("meets");
+    let corners: u64 = meets.iter().map(|m| m["corners"].as_u64().expect("a count")).sum();
+    // at the point of the pavilion its eight mains meet, in one corner
+    let point = &meets[0];
+    assert!(
+        point["corners"] == 1 && point["height_percent"].as_f64().expect("a height").abs() < 1e-6,
+        "{point}"
+    );
+    assert_eq!(point["tiers"][0]["facets"], 8, "{point}");
+    assert!(corners > 8 && meets.len() < 12, "{shown}");
+    let (text, _) = bench.ends(0, &["show", "round-brilliant", "--meets"]);
+    for word in ["outline", "girdle", "table", "culet", "P1", "C1", "set by meets"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    // a mesh has no names: places stand for its tiers, and find them
+    bench.good(&["generate", "classic", "-q", "-o", "c.stl"]);
+    let (text, _) = bench.ends(0, &["show", "c.stl"]);
+    assert!(text.contains("  P1  ") && text.contains("  C1  "), "{text}");
+    let report = json(&bench, &["edit", "c.stl", "--set", "P1.angle+=0.2"]);
+    let p1 = tier(&report, "P1");
+    assert!((angle(p1, "after") - angle(p1, "before") - 0.2).abs() < 1e-6, "{p1}");
+}
