@@ -9,6 +9,9 @@ use crate::scoring::objective::Objective;
 use crate::search::Method;
 use serde::{Deserialize, Serialize};
 
+/// Of a front so many designs are kept, if nobody says how many.
+const OF_A_FRONT: usize = 8;
+
 /// What of a design may vary, what it is to be made better in, what it must keep, and how long to search.
 ///
 /// ```
@@ -118,6 +121,12 @@ impl OptimiseRequest {
     pub fn seed(mut self, seed: u64) -> OptimiseRequest {
         self.seed = seed;
         self
+    }
+
+    /// How many designs are kept at most.
+    pub fn most_kept(&self) -> usize {
+        let usual = if self.objectives.len() > 1 { OF_A_FRONT } else { 1 };
+        self.keep_best.unwrap_or(usual)
     }
 
     /// With so many distinct designs kept at most.

@@ -14,9 +14,6 @@ use crate::search::front;
 use crate::search::{Candidate, Problem, ProblemError, Replay, SearchError, SearchSettings, search};
 use crate::stone::{Stone, StoneError};
 
-/// Of a front so many designs are kept, if nobody says how many.
-const OF_A_FRONT: usize = 8;
-
 /// Designs nearer to each other than this, in the unit cube of the variables, are not distinct.
 const DISTINCT: f64 = 0.05;
 
@@ -146,12 +143,11 @@ impl Optimisation<'_> {
         let replay = Replay::new(known, &candidates, found);
         let result = search(&self.problem, &settings, &replay, progress)?;
         let front = result.front();
-        let chosen = match (&front[..], request.keep_best, request.objectives.len()) {
-            ([], ..) => Vec::new(),
-            (_, count, 1) => {
-                front::best_distinct(&self.problem, &result.candidates, count.unwrap_or(1), DISTINCT)
-            }
-            (front, count, _) => spread(front, count.unwrap_or(OF_A_FRONT)),
+        let most = request.most_kept();
+        let chosen = match request.objectives.len() {
+            _ if front.is_empty() => Vec::new(),
+            1 => front::best_distinct(&self.problem, &result.candidates, most, DISTINCT),
+            _ => spread(&front, most),
         };
         let edited: Vec<Edited> = chosen
             .iter()

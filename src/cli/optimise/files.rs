@@ -2,6 +2,7 @@
 
 use super::options::OptimiseArgs;
 use crate::batch::fingerprint::{FileDigest, Fingerprint};
+use crate::batch::table::TableFormat;
 use crate::cli::args::stone::display_name;
 use crate::cli::console::Console;
 use crate::cli::error::CliError;
@@ -30,6 +31,7 @@ pub struct OptimisedFiles<'a> {
     /// The first design's file; none if nothing is written.
     first: Option<PathBuf>,
     target: Option<TargetFormat>,
+    table: Option<PathBuf>,
     /// Of the request and of what its files hold.
     identity: String,
 }
@@ -85,16 +87,32 @@ impl<'a> OptimisedFiles<'a> {
             }
             Some(path) => (Some(path.clone()), Some(TargetFormat::from_path(path, None)?)),
         };
-        let files = OptimisedFiles { args, stone, first, target, identity };
-        if let Some(first) = &files.first {
-            let is_begun = Journal::belongs_to(&Journal::path_for(first), &files.identity);
-            let is_own = |there: &Path| is_begun || files.is_made_by_this(there);
-            Outputs::reading_stones([&args.stone], console).claim(first, is_own)?;
+        let is_folder = first.is_some() && first != args.output;
+        let in_folder = args.output.as_ref().filter(|_| is_folder).map(|folder| folder.join("front.csv"));
+        let table = args.table.clone().or(in_folder);
+        if let Some(other) =
+            args.table.as_ref().filter(|t| TableFormat::from_path(t).ok() != Some(TableFormat::Csv))
+        {
+            return Err(CliError::input(format!("{}: the table of the front is .csv", display_name(other))));
+        }
+        let files = OptimisedFiles { args, stone, first, target, table, identity };
+        let mut outputs = Outputs::reading_stones([&args.stone], console);
+        let is_begun = files.anchor().is_some_and(|path| {
+            Journal::belongs_to(&Journal::path_for(path), &files.identity) || files.is_made_by_this(path)
+        });
+        let others = (2..=request.most_kept()).filter_map(|i| Some(numbered(files.first.as_ref()?, i)));
+        for path in files.first.iter().chain(&files.table).cloned().chain(others) {
+            outputs.claim(&path, |_| is_begun)?;
         }
         Ok(files)
     }
 
-    /// Whether a design was made by this very request.
+    /// The file beside which progress and provenance are kept; none if nothing is written.
+    fn anchor(&self) -> Option<&Path> {
+        self.first.as_deref().or(self.table.as_deref())
+    }
+
+    /// Whether a file was made by this very request.
     fn is_made_by_this(&self, design: &Path) -> bool {
         let text = std::fs::read_to_string(provenance_path(design)).unwrap_or_default();
         serde_json::from_str::<Provenance>(&text).is_ok_and(|made| made.identity == self.identity)
@@ -104,8 +122,8 @@ impl<'a> OptimisedFiles<'a> {
     pub fn begin(&self, console: &Console) -> Result<(Vec<Candidate>, KeptCandidates<'_>), CliError> {
         let mut known: Vec<Candidate> = Vec::new();
         let mut journal = None;
-        if let Some(first) = &self.first {
-            if let Some(folder) = first.parent().filter(|p| !p.as_os_str().is_empty()) {
+        if let Some(anchor) = self.anchor() {
+            if let Some(folder) = anchor.parent().filter(|p| !p.as_os_str().is_empty()) {
                 std::fs::create_dir_all(folder)
                     .map_err(|cause| WriteError { path: folder.to_owned(), cause })?;
             }
@@ -115,7 +133,7 @@ impl<'a> OptimisedFiles<'a> {
                     console.note(&format!("{why}: moved to {}", display_name(&to)));
                 }
             };
-            let mut opened = Journal::open(&Journal::path_for(first), &self.identity, &tell)?;
+            let mut opened = Journal::open(&Journal::path_for(anchor), &self.identity, &tell)?;
             opened.for_each(|payload| {
                 known.push(serde_json::from_slice(payload)?);
                 Ok(())
@@ -133,23 +151,25 @@ impl<'a> OptimisedFiles<'a> {
 
     /// Writes the designs, the table of the front and what they were made by; the names of the files.
     pub fn write(&self, found: &Optimised, kept: KeptCandidates<'_>) -> Result<Vec<String>, CliError> {
-        let (Some(first), Some(_)) = (&self.first, self.target) else { return Ok(Vec::new()) };
         let mut files = Vec::new();
+        if let Some(table) = &self.table {
+            atomic_write::write(table, &super::text::front_table(found, &self.args.request())?)?;
+            files.push(display_name(table));
+        }
+        let Some(anchor) = self.anchor() else { return Ok(files) };
         for (i, finalist) in found.finalists.iter().enumerate() {
+            let Some(first) = &self.first else { break };
             let path = if i == 0 { first.clone() } else { numbered(first, i + 1) };
             atomic_write::write(&path, &self.encoded(&finalist.edited.design)?)?;
             files.push(display_name(&path));
         }
-        let table = first.with_extension("csv");
-        atomic_write::write(&table, &super::text::front_table(found, &self.args.request())?)?;
-        files.push(display_name(&table));
         let made = Provenance {
             command: record::own_command(),
             identity: self.identity.clone(),
             files: files.clone(),
         };
         let text = serde_json::to_string_pretty(&made).unwrap_or_default();
-        atomic_write::write(&provenance_path(first), text.as_bytes())?;
+        atomic_write::write(&provenance_path(anchor), text.as_bytes())?;
         let state = kept.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         if let Some(journal) = state.journal {
             journal.finish()?;

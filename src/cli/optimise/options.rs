@@ -88,10 +88,13 @@ pub struct OptimiseArgs {
     /// Girdle width in millimetres; the scores depend on it if the material absorbs
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     pub size: Option<f64>,
-    /// Where to write: a design file, whose extension chooses the format (further designs are FILE-2, FILE-3 …);
-    /// or a folder for all designs that are kept and the table of the front
+    /// Where to write: a design file, whose extension chooses the format (best.asc; further designs are
+    /// best-2.asc, best-3.asc …); or a folder, for these and the table of the front
     #[arg(long, short, value_name = "FILE|DIR")]
     pub output: Option<PathBuf>,
+    /// The candidates of the front as a table, with variables and objectives; .csv
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
 }
 
 impl OptimiseArgs {
