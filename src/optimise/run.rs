@@ -11,7 +11,7 @@ use crate::scoring::evaluator::Evaluator;
 use crate::scoring::gain::Gain;
 use crate::scoring::objective::ObjectiveError;
 use crate::search::front;
-use crate::search::{Candidate, Problem, ProblemError, Replay, SearchError, SearchSettings, search};
+use crate::search::{Candidate, Method, Problem, ProblemError, Replay, SearchError, SearchSettings, search};
 use crate::stone::{Stone, StoneError};
 
 /// Designs nearer to each other than this, in the unit cube of the variables, are not distinct.
@@ -97,6 +97,10 @@ impl OptimiseRequest {
         if self.objectives.is_empty() {
             return Err(ObjectiveError::Nothing.into());
         }
+        let (method, objectives) = (self.method.unwrap_or(Method::BEST), self.objectives.len());
+        if !method.takes(objectives) {
+            return Err(SearchError::Method { method, objectives }.into());
+        }
         let editor = Editor::new(stone.convex_design()?)?;
         let usual;
         let vary = match &self.vary[..] {
@@ -134,7 +138,7 @@ impl Optimisation<'_> {
     ) -> Result<Optimised, OptimiseError> {
         let request = self.request;
         let settings = SearchSettings {
-            method: request.method.unwrap_or(crate::search::Method::BEST),
+            method: request.method.unwrap_or(Method::BEST),
             evaluations: request.evaluations,
             starts: request.starts,
             seed: request.seed,
