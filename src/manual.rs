@@ -36,6 +36,7 @@ topics! {
     stones: "how a stone is named: cuts, parameters, files, folders, sizes", include_str!("manual/stones.md");
     designs: "design files: a cut of your own, tier by tier", include_str!("manual/designs.md");
     editing: "changing a design: angles, meets, sizes", include_str!("manual/editing.md");
+    optimising: "optimise: variables, objectives, bounds, noise", include_str!("manual/optimising.md");
     materials: "refractive index, dispersion, colour, density", include_str!("manual/materials.md");
     scenes: "scene files: camera, stones, surfaces, lights",
         concat!(include_str!("manual/scenes.md"), "\n```toml\n", include_str!("manual/scene-grammar.toml"), "```\n");

@@ -24,6 +24,7 @@ mod merge_parts;
 mod meshes;
 mod mp4;
 mod odd_names;
+mod optimise;
 mod orientation;
 mod plots;
 mod render_choices;
