@@ -247,6 +247,17 @@ impl DesignFile {
     }
 }
 
+/// The TOML text of tiers alone, as they stand in a design file of that gear.
+pub fn tiers_to_toml(tiers: &[Tier], gear: Gear) -> String {
+    #[derive(Serialize)]
+    struct Tiers {
+        tier: Vec<TierEntry>,
+    }
+    let tier = tiers.iter().map(|t| TierEntry::from_tier(t, gear)).collect();
+    // as of a whole file
+    toml::to_string(&Tiers { tier }).unwrap_or_default()
+}
+
 impl TierEntry {
     fn tier(&self, number: usize, gear: Gear, bench: &MeetPointSolver) -> Result<Tier, DocumentError> {
         let fail = |problem: String| DocumentError::Tier { number, name: self.name.clone(), problem };

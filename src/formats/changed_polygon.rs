@@ -15,7 +15,7 @@ pub struct ChangedPolygons {
     before: Polyhedron,
     after: Polyhedron,
     /// Corners that are nearer to each other are one.
-    near: f64,
+    pub near: f64,
 }
 
 impl ChangedPolygons {

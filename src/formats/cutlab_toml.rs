@@ -1,5 +1,8 @@
 //! cutlab's own TOML form, which keeps everything a design knows; see [`crate::design::design_file`].
 
+pub mod rewrite;
+mod tier_place;
+
 use super::error::{FormatError, quoted_excerpt};
 use super::input::{Input, lines};
 use super::{Format, Parsed, Writer};
@@ -18,7 +21,7 @@ pub static FORMAT: Format = Format {
     sniff,
     read,
     write: Some(Writer::Design(write)),
-    rewrite: None,
+    rewrite: Some(rewrite::rewrite),
 };
 
 fn sniff(source: &Input) -> u8 {

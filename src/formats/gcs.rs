@@ -69,6 +69,6 @@ fn design(file: &GcsFile) -> Result<Parsed, FormatError> {
         }
     }
     let tiers = file.tiers(design.gear, &mut warnings)?;
-    design.tiers = tiers.into_iter().map(|t| t.tier).collect();
+    design.tiers = tiers.into_iter().map(|t| t.tier).filter(|t| !t.facets.is_empty()).collect();
     Ok(Parsed::new(design, warnings))
 }

@@ -1,6 +1,7 @@
 //! Writing a changed design back into the file it was read from, with all else that the file holds.
 
 use super::changed_design::{ChangedDesign, SAME, size};
+use super::cutlab_toml::{self, rewrite::RULES_AGREE};
 use super::error::FormatError;
 use super::format::Format;
 use super::input::Input;
@@ -16,7 +17,8 @@ pub struct Change<'a> {
     /// The same facets in the same order, in the file's own unit and frame, with new planes. Stated angles and
     /// indices are written where they give these planes. Its index of refraction is the new one.
     pub design: &'a Design,
-    /// New values of parameters, for a design file of a family.
+    /// New values of parameters, for a design file of a family: the design is then what they make, and may have
+    /// other facets.
     pub parameters: BTreeMap<String, f64>,
 }
 
@@ -33,17 +35,25 @@ impl<'a> Change<'a> {
     ///
     /// Numbers that did not change stay the very text they were, and so does all that is not a number of a facet:
     /// texts, names, order, line ends, comments, what the reader passes over. What is written is read back, and
-    /// must give the planes to 1e-12 of the stone's size. Formats without such a writer (meshes) are written anew,
-    /// which is remarked. Checked in `tests/library/write_back.rs`.
+    /// must give the planes to 1e-12 of the stone's size (1e-9 where rules of a design file do). Formats without
+    /// such a writer (meshes) are written anew, which is remarked. Checked in `tests/library/write_back.rs`.
     pub fn write_back(&self, file: &Input) -> Result<Encoded, FormatError> {
         let format = format_of(file)?;
         let before = read(file, file.bytes)?.design;
         let unfit =
             |problem: String| FormatError::Encode { name: file.name.into(), format: format.name, problem };
         let (were, are) = (before.facets().count(), self.design.facets().count());
-        if were != are {
+        let is_cutlab = format.name == cutlab_toml::FORMAT.name;
+        if !is_cutlab && !self.parameters.is_empty() {
+            return Err(unfit("only a design file has parameters".into()));
+        }
+        if were != are && self.parameters.is_empty() {
             return Err(unfit(format!("the file has {were} facets, and the changed design {are}")));
         }
+        if before.unit != self.design.unit {
+            return Err(unfit("the changed design has another unit than the file".into()));
+        }
+        self.design.solid().map_err(|cause| FormatError::Solid { file: self.design.name.clone(), cause })?;
         let after = Cow::Borrowed(self.design);
         let changed = ChangedDesign { before: &before, after, parameters: &self.parameters };
         let mut remarks = Vec::new();
@@ -60,7 +70,8 @@ impl<'a> Change<'a> {
         if format.rewrite.is_some() {
             let again = read(file, &bytes)?.design;
             let moved = frames::about_origin(self.design)?;
-            if !has_planes(&again, self.design) && !has_planes(&again, &moved) {
+            let near = if is_cutlab { RULES_AGREE } else { READ_BACK };
+            if !has_planes(&again, self.design, near) && !has_planes(&again, &moved, near) {
                 return Err(unfit("what was written does not give its planes again".into()));
             }
         }
@@ -86,11 +97,13 @@ fn differ_in_texts(a: &Design, b: &Design) -> bool {
 }
 
 /// Whether a design has these planes, each once, in any order: a tier that came apart may stand elsewhere.
-fn has_planes(found: &Design, wanted: &Design) -> bool {
+///
+/// - `near`: how far off they may be, in parts of the stone's size
+fn has_planes(found: &Design, wanted: &Design, near: f64) -> bool {
     let mut left: Vec<Plane> = found.planes();
-    let near = READ_BACK * size(wanted);
+    let along = near * size(wanted);
     let is_same = |a: &Plane, b: &Plane| {
-        a.normal.distance(b.normal) <= READ_BACK && (a.distance - b.distance).abs() <= near
+        a.normal.distance(b.normal) <= near && (a.distance - b.distance).abs() <= along
     };
     let all = wanted.planes();
     left.len() == all.len()

@@ -118,20 +118,15 @@ impl<'a> GcsFile<'a> {
         Ok(Some(DVec3::from_array(p)))
     }
 
-    /// The tiers that have facets, as they stand in the file.
+    /// All tiers, as they stand in the file; guides and hidden ones may have no facets.
     pub fn tiers(&self, gear: Gear, warnings: &mut Vec<String>) -> Result<Vec<GcsTier<'a>>, FormatError> {
         let root = self.document.root_element();
         let tiers = || root.children().filter(|n| n.has_tag_name("tier"));
         let facets = tiers().flat_map(|t| t.children()).filter(|n| n.has_tag_name("facet")).count();
         self.source.has_at_most(&limits::FACETS, facets)?;
-        let mut all = Vec::new();
-        for node in tiers() {
-            let tier = self.tier(node, gear, warnings)?;
-            if !tier.facets.is_empty() {
-                all.push(tier);
-            }
-        }
-        if all.is_empty() {
+        let all: Vec<GcsTier> =
+            tiers().map(|node| self.tier(node, gear, warnings)).collect::<Result<_, _>>()?;
+        if all.iter().all(|t| t.tier.facets.is_empty()) {
             return Err(self.wrong(root, "tiers with facets", "none"));
         }
         Ok(all)

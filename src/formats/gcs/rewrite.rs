@@ -46,7 +46,7 @@ pub fn rewrite(
         for (stored, facet) in tier.facets.iter().zip(of_tier) {
             page.normal(stored, facet);
             if let Some(corners) = polygons.changed(number).filter(|_| !stored.corners.is_empty()) {
-                page.corners(stored, facet.before.plane.normal, &corners);
+                page.corners(stored, facet.before.plane.normal, &corners, polygons.near);
             }
             number += 1;
         }
@@ -182,7 +182,8 @@ impl Page<'_, '_> {
     ///
     /// - `normal`: the facet's, as the stored corners have it
     /// - `corners`: counter-clockwise seen from outside
-    fn corners(&mut self, stored: &GcsFacet, normal: DVec3, corners: &[DVec3]) {
+    /// - `near`: coordinates that differ by less stay as they are written
+    fn corners(&mut self, stored: &GcsFacet, normal: DVec3, corners: &[DVec3], near: f64) {
         let nodes: Vec<Node> = stored.node.children().filter(|n| n.has_tag_name("vertex")).collect();
         let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else { return };
         let n = stored.corners.len();
@@ -196,10 +197,12 @@ impl Page<'_, '_> {
         if corners.len() == n && n == nodes.len() {
             let off = |turn: &usize| (0..n).map(|i| old[i].distance(corners[(i + turn) % n])).sum::<f64>();
             let turn = (0..n).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-            for (i, node) in nodes.iter().enumerate() {
-                let corner = corners[(i + turn) % n];
-                for (key, value) in ["x", "y", "z"].into_iter().zip(corner.to_array()) {
-                    self.set_number(*node, key, value);
+            for (i, (node, old)) in nodes.iter().zip(old).enumerate() {
+                let both = old.to_array().into_iter().zip(corners[(i + turn) % n].to_array());
+                for (key, (old, new)) in ["x", "y", "z"].into_iter().zip(both) {
+                    if (old - new).abs() > near {
+                        self.set_number(*node, key, new);
+                    }
                 }
             }
             return;

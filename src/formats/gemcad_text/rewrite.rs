@@ -155,7 +155,8 @@ impl Page<'_, '_> {
         let stated: Vec<f64> =
             [index.value].into_iter().chain(facet.after.index.filter(|_| own == gear)).collect();
         let wanted = index_as_stated(own, &stated, cut.angle_deg, facet.after.plane.normal);
-        if wanted == index.value {
+        let is_missing = index.at.is_none() && cut.angle_deg != 0.0;
+        if wanted == index.value && !is_missing {
             return;
         }
         let said = decimals(wanted, 0);
