@@ -63,13 +63,14 @@ fn all_else_stays_in_the_file() {
     std::fs::write(bench.path("w.asc"), &with_words).expect("writes");
     bench.good(&["edit", "w.asc", "--set", "P1.angle+=0.0", "-q", "-o", "same.asc"]);
     assert_eq!(String::from_utf8(bench.read("same.asc")).as_ref(), Ok(&with_words));
-    bench.good(&["edit", "w.asc", "--set", "table+=1", "-q", "-o", "new.asc"]);
+    let set = ["--set", "T1.depth+=1", "--keep", "depths", "-q"];
+    bench.good(&[&["edit", "w.asc", "-o", "new.asc"], &set[..]].concat());
     let new = String::from_utf8(bench.read("new.asc")).expect("text");
     assert!(new.contains("H a header\n") && new.contains("F a footnote\n"), "{new}");
     let same = new.lines().zip(with_words.lines()).filter(|(a, b)| a == b).count();
     assert!(same + 1 == with_words.lines().count() && new.lines().count() == same + 1, "{new}");
     // through standard input and output as from file to file
-    let mut piped = bench.command(&["edit", "-", "--set", "table+=1", "-q", "-o", "-", "--to", "asc"]);
+    let mut piped = bench.command(&[&["edit", "-", "-o", "-", "--to", "asc"], &set[..]].concat());
     piped.stdin(std::fs::File::open(bench.path("w.asc")).expect("opens"));
     assert_eq!(String::from_utf8(piped.output().expect("runs").stdout).as_ref(), Ok(&new));
 }
