@@ -43,7 +43,7 @@ pub fn run(args: &RetargetArgs, console: &Console) -> Result<ExitStatus, CliErro
         RetargetRequest::new(material.index_d()).from(from).pavilion(args.pavilion).crown(args.crown);
     let made = request.edit(&editor).map_err(|error| match error {
         RetargetError::NoRange(_) | RetargetError::Beyond { .. } => {
-            CliError::input(format!("{error}: --pavilion keep, margin or DEGREES"))
+            CliError::input(format!("{error}: --pavilion range, keep or DEGREES, with --crown keep or RATIO"))
         }
         error => error.into(),
     })?;

@@ -11,11 +11,11 @@ use std::f64::consts::SQRT_2;
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum PavilionRule {
-    /// The same place in the range of angles at which light along the axis is reflected at both sides.
-    #[default]
-    Range,
     /// As far above the critical angle as before.
+    #[default]
     Margin,
+    /// The same place in the range of angles at which light along the axis is reflected at both sides.
+    Range,
     /// As they are.
     Keep,
     /// So many degrees.
@@ -27,9 +27,9 @@ pub enum PavilionRule {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum CrownRule {
-    /// The old index over the new one.
+    /// (n − 1)/(n' − 1) from n to n': a thin prism then deviates light as before.
     #[default]
-    Index,
+    Prism,
     /// Nothing: as they are.
     Keep,
     /// This.
@@ -198,7 +198,7 @@ impl RetargetRequest {
             return Err(RetargetError::Angle { tier: pavilion_tier, angle: after });
         }
         let crown_scale = match self.crown {
-            CrownRule::Index => from / self.to,
+            CrownRule::Prism => (from - 1.0) / (self.to - 1.0),
             CrownRule::Keep => 1.0,
             CrownRule::Ratio(ratio) if ratio > 0.0 && ratio.is_finite() => ratio,
             CrownRule::Ratio(ratio) => return Err(RetargetError::Ratio(ratio)),
@@ -236,6 +236,9 @@ impl RetargetRequest {
                 let after = before + c_to - c_from;
                 let is_beyond = |angle: f64, low: f64, high: f64| angle < low || angle > high;
                 if is_beyond(after, c_to, most_to) && !is_beyond(before, c_from, most_from) {
+                    if self.to <= SQRT_2 {
+                        return Err(RetargetError::NoRange(self.to));
+                    }
                     let (tier, index) = (tier.into(), self.to);
                     return Err(RetargetError::Beyond {
                         tier,

@@ -85,8 +85,8 @@ const SAMPLES: &[Sample] = &[
     ),
     ("edit", "keep", &[&["meets"], &["angles"], &["depths"]]),
     ("retarget", "from", &[&["1.6"]]),
-    ("retarget", "pavilion", &[&["range"], &["margin"], &["keep"], &["43"]]),
-    ("retarget", "crown", &[&["index"], &["keep"], &["0.9"]]),
+    ("retarget", "pavilion", &[&["margin"], &["range"], &["keep"], &["43"]]),
+    ("retarget", "crown", &[&["prism"], &["keep"], &["0.9"]]),
     ("*", "score", &[&["spread,weight_ratio"], &["iso,wlr"]]),
     (
         "merge",

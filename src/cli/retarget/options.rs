@@ -13,7 +13,7 @@ use std::ffi::OsString;
 Examples:
   cutlab retarget classic --material sapphire               a design for quartz, for sapphire
   cutlab retarget mine.asc --ri 1.62 --from 1.54 -o topaz.asc
-  cutlab retarget mine.asc --material spinel --pavilion margin --crown keep
+  cutlab retarget mine.asc --material spinel --pavilion 41 --crown keep
 
 The formulas are in `cutlab help editing`. Every meet of the design is kept: crown and pavilion are each
 scaled by the ratio of tangents. Scores are those of both designs in the new material, with the same
@@ -26,12 +26,13 @@ pub struct RetargetArgs {
     /// The refractive index that the design is drawn for [what it states, or diamond's]
     #[arg(long, value_name = "N", value_parser = grammar::refractive_index)]
     pub from: Option<f64>,
-    /// Angle of the pavilion's main facets: range (the same place in the range of angles that reflect light along
-    /// the axis twice), margin (as far above the critical angle as before), keep, or degrees
-    #[arg(long, value_name = "range|margin|keep|DEGREES", default_value = "range", value_parser = pavilion)]
+    /// Angle of the pavilion's main facets: margin (as far above the critical angle as before), range (the same place
+    /// in the range of angles that reflect light along the axis twice), keep, or degrees
+    #[arg(long, value_name = "margin|range|keep|DEGREES", default_value = "margin", value_parser = pavilion)]
     pub pavilion: PavilionRule,
-    /// What the tangents of the crown's angles are multiplied by: index (old index over new), keep, or a ratio
-    #[arg(long, value_name = "index|keep|RATIO", default_value = "index", value_parser = crown)]
+    /// What the tangents of the crown's angles are multiplied by: prism ((n − 1)/(n' − 1): a thin prism then
+    /// deviates light as before), keep, or a ratio
+    #[arg(long, value_name = "prism|keep|RATIO", default_value = "prism", value_parser = crown)]
     pub crown: CrownRule,
     #[command(flatten)]
     pub written: WrittenArgs,
@@ -49,7 +50,7 @@ fn pavilion(text: &str) -> Result<PavilionRule, String> {
         "margin" => Ok(PavilionRule::Margin),
         "keep" => Ok(PavilionRule::Keep),
         _ => {
-            let what = "the pavilion's rule is range, margin, keep or an angle";
+            let what = "the pavilion's rule is margin, range, keep or an angle";
             Ok(PavilionRule::Angle(parse::parse_number_within(text, NumberUnit::Degrees, 1.0..=89.0, what)?))
         }
     }
@@ -58,10 +59,10 @@ fn pavilion(text: &str) -> Result<PavilionRule, String> {
 /// Value parser of `--crown`.
 fn crown(text: &str) -> Result<CrownRule, String> {
     match &*text.trim().to_lowercase() {
-        "index" => Ok(CrownRule::Index),
+        "prism" => Ok(CrownRule::Prism),
         "keep" => Ok(CrownRule::Keep),
         _ => {
-            let what = "the crown's rule is index, keep or a ratio";
+            let what = "the crown's rule is prism, keep or a ratio";
             Ok(CrownRule::Ratio(parse::parse_number_within(text, NumberUnit::None, 0.01..=100.0, what)?))
         }
     }
