@@ -251,15 +251,15 @@ fn errors_of_gains_are_as_large_as_they_say() {
         let evaluator = evaluator(&["wlr"], &material, effort, &start);
         evaluator.gains(&start, std::slice::from_ref(&other)).expect("have values")[0][0].gain
     };
-    let truth = gain(1000, 1 << 19);
-    let seeds = 100;
+    let truth = gain(1000, 1 << 18);
+    let seeds = 60;
     let held = (0..seeds).filter(|seed| {
-        let gain = gain(*seed, 1 << 13);
+        let gain = gain(*seed, 1 << 12);
         (gain.value - truth.value).abs() <= 1.96 * gain.error.hypot(truth.error)
     });
     // 95 of 100, less 3 of their own errors
     let held = held.count();
-    assert!(held >= 88, "{held} of {seeds}, {truth:?}");
+    assert!(held >= 52, "{held} of {seeds}, {truth:?}");
 }
 
 /// The design with the angle of one tier more by some degrees, at the same distance.
