@@ -42,7 +42,7 @@ pub(super) fn iso_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Me
 /// The method by beams of the point light's metrics.
 pub(super) fn colour_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
     vec![Method::beams("beam by beams", move |effort| {
-        colours(&setup.beams(stone), &setup.medium, setup.view_frame, effort)
+        colours(&Beams::new(stone), &setup.medium, setup.view_frame, effort)
     })]
 }
 
@@ -157,6 +157,11 @@ pub fn iso(
         ..StopCriteria::at_power(ISO_POWER)
     };
     let totals = beams.trace(&lit, UnpolarisedLight(1.0), until, &mut bright);
+    if totals.is_short()
+        && let Some(whole) = beams.whole()
+    {
+        return iso(&whole, medium, view_frame, sky, untraced);
+    }
     let facets = beams.facets();
     let seen = |f: usize| {
         facets.area(f) * facets.planes[f].normal.dot(view_frame.axis).max(0.0) * f64::from(table[f])
@@ -165,6 +170,9 @@ pub fn iso(
     let mut tally = bright.tally;
     (tally[faceter_view::RAYS], tally[faceter_view::TABLE_RAYS]) = (1.0, table_rays);
     if untraced > 0.0 {
+        // light that went missing may have gone anywhere
+        let missing = (1.0 - totals.sum()).max(0.0);
+        bright.untraced.iter_mut().for_each(|power| *power += missing);
         faceter_view::add_half_of_untraced(&mut tally, bright.untraced);
     }
     Ok(tally)

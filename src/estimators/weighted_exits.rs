@@ -151,6 +151,11 @@ fn integrate_exits_of<L: BeamLight, const K: usize, const N: usize>(
     let residual = ResidualPhotons::new(effort.seed, BATCHES, effort.photons / BATCHES);
     let mut sorted = ExitVisitor { scales, glare: [0.0; N], residual, finish: effort.photons > 0 };
     let totals = beams.trace(lit, light, effort.stop, &mut sorted);
+    if totals.is_short()
+        && let Some(whole) = beams.whole()
+    {
+        return integrate_exits_of(&whole, lit, light, effort, weights);
+    }
     let ExitVisitor { scales: WeightAccumulator { sums, .. }, glare, residual, .. } = sorted;
     let finish = |batch: usize| {
         let scales = WeightAccumulator { weights: &weights, axis, sums: [0.0; N] };

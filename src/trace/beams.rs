@@ -50,6 +50,11 @@ impl<'a> Beams<'a> {
         Beams { symmetry: Some(StoneSymmetry::of_stone(stone)), ..Beams::new(stone) }
     }
 
+    /// The same without symmetry; none if they follow the whole stone already.
+    pub fn whole(&self) -> Option<Self> {
+        self.symmetry.map(|_| Beams { symmetry: None, ..self.clone() })
+    }
+
     /// The stone.
     pub fn stone(&self) -> &'a ConvexStone {
         self.stone

@@ -251,15 +251,15 @@ fn errors_of_gains_are_as_large_as_they_say() {
         let evaluator = evaluator(&["wlr"], &material, effort, &start);
         evaluator.gains(&start, std::slice::from_ref(&other)).expect("have values")[0][0].gain
     };
-    let truth = gain(1000, 1 << 19);
-    let seeds = 100;
+    let truth = gain(1000, 1 << 18);
+    let seeds = 60;
     let held = (0..seeds).filter(|seed| {
-        let gain = gain(*seed, 1 << 13);
+        let gain = gain(*seed, 1 << 12);
         (gain.value - truth.value).abs() <= 1.96 * gain.error.hypot(truth.error)
     });
     // 95 of 100, less 3 of their own errors
     let held = held.count();
-    assert!(held >= 88, "{held} of {seeds}, {truth:?}");
+    assert!(held >= 52, "{held} of {seeds}, {truth:?}");
 }
 
 /// The design with the angle of one tier more by some degrees, at the same distance.
@@ -304,7 +304,7 @@ fn tiers_do_what_small_steps_say() {
         .map(|planes| (0..base.faces.len()).filter(|f| planes.contains(&base.faces[*f].plane)).collect())
         .collect();
     let metrics = ["weight_ratio", "iso", "wlr"];
-    let evaluator = evaluator(&metrics, &material, Effort::default().samples(1 << 15), &base);
+    let evaluator = evaluator(&metrics, &material, Effort::default().samples(1 << 13), &base);
     let turn = |tier: usize, degrees: f64| turned(&design, tier, degrees);
     let effects = evaluator.tier_effects(&base, &tiers, turn, &material).expect("is lit");
     let mains = design.tiers.iter().position(|t| t.angle_deg.is_some_and(|a| a < 0.0)).expect("a pavilion");
@@ -344,7 +344,9 @@ fn leakage_by_facet_adds_up_to_the_metric() {
         let stone = stone.with_width(6.5).expect("a width");
         let convex = ConvexStone::new(stone.solid().expect("convex").clone());
         let optics = TraceOptics { material: stone.material(), polarised: true };
-        let found = facet_leakage(&convex, &optics, ViewFrame::FACE_UP, 1, 1 << 14).expect("is lit");
+        // of a stone that absorbs each point is traced in eight wavelengths, which count as samples
+        let lines = if stone.material().is_clear() { 1 << 14 } else { 1 << 11 };
+        let found = facet_leakage(&convex, &optics, ViewFrame::FACE_UP, 1, lines).expect("is lit");
         let all = found.through(0..convex.facet_count());
         let metric = ScoreRequest::new(["aset_leak"]).samples(1 << 14).seed(1).run(&stone).expect("is lit")["aset_leak"];
         // the same rays: but for the order of f32 sums
