@@ -91,12 +91,12 @@ impl<const M: usize> SurrogateFront<M> {
         let mut search = nsga2::<M>(variables, parents, POPULATION, self.seed.wrapping_add(self.round))?;
         for _ in 0..GENERATIONS {
             let asked: Vec<Vec<f64>> = search.ask().iter().map(|genome| genome.to_vec()).collect();
-            let expected: Vec<_> = asked.iter().map(|point| scores(&model.expect(point))).collect();
+            let expected: Vec<_> = asked.iter().map(|point| scores(&model.predict(point))).collect();
             search.tell(&expected)?;
         }
         let points = search.population().iter().map(|individual| individual.genome().to_vec());
         let is_new = |point: &Vec<f64>| self.samples.iter().all(|s| distance(&s.point, point) >= APART);
-        let expected = points.filter(is_new).map(|point| (model.expect(&point), point));
+        let expected = points.filter(is_new).map(|point| (model.predict(&point), point));
         let (expected, points): (Vec<Outcome>, Vec<Vec<f64>>) =
             expected.filter(|(outcome, _)| outcome.is_feasible()).unzip();
         let values: Vec<Vec<f64>> = expected.into_iter().map(|outcome| outcome.objectives).collect();

@@ -67,7 +67,7 @@ impl SurrogateModel {
     }
 
     /// The outcome that is expected at a point; its violation is a share of the largest.
-    pub fn expect(&self, point: &[f64]) -> Outcome {
+    pub fn predict(&self, point: &[f64]) -> Outcome {
         let mut objectives = self.functions.at(point);
         let violation = if self.has_violation { objectives.pop().unwrap_or(0.0) } else { 0.0 };
         Outcome { objectives, violation: if violation <= TOLERANCE { 0.0 } else { violation } }
@@ -101,9 +101,9 @@ mod tests {
         let samples: Vec<Sample> = (0..80).map(|i| sample(point(2, 3, i))).collect();
         let order: Vec<usize> = (0..samples.len()).collect();
         let model = SurrogateModel::fit(&samples, &order).expect("80 samples determine one");
-        assert!(model.expect(&[0.1, 0.5]).violation > 0.5);
-        assert!(model.expect(&[0.55, 0.5]).violation > 0.2);
-        let good = model.expect(&[0.9, 0.6]);
+        assert!(model.predict(&[0.1, 0.5]).violation > 0.5);
+        assert!(model.predict(&[0.55, 0.5]).violation > 0.2);
+        let good = model.predict(&[0.9, 0.6]);
         assert!(good.is_feasible() && (good.objectives[0] - 0.9).abs() < 0.05, "{good:?}");
     }
 

@@ -130,7 +130,7 @@ impl SurrogatePeak {
             Cmaes::builder(unit_cube(best.len())?).maximize().seed(self.seed.wrapping_add(self.round));
         let mut cma_es = builder.initial_mean(Reals::from(best.to_vec())).initial_step(deviation).build()?;
         for _ in 0..GENERATIONS {
-            let expected: Vec<_> = cma_es.ask().iter().map(|x| fitness(&model.expect(x))).collect();
+            let expected: Vec<_> = cma_es.ask().iter().map(|x| fitness(&model.predict(x))).collect();
             cma_es.tell(&expected)?;
         }
         Ok(cma_es.best().map_or_else(|| best.to_vec(), |individual| individual.genome().to_vec()))
@@ -154,7 +154,7 @@ impl SurrogatePeak {
         };
         let pool: Vec<Vec<f64>> = (0..POOL).map(within).collect();
         let gaps: Vec<f64> = pool.iter().map(|point| self.gap(chosen, point)).collect();
-        let expected: Vec<Outcome> = pool.iter().map(|point| model.expect(point)).collect();
+        let expected: Vec<Outcome> = pool.iter().map(|point| model.predict(point)).collect();
         let values: Vec<f64> =
             expected.iter().map(|outcome| outcome.objectives.first().copied().unwrap_or(0.0)).collect();
         let shares = scaled(&values).into_iter().zip(scaled(&gaps)).zip(&expected);
