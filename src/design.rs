@@ -8,6 +8,7 @@ pub mod library;
 pub mod measured_tiers;
 pub mod meet_points;
 pub mod orientation;
+pub mod proportion_catalogue;
 pub mod proportions;
 pub mod round_brilliant_measures;
 pub mod scaling;

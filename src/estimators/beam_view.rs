@@ -194,5 +194,10 @@ pub fn strongest(
     } else {
         beams.trace(&lit, StrongestPath::new(UnpolarisedLight(1.0)), until, &mut areas)
     };
+    if totals.is_short()
+        && let Some(whole) = beams.whole()
+    {
+        return strongest(&whole, direction, index, polarised, stop_power);
+    }
     Ok(StrongestShares { cut_short: totals.beams >= MAX_BEAMS, ..areas.shares })
 }

@@ -25,6 +25,7 @@ mod geometry;
 mod horizon;
 mod instruction_sets;
 mod meet;
+mod objective;
 mod optics;
 mod polarisation;
 mod progress;

@@ -53,4 +53,12 @@ impl EnergyBudget {
     pub fn sum(&self) -> f64 {
         self.reflected + self.exited + self.not_followed
     }
+
+    /// Whether light is missing: where corners that should be one lie apart by more than rounding, a beam
+    /// along an edge may fall between two facets.
+    pub fn is_short(&self) -> bool {
+        /// A part in a million changes no score.
+        const MISSING: f64 = 1e-6;
+        (self.sum() - 1.0).abs() > MISSING
+    }
 }
