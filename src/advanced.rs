@@ -32,6 +32,12 @@ pub mod storage {
     pub use crate::storage::*;
 }
 
+/// Search for the best points of a box, for one objective or several.
+#[cfg(feature = "search")]
+pub mod search {
+    pub use crate::search::*;
+}
+
 /// CIE observer, illuminants, daylight, RGB upsampling, the colours of viewers.
 pub mod color {
     pub use crate::color::*;
@@ -55,6 +61,12 @@ pub mod materials {
 /// Tiers, meet points, parametric families, the library of cuts, symmetry, proportions.
 pub mod design {
     pub use crate::design::*;
+}
+
+/// Variables, objectives and bounds of an optimisation, and its run.
+#[cfg(feature = "search")]
+pub mod optimise {
+    pub use crate::optimise::*;
 }
 
 /// The packet kernel, its `f64` reference, non-convex stones, exact beams.

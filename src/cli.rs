@@ -22,6 +22,7 @@ mod list;
 mod man;
 mod markdown;
 mod merge;
+mod optimise;
 mod outputs;
 mod plot;
 mod plot_output;
@@ -102,6 +103,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Everything about one stone: pictures, scores and a page
     Report(report::ReportArgs),
+    /// The best changes of a design for one score, or between several
+    Optimise(optimise::OptimiseArgs),
     /// Published and derivable figures against what this program computes
     Validate(validate::ValidateArgs),
     /// What there is to choose from
@@ -129,6 +132,7 @@ impl Command {
             Command::Plot(args) => plot::run(args, console),
             Command::Compare(args) => compare::run(args, console),
             Command::Report(args) => report::run(args, console),
+            Command::Optimise(args) => optimise::run(args, console),
             Command::Validate(args) => validate::run(args, console),
             Command::List(args) => list::run(args, console),
             Command::Completions(args) => completions::run(args, command(), console),

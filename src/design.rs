@@ -10,6 +10,7 @@ pub mod measured_tiers;
 pub mod meet_network;
 pub mod meet_points;
 pub mod orientation;
+pub mod proportion_catalogue;
 pub mod proportions;
 pub mod retarget;
 pub mod round_brilliant_measures;

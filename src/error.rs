@@ -15,6 +15,8 @@ use crate::design::retarget::RetargetError;
 use crate::formats::{FormatError, MeshFacts};
 use crate::geometry::SolidError;
 use crate::materials::NoSuchMaterial;
+#[cfg(feature = "search")]
+use crate::optimise::OptimiseError;
 #[cfg(feature = "render")]
 use crate::photons::map_file::MapFileError;
 #[cfg(feature = "render")]
@@ -95,6 +97,10 @@ pub enum Error {
     /// Of a setting that is not understood.
     #[error(transparent)]
     Setting(#[from] SettingError),
+    /// Of an optimisation.
+    #[cfg(feature = "search")]
+    #[error(transparent)]
+    Optimise(Box<OptimiseError>),
     /// A material that there is not.
     #[error(transparent)]
     Material(#[from] NoSuchMaterial),
@@ -143,6 +149,14 @@ impl Error {
             | Error::Retarget(_)
             | Error::Setting(_) => ErrorKind::Invalid,
             Error::Cancelled => ErrorKind::Cancelled,
+            #[cfg(feature = "search")]
+            Error::Optimise(error) => match &**error {
+                OptimiseError::Stone(error) => of_stone(error),
+                OptimiseError::Edit(EditError::NoSuchTier { .. } | EditError::NoSuchKey { .. }) => {
+                    ErrorKind::NotFound
+                }
+                _ => ErrorKind::Invalid,
+            },
             #[cfg(feature = "files")]
             Error::Format(error) => of_format(error),
             #[cfg(feature = "files")]
@@ -216,6 +230,13 @@ impl From<RetargetError> for Error {
             RetargetError::Edit(error) => error.into(),
             error => Error::Retarget(Box::new(error)),
         }
+    }
+}
+
+#[cfg(feature = "search")]
+impl From<OptimiseError> for Error {
+    fn from(error: OptimiseError) -> Error {
+        Error::Optimise(Box::new(error))
     }
 }
 

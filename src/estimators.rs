@@ -16,6 +16,7 @@ pub mod catalogue;
 pub mod colour_separation;
 pub mod contrast;
 mod entry_sampling;
+pub mod facet_leakage;
 pub mod faceter_view;
 pub mod fire;
 pub mod hemisphere;

@@ -4,13 +4,13 @@
 //! The rooms, lowest first; a file imports only from rooms before its own, which
 //! `tests/house/layers.rs` keeps:
 //!
-//! `sampling parse limits parallel progress` → `storage` → `color optics geometry` → `materials design trace` →
+//! `sampling parse limits parallel progress` → `storage search` → `color optics geometry` → `materials design trace` →
 //! `formats estimators` → `stone metrics` → `scene scoring` → `photons batch` → `integrators` →
 //! `render` → `report manual` → `cli`
 //!
 //! What is compiled of them follows from the features of the package. Without any, a stone of the library or
 //! of a parametric family is modelled, traced and scored, on one thread and without files;
-//! `parallel` takes all threads, `files` adds designs, meshes and tables on disk, `render` scenes and
+//! `parallel` takes all threads, `search` finds the best points of a box, `files` adds designs, meshes and tables on disk, `render` scenes and
 //! pictures, `report` drawings and pages, and `cli` (the default) is all of it and the program.
 
 #![deny(missing_docs)]
@@ -28,6 +28,8 @@ mod limits;
 mod materials;
 mod metrics;
 mod optics;
+#[cfg(feature = "search")]
+mod optimise;
 mod parallel;
 mod parse;
 mod progress;
@@ -42,6 +44,9 @@ mod batch;
 mod formats;
 #[cfg(feature = "files")]
 mod storage;
+
+#[cfg(feature = "search")]
+mod search;
 
 #[cfg(feature = "render")]
 mod integrators;
@@ -80,6 +85,8 @@ pub use integrators::{Film, Pass, ToneCurve};
 pub use limits::Limits;
 pub use materials::Material;
 pub use metrics::{METRICS, Metric};
+#[cfg(feature = "search")]
+pub use optimise::{OptimiseRequest, Variable};
 pub use progress::Progress;
 #[cfg(feature = "render")]
 pub use render::{

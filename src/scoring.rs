@@ -2,12 +2,25 @@
 
 mod adaptive;
 pub mod comparison;
+pub mod constraint;
 pub mod edit_report;
+pub mod effort;
+pub mod evaluator;
+pub mod gain;
+pub mod objective;
+mod paired_runs;
 pub mod score;
 pub mod scores;
 pub mod settings;
+pub mod tier_effects;
+mod views;
 
 pub use comparison::Comparison;
+pub use effort::Effort;
+pub use evaluator::{Evaluator, Values};
+pub use gain::Gain;
+pub use objective::{Aim, Objective, ObjectiveError, TiltedMetric};
 pub use score::{score, score_all};
 pub use scores::{ScoreError, Scores};
 pub use settings::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt};
+pub use tier_effects::TierEffect;

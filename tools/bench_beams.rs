@@ -119,7 +119,8 @@ fn errors(stone: &ConvexStone, material: &Material, real: bool, runs: usize) -> 
     println!("\n| light that returns upward by | ms | value | standard error |\n|---|---|---|---|");
     let efforts = [(1e-4, 1024), (1e-4, 8192), (1e-5, 1024), (1e-5, 8192), (1e-5, 65_536), (1e-6, 65_536)];
     for (stop, photons) in efforts.into_iter().take(if real { efforts.len() } else { 1 }) {
-        let effort = BeamEffort { stop: StopCriteria::at_power(stop), photons, seed: 1 };
+        let effort =
+            BeamEffort { stop: StopCriteria::at_power(stop), photons, seed: 1, ..BeamEffort::default() };
         let gaze = || beam_view::beam_view(&beams, DVec3::NEG_Z, material.index_d(), false, &effort);
         let (time, gaze) = best_of(runs, gaze);
         let (ms, up) = (time * 1e3, gaze?.up);

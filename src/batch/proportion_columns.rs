@@ -2,6 +2,7 @@
 
 use super::row_maker::RowMaker;
 use super::table::TableCell;
+use crate::design::proportion_catalogue::NamedProportion;
 use crate::design::{LengthUnit, proportions};
 use crate::materials::weight::Weight;
 use crate::stone::{Stone, StoneOptions};
@@ -43,18 +44,9 @@ fn measured_cells(spec: &OsStr, options: &StoneOptions, maker: &RowMaker) -> Opt
         maker.said.note_of_one(maker.progress, &said, &note);
     }
     let number = |x: Option<f64>| x.map_or(TableCell::Empty(()), TableCell::number);
-    Some(vec![
-        design.name.as_str().into(),
-        number(to_mm.map(|k| p.width * k)),
-        TableCell::number(p.length / p.width),
-        number(p.table_percent),
-        number(p.crown_angle_deg),
-        TableCell::number(p.crown_height_percent),
-        number(p.pavilion_angle_deg),
-        TableCell::number(p.pavilion_depth_percent),
-        TableCell::number(p.girdle_percent),
-        TableCell::number(p.depth_percent),
-        number(carats),
-        carats.and(weight.name()).as_deref().into(),
-    ])
+    let proportions = COLUMNS.iter().filter_map(|name| NamedProportion::by_name(name));
+    let mut cells: Vec<TableCell> = vec![design.name.as_str().into(), number(to_mm.map(|k| p.width * k))];
+    cells.extend(proportions.map(|proportion| number((proportion.of)(&p))));
+    cells.extend([number(carats), carats.and(weight.name()).as_deref().into()]);
+    Some(cells)
 }

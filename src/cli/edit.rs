@@ -9,7 +9,7 @@ use super::exit_code::ExitStatus;
 use super::progress::BarProgress;
 use crate::design::edit::{DesignChanges, EditRequest, Editor};
 use crate::scoring::edit_report::EditReport;
-pub use options::EditArgs;
+pub use options::{EditArgs, keep};
 
 /// Changes the stone, prints what changed and writes the result.
 pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {

@@ -14,7 +14,7 @@ mod tier_list;
 pub use changes::{BeforeAfter, DesignChanges, MeasureChange, TierChange, TierState};
 pub use editor::{Edited, Editor};
 pub use error::EditError;
-pub use setting::{Keep, Setting, SettingError, Side, Target};
+pub use setting::{EditTarget, Keep, Setting, SettingError, Side};
 pub use tier_list::{EditableTier, TierList, places, places_of_tiers};
 
 use super::tiers::Design;

@@ -1,7 +1,7 @@
 //! A design for a stone of another refractive index: pavilion by the critical angle, crown by a tangent ratio. The
 //! formulas are in [`crate::manual::editing`].
 
-use super::edit::{BeforeAfter, EditError, Edited, Editor, Keep, Setting, Side, Target};
+use super::edit::{BeforeAfter, EditError, EditTarget, Edited, Editor, Keep, Setting, Side};
 use super::tiers::{Design, Zone};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
@@ -204,7 +204,7 @@ impl RetargetRequest {
             CrownRule::Ratio(ratio) => return Err(RetargetError::Ratio(ratio)),
         };
         let pavilion_scale = after.to_radians().tan() / before.to_radians().tan();
-        let scale = |side, value| Setting { target: Target::Scale(side), is_added: false, value };
+        let scale = |side, value| Setting { target: EditTarget::Scale(side), is_added: false, value };
         let settings = [scale(Side::Pavilion, pavilion_scale), scale(Side::Crown, crown_scale)];
         let mut edited = editor.edit(&settings, Keep::Meets)?;
         edited.design.refractive_index = Some(self.to);

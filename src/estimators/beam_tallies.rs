@@ -13,7 +13,7 @@ use crate::sampling::statistic::Statistic;
 use crate::sampling::tally::{Column, Tally};
 use crate::trace::ConvexStone;
 use crate::trace::beams::{
-    BeamExit, BeamVisitor, Beams, EntryFacet, IncidentBeam, StopCriteria, UnpolarisedLight,
+    BeamExit, BeamVisitor, Beams, EntryFacet, IncidentBeam, ResidualBeam, StopCriteria, UnpolarisedLight,
 };
 use glam::DVec3;
 
@@ -27,22 +27,22 @@ pub(super) fn view_methods<'a>(
         |m: &&Metric| matches!(m.read_from, MetricSource::Sums(s) if needs_strongest_path(&s));
     let (lighting, strongest) = (view_metrics::lighting(&setup), asked.iter().any(reads_strongest));
     vec![Method::beams("view by beams", move |effort| {
-        view(&Beams::new(stone), &setup.medium, setup.view_frame, lighting, strongest, effort)
+        view(&setup.beams(stone), &setup.medium, setup.view_frame, lighting, strongest, effort)
     })]
 }
 
 /// The method by beams of the faceters' metrics.
 pub(super) fn iso_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
     let dome = setup.dome(faceter_view::GEMRAY_OBSERVER_DEG);
-    vec![Method::beams("iso by beams", move |_| {
-        Ok(vec![iso(&Beams::new(stone), &setup.medium, setup.view_frame, dome)?])
+    vec![Method::beams("iso by beams", move |effort| {
+        Ok(vec![iso(&setup.beams(stone), &setup.medium, setup.view_frame, dome, effort.untraced)?])
     })]
 }
 
 /// The method by beams of the point light's metrics.
 pub(super) fn colour_methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, _: &[&Metric]) -> Vec<Method<'a>> {
     vec![Method::beams("beam by beams", move |effort| {
-        colours(&Beams::new(stone), &setup.medium, setup.view_frame, effort)
+        colours(&setup.beams(stone), &setup.medium, setup.view_frame, effort)
     })]
 }
 
@@ -130,11 +130,14 @@ pub fn view(
 }
 
 /// The faceters' view. Checked in `tests/library/exact.rs` against [`super::FaceterView`].
+///
+/// - `untraced`: share of the light that may be left untraced, as [`BeamEffort::untraced`]
 pub fn iso(
     beams: &Beams,
     medium: &TraceOptics,
     view_frame: ViewFrame,
     sky: ObserverDome,
+    untraced: f64,
 ) -> Result<Tally, EstimatorError> {
     let index = check_index(medium.material.index_d())?;
     let (facing, table) =
@@ -145,9 +148,14 @@ pub fn iso(
         facing: &facing,
         table: &table,
         tally: Tally::default(),
+        untraced: [0.0; 2],
     };
     let lit = IncidentBeam { direction: -view_frame.axis, indices: [f64::from(index)] };
-    let until = StopCriteria { facets: faceter_view::MAX_BOUNCES, ..StopCriteria::at_power(ISO_POWER) };
+    let until = StopCriteria {
+        facets: faceter_view::MAX_BOUNCES,
+        residual: untraced,
+        ..StopCriteria::at_power(ISO_POWER)
+    };
     let totals = beams.trace(&lit, UnpolarisedLight(1.0), until, &mut bright);
     let facets = beams.facets();
     let seen = |f: usize| {
@@ -156,6 +164,9 @@ pub fn iso(
     let table_rays = (0..facets.count()).map(seen).sum::<f64>() / totals.outline;
     let mut tally = bright.tally;
     (tally[faceter_view::RAYS], tally[faceter_view::TABLE_RAYS]) = (1.0, table_rays);
+    if untraced > 0.0 {
+        faceter_view::add_half_of_untraced(&mut tally, bright.untraced);
+    }
     Ok(tally)
 }
 
@@ -166,6 +177,8 @@ struct FaceterBeamVisitor<'a> {
     facing: &'a [f32],
     table: &'a [f32],
     tally: Tally,
+    /// Light that was not followed over as many facets as count, and the part of it that met the table.
+    untraced: [f64; 2],
 }
 
 impl FaceterBeamVisitor<'_> {
@@ -190,6 +203,13 @@ impl BeamVisitor<UnpolarisedLight, 1> for FaceterBeamVisitor<'_> {
 
     fn exit(&mut self, exit: &BeamExit<UnpolarisedLight, 1>) {
         self.add(exit.entry.facet, exit.facet, exit.direction, exit.power);
+    }
+
+    fn residual(&mut self, rest: &ResidualBeam<UnpolarisedLight, 1>) {
+        if rest.bounces < faceter_view::MAX_BOUNCES {
+            self.untraced[0] += rest.power;
+            self.untraced[1] += f64::from(self.table[rest.entry.facet]) * rest.power;
+        }
     }
 }
 

@@ -18,6 +18,17 @@ pub type ConvexMethods = for<'a> fn(&'a ConvexStone, Setup<'a>, &[&Metric]) -> V
 /// Gives methods for a stone that is not convex.
 pub type NonconvexMethods = for<'a> fn(&'a MeshStone, Setup<'a>) -> Vec<Method<'a>>;
 
+/// Where the noise of sums by beams comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BeamNoise {
+    /// There is none: beams are followed to their end.
+    None,
+    /// From photons that finish beams of one direction: less noise than photons alone have in the same time.
+    Photons,
+    /// From directions drawn at random: more noise than photons have in the same time.
+    Directions,
+}
+
 /// A kind of estimator, and what else finds its sums: files of their own, which it need not know.
 #[derive(Debug, Clone, Copy)]
 pub struct CataloguedEstimator {
@@ -27,6 +38,8 @@ pub struct CataloguedEstimator {
     pub in_clear_stones: Option<ConvexMethods>,
     /// By exact beams, for metrics that say that they have them.
     pub by_beams: Option<ConvexMethods>,
+    /// Where the noise of these comes from.
+    pub beam_noise: BeamNoise,
     /// Whether the kind's own methods give what beams were to give and did not.
     pub completes_beams: bool,
     /// In stones that are not convex, for metrics that say that these have them.
@@ -40,6 +53,7 @@ impl CataloguedEstimator {
             kind,
             in_clear_stones: None,
             by_beams: None,
+            beam_noise: BeamNoise::Photons,
             completes_beams: false,
             nonconvex: None,
         }
@@ -51,6 +65,7 @@ pub static ESTIMATORS: [CataloguedEstimator; 7] = [
     CataloguedEstimator::new(&SolidKind),
     CataloguedEstimator {
         by_beams: Some(quadrature::methods),
+        beam_noise: BeamNoise::Directions,
         nonconvex: Some(nonconvex::hemisphere_methods),
         ..CataloguedEstimator::new(&HemisphereKind)
     },
@@ -62,6 +77,7 @@ pub static ESTIMATORS: [CataloguedEstimator; 7] = [
     },
     CataloguedEstimator {
         by_beams: Some(beam_tallies::iso_methods),
+        beam_noise: BeamNoise::None,
         ..CataloguedEstimator::new(&FaceterViewKind)
     },
     CataloguedEstimator::new(&ContrastKind),
@@ -72,3 +88,11 @@ pub static ESTIMATORS: [CataloguedEstimator; 7] = [
         ..CataloguedEstimator::new(&PointLightKind)
     },
 ];
+
+impl Metric {
+    /// Where the noise of the metric by beams comes from; none if beams do not give it.
+    pub fn beam_noise(&self) -> Option<BeamNoise> {
+        let estimator = ESTIMATORS.iter().find(|e| self.is_of(e.kind));
+        estimator.filter(|_| self.by_beams).map(|e| e.beam_noise)
+    }
+}

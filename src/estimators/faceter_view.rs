@@ -67,6 +67,10 @@ columns! {
     TABLE_COS,
     /// Their power × 2h√(1 − h²).
     TABLE_SC2,
+    /// Half of the power that was not traced to its end. It is part of the powers above.
+    UNTRACED,
+    /// The same of rays that meet the table.
+    TABLE_UNTRACED,
 }
 
 /// The columns of power over the whole outline, in the order of [`weights`].
@@ -74,6 +78,26 @@ pub(super) const ALL: [Column; 3] = [ISO, COS, SC2];
 
 /// The same over the table alone.
 pub(super) const TABLE: [Column; 3] = [TABLE_ISO, TABLE_COS, TABLE_SC2];
+
+/// Adds half of the power that was not traced to its end to all that it may be part of.
+///
+/// - `untraced`: of all rays, and of those that meet the table
+pub(super) fn add_half_of_untraced(tally: &mut Tally, untraced: [f64; 2]) {
+    let parts = [(UNTRACED, ALL), (TABLE_UNTRACED, TABLE)];
+    for ((half, columns), power) in parts.into_iter().zip(untraced) {
+        tally[half] += 0.5 * power;
+        columns.iter().for_each(|column| tally[*column] += 0.5 * power);
+    }
+}
+
+/// What sums would be had all of the power that was not traced counted in full, or none of it.
+fn bounds_of_untraced(sums: &Tally) -> Vec<Tally> {
+    let moved = |sign: f64| {
+        let bound = sums.with(&ALL, sign * sums[UNTRACED]);
+        bound.with(&TABLE, sign * sums[TABLE_UNTRACED])
+    };
+    if sums[UNTRACED] > 0.0 { vec![moved(1.0), moved(-1.0)] } else { Vec::new() }
+}
 
 /// The weights of light from a height.
 pub(super) fn weights(h: f32) -> [f32; 3] {
@@ -205,6 +229,10 @@ impl EstimatorKind for FaceterViewKind {
         vec![Method::samples("iso", 1, move || {
             FaceterView::in_frame(stone, &setup.medium, setup.view_frame, dome)
         })]
+    }
+
+    fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {
+        bounds_of_untraced(sums)
     }
 
     fn why_unseen(&self, stone: &ConvexStone) -> &'static str {

@@ -38,7 +38,7 @@ pub(super) fn methods<'a>(stone: &'a ConvexStone, setup: Setup<'a>, asked: &[&Me
     let Setup { medium, view_frame, .. } = setup;
     let lit = asked.iter().filter_map(|m| needs(m)).any(|needs| needs.lit && !needs.faint);
     let seen = Method::beams("fire", move |effort| {
-        fire(&Beams::new(stone), &medium, view_frame, PointLightNeeds { lit, faint: false }, effort)
+        fire(&setup.beams(stone), &medium, view_frame, PointLightNeeds { lit, faint: false }, effort)
     });
     let faint = Method::samples("beam", point_light::COST, move || {
         let needs = PointLightNeeds { lit: false, faint: true };

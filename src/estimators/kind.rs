@@ -9,6 +9,7 @@ use crate::geometry::Polyhedron;
 use crate::sampling::statistic::Statistic;
 use crate::sampling::tally::{Column, Tally};
 use crate::trace::ConvexStone;
+use crate::trace::beams::Beams;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
@@ -189,9 +190,16 @@ pub struct Setup<'a> {
     pub stop_power: f32,
     /// Half-angle in degrees of the observer's dark cone; none leaves each metric its own.
     pub observer: Option<f64>,
+    /// Whether beams of a symmetric stone, seen along its axis, are followed in one sector for all.
+    pub by_symmetry: bool,
 }
 
 impl Setup<'_> {
+    /// A stone made ready for beams.
+    pub fn beams<'a>(&self, stone: &'a ConvexStone) -> Beams<'a> {
+        if self.by_symmetry { Beams::by_symmetry(stone) } else { Beams::new(stone) }
+    }
+
     /// The dome of a metric whose own observer has a cone of half-angle `own`, in degrees.
     pub fn dome(&self, own: f64) -> ObserverDome {
         ObserverDome::with_observer(self.observer.unwrap_or(own))

@@ -37,6 +37,31 @@ pub fn weld(
     first
 }
 
+/// Which corners have another one within `distance`: [`weld`] leaves all others as they are. A few that
+/// have none may be among them.
+pub fn crowded(vertices: &[DVec3], distance: f64) -> Vec<bool> {
+    /// Along a line in which no stone's symmetry lies, few corners are near each other by chance.
+    const LINE: DVec3 = DVec3::new(0.619_7, 0.533_1, 0.576_1);
+    /// So many corners next to one on the line are looked at; beyond that all are taken for crowded.
+    const MOST: usize = 32;
+    let mut along: Vec<(f64, usize)> = vertices.iter().enumerate().map(|(i, v)| (LINE.dot(*v), i)).collect();
+    along.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut crowded = vec![false; vertices.len()];
+    for (place, (at, i)) in along.iter().enumerate() {
+        // LINE is a unit vector but for a part in a thousand
+        let reach = at + 1.01 * distance + 1e-15 * at.abs();
+        for (number, (_, j)) in along[place + 1..].iter().take_while(|(next, _)| *next <= reach).enumerate() {
+            if number == MOST {
+                return vec![true; vertices.len()];
+            }
+            if vertices[*i].distance(vertices[*j]) <= distance {
+                (crowded[*i], crowded[*j]) = (true, true);
+            }
+        }
+    }
+    crowded
+}
+
 /// The ring without repeated corners and without spikes (`a b a`).
 pub fn without_repeats<T: PartialEq>(corners: impl Iterator<Item = T>) -> Vec<T> {
     let mut ring: Vec<T> = Vec::new();
@@ -81,6 +106,8 @@ mod tests {
         assert_eq!(weld(&corners, 0..4, all, 1e-9), [0, 1, 0, 3]);
         assert_eq!(weld(&corners, [2, 1, 0, 3], all, 1e-9), [2, 1, 2, 3]);
         assert_eq!(weld(&corners, 0..4, (DVec3::splat(0.05), all.1), 1e-9), [0, 1, 2, 3], "outside the box");
+        assert_eq!(crowded(&corners, 1e-9), [true, false, true, false]);
+        assert_eq!(crowded(&[DVec3::ONE; 40], 1e-9), [true; 40]);
         assert_eq!(without_repeats([3, 3, 5, 7, 7, 3].into_iter()), [3, 5, 7]);
         assert_eq!(without_repeats([1, 2, 3, 2, 4].into_iter()), [1, 2, 4]);
         assert_eq!(without_repeats([1, 1, 2].into_iter()), [1, 2]);

@@ -1,6 +1,7 @@
 //! Adaptive sampling: a row of scores, estimator by estimator, each as far as the settings ask.
 
 use super::score::{ScoreRequest, ScoreRow, Target};
+use crate::estimators::catalogue::BeamNoise;
 use crate::estimators::kind::{BeamTallies, EstimatorKind, MakeEstimator, Method, NOTHING_SEEN, Procedure};
 use crate::estimators::weighted_exits::BeamEffort;
 use crate::estimators::{BATCHES, BatchedEstimate, Estimator, EstimatorError};
@@ -23,12 +24,38 @@ const LARGEST_STEP: f64 = 16.0;
 /// The same for a median, whose error falls at once when samples can tell two peaks apart.
 const LARGEST_STEP_OF_MEDIAN: f64 = 4.0;
 
+/// Which metrics are taken from beams.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum BeamUse {
+    /// None.
+    None,
+    /// All that beams give.
+    All,
+    /// Those of one direction, for which beams are quicker than photons; what is left untraced of those
+    /// without noise is this share of the light.
+    OneDirection(f64),
+}
+
+impl BeamUse {
+    fn gives(self, metric: &Metric) -> bool {
+        match self {
+            BeamUse::None => false,
+            BeamUse::All => metric.by_beams,
+            BeamUse::OneDirection(_) => metric.beam_noise().is_some_and(|n| n != BeamNoise::Directions),
+        }
+    }
+
+    fn untraced(self) -> f64 {
+        if let BeamUse::OneDirection(untraced) = self { untraced } else { 0.0 }
+    }
+}
+
 /// A row that is being filled in.
 pub(super) struct ScoreAccumulator<'a> {
     pub row: &'a mut ScoreRow,
     pub plan: &'a ScoreRequest,
-    /// Whether beams are used.
-    pub exact: bool,
+    /// Which metrics are taken from beams.
+    pub beams: BeamUse,
     /// The stone; none if it is not convex.
     pub convex: Option<&'a ConvexStone>,
     /// Whether photons fill in what beams were to give and did not.
@@ -43,7 +70,7 @@ impl ScoreAccumulator<'_> {
     ///
     /// - `by_beams`: whether it is a method by beams
     fn columns(&self, kind: &dyn EstimatorKind, method: &Method, by_beams: bool) -> Vec<RowColumn> {
-        let exact = |m: &Metric| self.exact && m.by_beams;
+        let exact = |m: &Metric| self.beams.gives(m);
         let asked = |i: usize, m: &Metric| match self.unfinished {
             true => exact(m) && self.row.scores[i].is_none(),
             false => exact(m) == by_beams && (m.nonconvex || self.convex.is_some()),
@@ -127,8 +154,12 @@ impl ScoreAccumulator<'_> {
         loop {
             // fewer than two a batch would leave the remainder out
             photons = photons.max(2 * BATCHES as u64);
-            let effort =
-                BeamEffort { photons: photons as usize, seed: self.plan.seed, ..BeamEffort::default() };
+            let effort = BeamEffort {
+                photons: photons as usize,
+                seed: self.plan.seed,
+                untraced: self.beams.untraced(),
+                ..BeamEffort::default()
+            };
             let found = tallies(&effort)?;
             let estimate = |of: &Statistic| of.computed(&found, |sums| kind.bounds_of_untraced(sums));
             let error = worst(columns, estimate);

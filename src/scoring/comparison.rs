@@ -67,7 +67,14 @@ pub fn is_significant(difference: Estimate, negligible: f64) -> bool {
 /// stone is stored, and, where photons are traced, of the light that they give up.
 pub fn negligible(metric: &Metric, plan: &ScoreRequest) -> f64 {
     let closed = matches!(metric.read_from, MetricSource::Solid(_)) || (plan.exact && metric.by_beams);
-    metric.scale * if closed { OF_STORAGE } else { OF_TRACING }
+    metric.scale * negligible_part(closed)
+}
+
+/// The part of a metric's scale below which differences say nothing of the stones.
+///
+/// - `closed`: whether it is a closed form or a sum of beams
+pub(super) fn negligible_part(closed: bool) -> f64 {
+    if closed { OF_STORAGE } else { OF_TRACING }
 }
 
 /// Whether the mean of short runs is not what a long one gives: a median that jumps from peak to peak.

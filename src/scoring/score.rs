@@ -1,11 +1,12 @@
 //! Scores of stones: which estimators to run, how long, and one row a stone.
 
-use super::adaptive::ScoreAccumulator;
+use super::adaptive::{BeamUse, ScoreAccumulator};
 pub use super::settings::{
     DEFAULT_SAMPLES, MAX_SAMPLES, ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt,
 };
 use crate::estimators::catalogue::CataloguedEstimator;
 use crate::estimators::{ESTIMATORS, EstimatorError, STOP_POWER, Setup, TraceOptics, ViewFrame};
+use crate::materials::Material;
 use crate::metrics::{Metric, MetricSource};
 use crate::sampling::stats::Estimate;
 use crate::trace::ConvexStone;
@@ -23,21 +24,14 @@ const NO_OUTLINE: &str = "the stone has no outline to compare";
 /// Never fails; a stone that cannot be scored says so in [`ScoreRow::error`].
 /// Checked against published and reference figures in `tests/library/scores.rs`.
 pub fn score(subject: &ScoreInput, plan: &ScoreRequest) -> ScoreRow {
-    let mut row = ScoreRow {
-        stone: subject.stone.clone(),
-        material: subject.material.name.to_string(),
-        facets: None,
-        scores: vec![None; plan.metrics.len()],
-        samples: Vec::new(),
-        note: None,
-        error: None,
-        left_out: Vec::new(),
-    };
+    let mut row = ScoreRow::empty(subject.stone.clone(), subject.material.name.to_string(), plan);
     let filled = match &subject.shape {
         Ok(StoneShape::Convex(solid)) => {
             let stone = ConvexStone::new(solid.clone());
             row.facets = Some(stone.facet_count());
-            fill(&mut row, &stone, subject, plan).map_err(|e| e.to_string())
+            let setup = subject.setup(plan);
+            let beams = if plan.exact { BeamUse::All } else { BeamUse::None };
+            fill(&mut row, &stone, setup, plan, beams).map_err(|e| e.to_string())
         }
         Ok(StoneShape::Nonconvex(_)) if !plan.metrics.iter().any(|m| m.nonconvex) => {
             Err("not convex: it has none of the scores asked for (cutlab list metrics tells which it has)"
@@ -53,6 +47,25 @@ pub fn score(subject: &ScoreInput, plan: &ScoreRequest) -> ScoreRow {
     };
     if let Err(why) = filled {
         row.error = Some(why);
+    }
+    row
+}
+
+/// Scores a stone among many like it: beams give what they are quicker at, in one sector of a symmetric stone.
+///
+/// - `untraced`: share of the light that is left untraced where beams have no noise, as
+///   [`crate::estimators::weighted_exits::BeamEffort::untraced`]
+pub(super) fn score_candidate(
+    stone: &ConvexStone,
+    material: &Material,
+    tilt: Option<Tilt>,
+    plan: &ScoreRequest,
+    untraced: f64,
+) -> ScoreRow {
+    let mut row = ScoreRow::empty(String::new(), String::new(), plan);
+    let setup = Setup { by_symmetry: true, ..setup(material, tilt, plan) };
+    if let Err(why) = fill(&mut row, stone, setup, plan, BeamUse::OneDirection(untraced)) {
+        row.error = Some(why.to_string());
     }
     row
 }
@@ -78,10 +91,11 @@ fn estimators(plan: &ScoreRequest) -> Vec<CataloguedEstimator> {
 fn fill(
     row: &mut ScoreRow,
     stone: &ConvexStone,
-    subject: &ScoreInput,
+    setup: Setup,
     plan: &ScoreRequest,
+    beams: BeamUse,
 ) -> Result<(), EstimatorError> {
-    let setup = subject.setup(plan);
+    let material = setup.medium.material;
     for (column, metric) in plan.metrics.iter().enumerate() {
         if let MetricSource::Solid(of) = metric.read_from {
             row.scores[column] = of(&stone.solid).map(Estimate::exact);
@@ -90,9 +104,10 @@ fn fill(
             }
         }
     }
-    let (clear, dispersive) = (subject.material.is_clear(), subject.material.is_dispersive());
-    let exact = plan.exact && clear;
-    let mut sheet = ScoreAccumulator { row, plan, exact, convex: Some(stone), unfinished: false };
+    let (clear, dispersive) = (material.is_clear(), material.is_dispersive());
+    let asked_for = beams != BeamUse::None;
+    let beams = if clear { beams } else { BeamUse::None };
+    let mut sheet = ScoreAccumulator { row, plan, beams, convex: Some(stone), unfinished: false };
     let estimators = estimators(plan);
     let asked = |e: &CataloguedEstimator| -> Vec<&Metric> {
         plan.metrics.iter().copied().filter(|m| m.is_of(e.kind)).collect()
@@ -109,9 +124,9 @@ fn fill(
         }
     }
     for metric in unfit.iter().flat_map(asked) {
-        sheet.row.leave_out(metric, subject.material.no_dispersion());
+        sheet.row.leave_out(metric, material.no_dispersion());
     }
-    if exact {
+    if beams != BeamUse::None {
         for estimator in &fit {
             let methods = estimator.by_beams.map(|methods| methods(stone, setup, &asked(estimator)));
             for method in methods.into_iter().flatten() {
@@ -133,7 +148,7 @@ fn fill(
             row.left_out.retain(|(name, _)| !scored(name));
             row.note = Some(TOO_MANY_BEAMS);
         }
-    } else if plan.exact && plan.metrics.iter().any(|m| m.by_beams) {
+    } else if asked_for && plan.metrics.iter().any(|m| m.by_beams) {
         row.note = Some(NO_BEAMS_IN_COLOUR);
     }
     Ok(())
@@ -157,7 +172,7 @@ fn fill_nonconvex(
     if plan.exact && plan.metrics.iter().any(|m| m.by_beams && m.nonconvex) {
         row.note = Some(NO_BEAMS_IN_NONCONVEX);
     }
-    let mut sheet = ScoreAccumulator { row, plan, exact: false, convex: None, unfinished: false };
+    let mut sheet = ScoreAccumulator { row, plan, beams: BeamUse::None, convex: None, unfinished: false };
     for estimator in estimators(plan) {
         for method in estimator.nonconvex.into_iter().flat_map(|methods| methods(stone, setup)) {
             sheet.fill(estimator.kind, method, false)?;
@@ -182,11 +197,17 @@ impl ScoreRequest {
 impl ScoreInput {
     /// The light and the eye that the stone is scored with.
     pub fn setup(&self, plan: &ScoreRequest) -> Setup<'_> {
-        Setup {
-            medium: TraceOptics { material: &self.material, polarised: plan.polarised },
-            view_frame: self.tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth)),
-            stop_power: plan.stop_power(),
-            observer: plan.observer,
-        }
+        setup(&self.material, self.tilt, plan)
+    }
+}
+
+/// The light and the eye that a stone is scored with.
+fn setup<'a>(material: &'a Material, tilt: Option<Tilt>, plan: &ScoreRequest) -> Setup<'a> {
+    Setup {
+        medium: TraceOptics { material, polarised: plan.polarised },
+        view_frame: tilt.map_or(ViewFrame::FACE_UP, |t| ViewFrame::tilted(t.degrees, t.azimuth)),
+        stop_power: plan.stop_power(),
+        observer: plan.observer,
+        by_symmetry: false,
     }
 }

@@ -58,6 +58,11 @@ pub struct Tilt {
     pub azimuth: f64,
 }
 
+impl Tilt {
+    /// Most degrees of a tilt: steeper, the silhouette of a flat stone has hardly any width left.
+    pub const MOST_DEGREES: f64 = 89.9;
+}
+
 /// The shape of a stone.
 #[derive(Debug, Clone)]
 pub enum StoneShape {
@@ -123,8 +128,8 @@ impl ScoreInput {
 }
 
 impl ScoreRow {
-    /// The row of a stone that could not be opened.
-    pub fn failed(stone: String, material: String, error: String, plan: &ScoreRequest) -> ScoreRow {
+    /// The row of a stone of which nothing is known yet.
+    pub(super) fn empty(stone: String, material: String, plan: &ScoreRequest) -> ScoreRow {
         ScoreRow {
             stone,
             material,
@@ -132,9 +137,14 @@ impl ScoreRow {
             scores: vec![None; plan.metrics.len()],
             samples: Vec::new(),
             note: None,
-            error: Some(error),
+            error: None,
             left_out: Vec::new(),
         }
+    }
+
+    /// The row of a stone that could not be opened.
+    pub fn failed(stone: String, material: String, error: String, plan: &ScoreRequest) -> ScoreRow {
+        ScoreRow { error: Some(error), ..ScoreRow::empty(stone, material, plan) }
     }
 
     /// Leaves the score of a metric empty, for a reason.

@@ -9,13 +9,14 @@ use std::path::{Path, PathBuf};
 /// strangers.
 const ROWS: &[&[&str]] = &[
     &["sampling", "parse", "limits", "parallel", "progress"],
-    &["storage"],
+    &["storage", "search"],
     &["color", "optics", "geometry"],
     &["materials", "design", "trace"],
     &["formats", "estimators"],
     &["stone", "metrics"],
     &["scene", "scoring"],
     &["photons", "batch"],
+    &["optimise"],
     &["integrators"],
     &["render"],
     &["report", "manual"],

@@ -82,7 +82,12 @@ fn photons_finish_what_beams_leave_over() {
     let stone = ConvexStone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
     for stop_power in [1e-4, 1e-5, 1e-6] {
-        let effort = BeamEffort { stop: StopCriteria::at_power(stop_power), photons: 32_768, seed: SEED };
+        let effort = BeamEffort {
+            stop: StopCriteria::at_power(stop_power),
+            photons: 32_768,
+            seed: SEED,
+            ..BeamEffort::default()
+        };
         let gaze = beam_view::beam_view(&beams, DVec3::NEG_Z, DIAMOND, false, &effort).expect("lit");
         let ours = [gaze.reflected, gaze.up, gaze.up_cos2, gaze.down];
         for (got, f) in ours.into_iter().zip(figures::set("vertical view")) {
@@ -220,7 +225,12 @@ fn beams_agree_with_photons_face_up_or_tilted() {
 fn polarisation_changes_the_light_that_returns_by_as_much_as_is_known() {
     let stone = ConvexStone::new(brilliant(&[]));
     let beams = Beams::new(&stone);
-    let effort = BeamEffort { stop: StopCriteria::at_power(1e-6), photons: 32_768, seed: SEED };
+    let effort = BeamEffort {
+        stop: StopCriteria::at_power(1e-6),
+        photons: 32_768,
+        seed: SEED,
+        ..BeamEffort::default()
+    };
     let gaze =
         |polarised| beam_view::beam_view(&beams, DVec3::NEG_Z, DIAMOND, polarised, &effort).expect("lit");
     let (with, without) = (gaze(true), gaze(false));

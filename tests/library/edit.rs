@@ -59,9 +59,9 @@ fn every_tier(design: &Design) -> (usize, usize) {
                 Ok(edited) => {
                     made += 1;
                     let planes = edited.design.planes();
-                    assert_eq!(edited.solid.faces.len(), stood, "{} {}{by}", design.name, tier.place);
+                    assert!(edited.solid.faces.len() >= stood, "{} {}{by}", design.name, tier.place);
                     for meet in &known {
-                        let allowed = 1e-9 * width + 10.0 * spread(&before, meet);
+                        let allowed = 1e-9 * width + 3.0 * spread(&before, meet);
                         let apart = spread(&planes, meet);
                         assert!(
                             apart <= allowed,
@@ -169,7 +169,10 @@ fn sizes_are_what_was_asked_for() {
                 }
             };
             let start = proportions::of_design(&before).expect("closed");
-            if let Some(after) = measured(&["table+=2"]) {
+            // the stars of these pass through three corners each: angle and distance alone cannot follow
+            if matches!(name, "oval" | "cushion") && keep == Keep::Meets {
+                assert!(measured(&["table+=2"]).is_none());
+            } else if let Some(after) = measured(&["table+=2"]) {
                 let (was, is) =
                     (start.table_percent.expect("a table"), after.table_percent.expect("a table"));
                 assert!((is - was - 2.0).abs() < 1e-6, "{name} {keep:?}: {was} {is}");

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 fn averages(design: &Design, index: f64, head_deg: f64) -> [f64; 3] {
     let stone = ConvexStone::new(design.solid().expect("closed"));
     let until = StopCriteria { facets: 9, ..StopCriteria::at_power(1e-7) };
-    let effort = BeamEffort { stop: until, photons: 0, seed: 1 };
+    let effort = BeamEffort { stop: until, photons: 0, seed: 1, ..BeamEffort::default() };
     let lit = IncidentBeam { direction: DVec3::NEG_Z, indices: [index] };
     let head = head_deg.to_radians().cos();
     let weighed = integrate_exits(&Beams::new(&stone), &lit, false, &effort, |l| {

@@ -19,6 +19,8 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("compare", "metrics"),
     ("compare", "error"),
     ("validate", "only"),
+    ("optimise", "maximise"),
+    ("optimise", "evaluations"),
 ];
 
 /// Heights of a brilliant that go together.
@@ -55,7 +57,27 @@ const SAMPLES: &[Sample] = &[
     ("report", "stones", &[&["a.asc"], &["cube", "o.stl"]]),
     ("edit", "stone", &[&["a.asc"], &["round-brilliant"], &["b.gem"], &["-"], &["o.stl"]]),
     ("retarget", "stone", &[&["a.asc"], &["classic"], &["b.gem"], &["-"], &["o.stl"]]),
+    ("optimise", "stone", &[&["a.asc"], &["round-brilliant"], &["classic"], &["o.stl"]]),
     // changes
+    (
+        "optimise",
+        "vary",
+        &[&["P1.angle"], &["crown.scale=0.9:1.1", "table"], &["P*.angle", "C1.angle=28:36"]],
+    ),
+    ("optimise", "maximise", &[&["iso"], &["iso@0,10", "weight_ratio"]]),
+    ("optimise", "minimise", &[&["spread"]]),
+    ("optimise", "tilt", &[&["0,10"]]),
+    ("optimise", "at_least", &[&["weight_ratio=0.9*start"], &["table_percent=30"]]),
+    ("optimise", "at_most", &[&["depth_percent=1.1*start"]]),
+    ("optimise", "least_facet", &[&["0.1"]]),
+    ("optimise", "least_girdle", &[&["0.8"]]),
+    ("optimise", "evaluations", &[&["4"], &["7"]]),
+    ("optimise", "starts", &[&["2"]]),
+    ("optimise", "keep_best", &[&["2"]]),
+    ("optimise", "method", &[&["random"], &["cma-es"], &["nsga-ii"]]),
+    ("optimise", "keep", &[&["meets"], &["angles"], &["depths"]]),
+    ("optimise", "table", &[&["front.csv"]]),
+    ("optimise", "output", &[&["x.asc"], &["out"], &["x.toml"]]),
     (
         "edit",
         "set",

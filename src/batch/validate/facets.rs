@@ -145,6 +145,7 @@ const FAR: Work = Work {
     },
     photons: 65_536,
     seed: 1,
+    untraced: 0.0,
 };
 
 fn limit_by_beams() -> Check {

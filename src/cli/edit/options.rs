@@ -48,7 +48,7 @@ fn setting(text: &str) -> Result<Setting, String> {
 }
 
 /// Value parser of `--keep`.
-fn keep(text: &str) -> Result<Keep, String> {
+pub fn keep(text: &str) -> Result<Keep, String> {
     match &*text.trim().to_lowercase() {
         "meets" => Ok(Keep::Meets),
         "angles" => Ok(Keep::Angles),

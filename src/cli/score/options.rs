@@ -8,6 +8,7 @@ use crate::cli::args::stone::DEFAULT_STONE;
 use crate::cli::args::tables::TableArgs;
 use crate::cli::plot_output::Look;
 use crate::parse::{self, NumberUnit};
+use crate::scoring::Tilt;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -81,11 +82,8 @@ fn azimuth(text: &str) -> Result<f64, String> {
 /// Value parser of `--tilt`.
 fn tilt(text: &str) -> Result<Steps, String> {
     let steps = Steps::parse(text, NumberUnit::Degrees)?;
-    match steps.from.abs().max(steps.to.abs()) <= MOST_TILT {
+    match steps.from.abs().max(steps.to.abs()) <= Tilt::MOST_DEGREES {
         true => Ok(steps),
-        false => Err(format!("a stone can be tilted by up to {MOST_TILT}°")),
+        false => Err(format!("a stone can be tilted by up to {}°", Tilt::MOST_DEGREES)),
     }
 }
-
-/// Steeper than this the silhouette of a flat stone has hardly any width left.
-const MOST_TILT: f64 = 89.9;

@@ -1,6 +1,5 @@
 //! Changed planes brought back into a design, and changes that keep distances.
 
-use super::editor::Editor;
 use super::error::EditError;
 use super::flat_size::Size;
 use crate::design::meet_network::{Change, MeetNetwork};
@@ -13,10 +12,10 @@ use glam::DVec3;
 const UNCHANGED: f64 = 1e-13;
 
 /// The design with these planes in place of its own, in the order of its facets.
-pub(super) fn to_design(editor: &Editor, planes: &[Plane], change: &Change) -> Design {
-    let mut design = editor.design.clone();
+pub(super) fn to_design(was: &Design, network: &MeetNetwork, planes: &[Plane], change: &Change) -> Design {
+    let mut design = was.clone();
     let teeth = design.gear.teeth;
-    let size = editor.network.width;
+    let size = network.width;
     let mut number = 0;
     let mut tiers = Vec::new();
     for tier in std::mem::take(&mut design.tiers) {
@@ -26,7 +25,7 @@ pub(super) fn to_design(editor: &Editor, planes: &[Plane], change: &Change) -> D
             let is_same = old.normal.distance(new.normal) < UNCHANGED
                 && (old.distance - new.distance).abs() < UNCHANGED * size;
             let plane = if is_same { old } else { new };
-            let turned = change.turns.get(editor.network.part_of(number)).copied().unwrap_or(0.0);
+            let turned = change.turns.get(network.part_of(number)).copied().unwrap_or(0.0);
             let index = facet.index.map(|i| match turned / std::f64::consts::TAU * teeth {
                 0.0 => i,
                 shift => on_wheel(rounded(i + shift), teeth.abs()),

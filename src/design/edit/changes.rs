@@ -154,7 +154,7 @@ fn angle_deg(plane: &Plane) -> f64 {
 }
 
 fn tiers(editor: &Editor, edited: &Edited) -> Vec<TierChange> {
-    let (before, after) = (editor.planes(), edited.design.planes());
+    let (before, after) = (editor.design.planes(), edited.design.planes());
     let widths = (editor.network.width, edited.solid.width());
     if !has_same_facets(&editor.design, &edited.design) {
         return rebuilt(editor, edited, widths);
@@ -193,7 +193,7 @@ fn tiers(editor: &Editor, edited: &Edited) -> Vec<TierChange> {
 fn rebuilt(editor: &Editor, edited: &Edited, (was, is): (f64, f64)) -> Vec<TierChange> {
     let network = MeetNetwork::recover(&edited.design, &edited.solid);
     let new = TierList::of_design(&edited.design, &network).tiers;
-    let (before, after) = (editor.planes(), edited.design.planes());
+    let (before, after) = (editor.design.planes(), edited.design.planes());
     let state_before = |t: &EditableTier| TierState::of(&before, &t.facets, &editor.network, was);
     let state_after = |t: &EditableTier| TierState::of(&after, &t.facets, &network, is);
     let same = |a: &EditableTier, b: &EditableTier| a.zone == b.zone && a.label() == b.label();

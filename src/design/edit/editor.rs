@@ -3,15 +3,16 @@
 use super::apply;
 use super::error::EditError;
 use super::flat_size::Size;
-use super::setting::{Keep, Setting, Side, Target};
+use super::setting::{EditTarget, Keep, Setting, Side};
 use super::tier_list::{EditableTier, TierList};
 use crate::design::families;
 use crate::design::meet_network::{Change, MeetNetwork, NetworkError, Solved};
 use crate::design::tiers::{Design, Zone};
-use crate::geometry::{Plane, Polyhedron};
+use crate::geometry::Polyhedron;
 use crate::parse;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::RangeInclusive;
 
 /// A design made ready to be changed: its meets are recovered once, for any number of changes.
 #[derive(Debug, Clone)]
@@ -65,10 +66,10 @@ impl Editor {
         let mut sizes: Vec<(Size, f64)> = Vec::new();
         let mut network = self.network.clone();
         for side in [Side::Crown, Side::Pavilion] {
-            let scales = settings.iter().filter(|s| s.target == Target::Scale(side));
+            let scales = settings.iter().filter(|s| s.target == EditTarget::Scale(side));
             let ratio = scales.map(|s| s.value).product::<f64>();
             if !(ratio > 0.0 && ratio.is_finite()) {
-                let target = Target::Scale(side).to_string();
+                let target = EditTarget::Scale(side).to_string();
                 return Err(EditError::Value { target, value: ratio, needed: "a number above 0" });
             }
             let [crown, pavilion] =
@@ -87,33 +88,33 @@ impl Editor {
         };
         for setting in settings {
             match &setting.target {
-                Target::Angle(asked) => {
+                EditTarget::Angle(asked) => {
                     for tier in self.tiers.named(asked)? {
                         self.set_angle(tier, setting, &network, &mut change)?;
                     }
                 }
-                Target::Shift(side) => {
+                EditTarget::Shift(side) => {
                     let zone = zone_of(*side);
                     for tier in self.tiers.tiers.iter().filter(|t| t.zone == zone) {
                         let added = Setting { is_added: true, ..setting.clone() };
                         self.set_angle(tier, &added, &network, &mut change)?;
                     }
                 }
-                Target::Index(asked) => {
+                EditTarget::Index(asked) => {
                     for part in self.tiers.named(asked)?.iter().flat_map(|t| &t.parts) {
                         change.turns[*part] += std::f64::consts::TAU * setting.value / self.design.gear.teeth;
                     }
                 }
-                Target::Depth(asked) => {
+                EditTarget::Depth(asked) => {
                     for part in self.tiers.named(asked)?.iter().flat_map(|t| &t.parts) {
                         let by = change.distances[*part].get_or_insert(0.0);
                         *by += setting.value / 100.0 * network.width;
                     }
                 }
-                Target::Table => self.set_size(Size::Table, setting, &mut sizes)?,
-                Target::Girdle => self.set_size(Size::Girdle, setting, &mut sizes)?,
-                Target::Culet => self.set_size(Size::Culet, setting, &mut sizes)?,
-                Target::Scale(_) | Target::Parameter(_) => {}
+                EditTarget::Table => self.set_size(Size::Table, setting, &mut sizes)?,
+                EditTarget::Girdle => self.set_size(Size::Girdle, setting, &mut sizes)?,
+                EditTarget::Culet => self.set_size(Size::Culet, setting, &mut sizes)?,
+                EditTarget::Scale(_) | EditTarget::Parameter(_) => {}
             }
         }
         let planes = match keep {
@@ -135,14 +136,13 @@ impl Editor {
     /// parameter's.
     fn with_parameters(&self, settings: &[Setting]) -> Result<Option<(Design, Vec<Setting>)>, EditError> {
         let family = self.design.family.as_ref();
-        let keys: Vec<&'static str> = match family {
-            Some(of) => families::family(&of.name)?.keys().map(|p| p.key).collect(),
-            None => Vec::new(),
-        };
+        let keys = self.parameter_keys()?;
         let (own, rest): (Vec<Setting>, Vec<Setting>) =
             settings.iter().cloned().partition(|s| match &s.target {
-                Target::Parameter(_) => true,
-                Target::Table | Target::Girdle | Target::Culet => keys.contains(&&*s.target.to_string()),
+                EditTarget::Parameter(_) => true,
+                EditTarget::Table | EditTarget::Girdle | EditTarget::Culet => {
+                    keys.contains(&&*s.target.to_string())
+                }
                 _ => false,
             });
         if own.is_empty() {
@@ -152,8 +152,7 @@ impl Editor {
         for setting in own {
             let key = setting.target.to_string();
             let (Some(of), true) = (family, keys.contains(&&*key)) else {
-                let nearest = parse::nearest_name(&key, keys.iter().copied()).map(String::from);
-                return Err(EditError::NoSuchKey { key, nearest, known: keys });
+                return Err(no_such_key(key, keys));
             };
             let was = match given.get(&key) {
                 Some(set) => *set,
@@ -253,7 +252,7 @@ impl Editor {
     fn edited(&self, solved: Solved, change: &Change) -> Result<Edited, EditError> {
         let solid = Polyhedron::from_planes(&solved.planes)?;
         self.check_facets(&solid)?;
-        let design = apply::to_design(self, &solved.planes, change);
+        let design = apply::to_design(&self.design, &self.network, &solved.planes, change);
         let followed =
             self.tiers.tiers.iter().filter(|t| t.parts.iter().any(|p| solved.followed.contains(p)));
         Ok(Edited {
@@ -287,13 +286,46 @@ impl Editor {
     /// Angle of a tier from the girdle plane in degrees, without sign.
     pub fn angle_deg(&self, tier: &EditableTier) -> f64 {
         let polar = self.network.parts[tier.parts[0]].polar;
-        FRAC_PI_2.min(if polar > FRAC_PI_2 { PI - polar } else { polar }).to_degrees()
+        let angle = FRAC_PI_2.min(if polar > FRAC_PI_2 { PI - polar } else { polar }).to_degrees();
+        (angle * 1e9).round() / 1e9
     }
 
-    /// The planes as they are.
-    pub fn planes(&self) -> Vec<Plane> {
-        self.design.planes()
+    /// The value that table, girdle, culet or a parameter of the family has now. The error says what the design
+    /// lacks.
+    pub fn value_of(&self, target: &EditTarget) -> Result<f64, EditError> {
+        let key = target.to_string();
+        let keys = self.parameter_keys()?;
+        if let (Some(of), true) = (&self.design.family, keys.contains(&&*key)) {
+            return Ok(of.value(&key).unwrap_or_default());
+        }
+        let size = match target {
+            EditTarget::Table => Size::Table,
+            EditTarget::Girdle => Size::Girdle,
+            EditTarget::Culet => Size::Culet,
+            _ => return Err(no_such_key(key, keys)),
+        };
+        size.percent(&self.solid).ok_or(EditError::Lacks(size.name()))
     }
+
+    /// The values that a parameter of the design's family may have; none of what is no parameter.
+    pub fn parameter_range(&self, target: &EditTarget) -> Option<RangeInclusive<f64>> {
+        let family = families::family(&self.design.family.as_ref()?.name).ok()?;
+        let parameter = family.keys().find(|p| p.key == target.to_string())?;
+        Some(parameter.range.0..=parameter.range.1)
+    }
+
+    /// The parameters of the design's family; none of a design that has none.
+    fn parameter_keys(&self) -> Result<Vec<&'static str>, EditError> {
+        Ok(match &self.design.family {
+            Some(of) => families::family(&of.name)?.keys().map(|p| p.key).collect(),
+            None => Vec::new(),
+        })
+    }
+}
+
+fn no_such_key(key: String, known: Vec<&'static str>) -> EditError {
+    let nearest = parse::nearest_name(&key, known.iter().copied()).map(String::from);
+    EditError::NoSuchKey { key, nearest, known }
 }
 
 fn zone_of(side: Side) -> Zone {

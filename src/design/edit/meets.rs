@@ -3,7 +3,7 @@
 
 use super::editor::Editor;
 use super::flat_size::Size;
-use super::setting::{Keep, Setting, Target};
+use super::setting::{EditTarget, Keep, Setting};
 use super::tier_list::EditableTier;
 use crate::design::meet_network::Corner;
 use crate::design::tiers::Zone;
@@ -132,7 +132,8 @@ fn angle_rule(editor: &Editor, tier: &EditableTier) -> AngleRule {
         return AngleRule::Fixed;
     }
     // the tier by its place, which is its own
-    let turned = |value: f64| Setting { target: Target::Angle(tier.place.clone()), is_added: true, value };
+    let turned =
+        |value: f64| Setting { target: EditTarget::Angle(tier.place.clone()), is_added: true, value };
     let goes = |value: f64| editor.edit(&[turned(value)], Keep::Angles).is_ok();
     if goes(TRIED) && goes(-TRIED) { AngleRule::Free } else { AngleRule::Bound }
 }

@@ -27,7 +27,7 @@ impl Side {
 /// stone (`P1`, `C2`, `G1`), its number, or a pattern with `*` and `?`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Target {
+pub enum EditTarget {
     /// Angle of tiers from the girdle plane, in degrees, without sign.
     Angle(String),
     /// Index of tiers, in teeth: all facets of a tier are turned by so many.
@@ -67,7 +67,7 @@ pub enum Keep {
 #[serde(try_from = "String", into = "String")]
 pub struct Setting {
     /// What is changed.
-    pub target: Target,
+    pub target: EditTarget,
     /// Whether the value is added to what there is (`+=`).
     pub is_added: bool,
     /// In the target's unit.
@@ -101,55 +101,57 @@ pub enum SettingError {
     },
 }
 
-impl Target {
+impl EditTarget {
     /// The unit of its values.
     pub fn unit(&self) -> NumberUnit {
         match self {
-            Target::Angle(_) | Target::Shift(_) => NumberUnit::Degrees,
-            Target::Index(_) | Target::Scale(_) => NumberUnit::None,
-            Target::Depth(_) | Target::Table | Target::Girdle | Target::Culet => NumberUnit::Percent,
-            Target::Parameter(key) => crate::design::families::parameter_unit(key),
+            EditTarget::Angle(_) | EditTarget::Shift(_) => NumberUnit::Degrees,
+            EditTarget::Index(_) | EditTarget::Scale(_) => NumberUnit::None,
+            EditTarget::Depth(_) | EditTarget::Table | EditTarget::Girdle | EditTarget::Culet => {
+                NumberUnit::Percent
+            }
+            EditTarget::Parameter(key) => crate::design::families::parameter_unit(key),
         }
     }
 }
 
-impl FromStr for Target {
+impl FromStr for EditTarget {
     type Err = SettingError;
 
-    fn from_str(text: &str) -> Result<Target, SettingError> {
+    fn from_str(text: &str) -> Result<EditTarget, SettingError> {
         let text = text.trim();
         let lower = text.to_lowercase();
         Ok(match &*lower {
-            "table" => Target::Table,
-            "girdle" => Target::Girdle,
-            "culet" => Target::Culet,
-            "crown.scale" => Target::Scale(Side::Crown),
-            "pavilion.scale" => Target::Scale(Side::Pavilion),
-            "crown.shift" => Target::Shift(Side::Crown),
-            "pavilion.shift" => Target::Shift(Side::Pavilion),
+            "table" => EditTarget::Table,
+            "girdle" => EditTarget::Girdle,
+            "culet" => EditTarget::Culet,
+            "crown.scale" => EditTarget::Scale(Side::Crown),
+            "pavilion.scale" => EditTarget::Scale(Side::Pavilion),
+            "crown.shift" => EditTarget::Shift(Side::Crown),
+            "pavilion.shift" => EditTarget::Shift(Side::Pavilion),
             _ => match text.rsplit_once('.') {
-                Some((tier, "angle")) => Target::Angle(tier.trim().into()),
-                Some((tier, "index")) => Target::Index(tier.trim().into()),
-                Some((tier, "depth")) => Target::Depth(tier.trim().into()),
+                Some((tier, "angle")) => EditTarget::Angle(tier.trim().into()),
+                Some((tier, "index")) => EditTarget::Index(tier.trim().into()),
+                Some((tier, "depth")) => EditTarget::Depth(tier.trim().into()),
                 Some((_, other)) => return Err(SettingError::NoSuchProperty(other.into())),
-                None => Target::Parameter(lower),
+                None => EditTarget::Parameter(lower),
             },
         })
     }
 }
 
-impl fmt::Display for Target {
+impl fmt::Display for EditTarget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Target::Angle(tier) => write!(f, "{tier}.angle"),
-            Target::Index(tier) => write!(f, "{tier}.index"),
-            Target::Depth(tier) => write!(f, "{tier}.depth"),
-            Target::Scale(side) => write!(f, "{}.scale", side.name()),
-            Target::Shift(side) => write!(f, "{}.shift", side.name()),
-            Target::Table => f.write_str("table"),
-            Target::Girdle => f.write_str("girdle"),
-            Target::Culet => f.write_str("culet"),
-            Target::Parameter(key) => f.write_str(key),
+            EditTarget::Angle(tier) => write!(f, "{tier}.angle"),
+            EditTarget::Index(tier) => write!(f, "{tier}.index"),
+            EditTarget::Depth(tier) => write!(f, "{tier}.depth"),
+            EditTarget::Scale(side) => write!(f, "{}.scale", side.name()),
+            EditTarget::Shift(side) => write!(f, "{}.shift", side.name()),
+            EditTarget::Table => f.write_str("table"),
+            EditTarget::Girdle => f.write_str("girdle"),
+            EditTarget::Culet => f.write_str("culet"),
+            EditTarget::Parameter(key) => f.write_str(key),
         }
     }
 }
@@ -166,13 +168,13 @@ impl FromStr for Setting {
                 None => (l, None),
             },
         };
-        let target: Target = left.parse()?;
+        let target: EditTarget = left.parse()?;
         let value = parse::parse_number(right, target.unit())
             .map_err(|why| SettingError::Value { target: target.to_string(), why })?;
         let relative = |right| Err(SettingError::Relative { target: target.to_string(), right });
         match (&target, sign) {
-            (Target::Scale(_) | Target::Shift(_), Some(_)) => relative("="),
-            (Target::Index(_) | Target::Depth(_), None) => relative("+="),
+            (EditTarget::Scale(_) | EditTarget::Shift(_), Some(_)) => relative("="),
+            (EditTarget::Index(_) | EditTarget::Depth(_), None) => relative("+="),
             _ => Ok(Setting { target, is_added: sign.is_some(), value: sign.unwrap_or(1.0) * value }),
         }
     }

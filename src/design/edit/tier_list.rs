@@ -90,15 +90,14 @@ impl TierList {
         TierList { tiers }
     }
 
-    /// The tiers that are meant by a name, a place, a number from 1, or a pattern with `*` and `?`; names come
-    /// first. The error names the nearest.
+    /// The tiers that are meant by a name, a place, a number from 1, or a pattern with `*` and `?`, which is
+    /// one of names and places; else names come first. The error names the nearest.
     pub fn named(&self, asked: &str) -> Result<Vec<&EditableTier>, EditError> {
         let all = |is: &dyn Fn(&EditableTier) -> bool| -> Vec<&EditableTier> {
             self.tiers.iter().filter(|t| is(t)).collect()
         };
         let found = if asked.contains(['*', '?']) {
-            let by_name = all(&|t| matches(asked, &t.name));
-            if by_name.is_empty() { all(&|t| matches(asked, &t.place)) } else { by_name }
+            all(&|t| matches(asked, &t.name) || matches(asked, &t.place))
         } else {
             let exact = all(&|t| t.name == asked.trim());
             let by_name = if exact.is_empty() { all(&|t| parse::is_name(&t.name, asked)) } else { exact };

@@ -1,8 +1,8 @@
 //! Whether a changed stone is still the same stone: every facet stands, and what met still meets.
 
-use super::MeetNetwork;
 use super::corners::Outline;
 use super::error::NetworkError;
+use super::network::MeetNetwork;
 use crate::geometry::{Plane, Polyhedron};
 use glam::DVec3;
 

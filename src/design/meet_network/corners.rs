@@ -11,6 +11,9 @@ use std::collections::BTreeSet;
 /// decimals of a file leave.
 const ONE_CORNER: f64 = 1e-4;
 
+/// Facets that pass a place within this part of the width meet there exactly: what eight decimals leave.
+const EXACT: f64 = 1e-7;
+
 /// A corner of the stone.
 #[derive(Debug, Clone)]
 pub struct Corner {
@@ -90,8 +93,12 @@ pub(super) fn recover(
     }
     let mut corners = Vec::new();
     let mut number = vec![None; solid.vertices.len()];
+    let mut places: Vec<Vec<DVec3>> = vec![Vec::new(); solid.vertices.len()];
+    for (v, vertex) in solid.vertices.iter().enumerate() {
+        places[find(&mut root, v)].push(*vertex - frame.origin);
+    }
     for (v, facets) in around.iter().enumerate().filter(|(_, facets)| facets.len() > 2) {
-        if let Some(corner) = corner(facets, planes, solid.vertices[v] - frame.origin) {
+        if let Some(corner) = corner(facets, planes, &places[v], EXACT * width) {
             number[v] = Some(corners.len());
             corners.push(corner);
         }
@@ -107,12 +114,34 @@ pub(super) fn recover(
     (corners, outlines)
 }
 
-/// The corner of facets near a place: the three that cross most squarely fix it.
-fn corner(facets: &BTreeSet<usize>, planes: &[Plane], near: DVec3) -> Option<Corner> {
+/// The corner of facets near some places: three facets fix it, of those that meet there exactly, if more than
+/// three do, the three that cross most squarely.
+///
+/// - `exact`: distance
+fn corner(facets: &BTreeSet<usize>, planes: &[Plane], near: &[DVec3], exact: f64) -> Option<Corner> {
+    let through = |place: &DVec3| -> Vec<usize> {
+        facets.iter().copied().filter(|&f| planes[f].signed_distance(*place).abs() < exact).collect()
+    };
+    let met = near.iter().map(through).reduce(|a, b| if b.len() > a.len() { b } else { a })?;
+    let all: Vec<usize> = facets.iter().copied().collect();
+    let basis = squarest(&met, planes).filter(|_| met.len() > 3).or_else(|| squarest(&all, planes))?;
+    let mut ordered = basis.to_vec();
+    ordered.extend(all.into_iter().filter(|f| !basis.contains(f)));
+    let mut corner =
+        Corner { facets: ordered, position: DVec3::ZERO, misses: Vec::new(), moves: DMat3::IDENTITY };
+    (corner.position, corner.moves) = corner.moved(planes);
+    corner.misses = corner.facets.iter().map(|&f| planes[f].signed_distance(corner.position)).collect();
+    corner.misses[..3].fill(0.0);
+    Some(corner)
+}
+
+/// The three facets that cross most squarely; none if all are nearly parallel to one line.
+fn squarest(all: &[usize], planes: &[Plane]) -> Option<[usize; 3]> {
     /// Of many facets so many are tried by threes.
     const TRIED: usize = 12;
-    let all: Vec<usize> = facets.iter().copied().collect();
-    let step = all.len().div_ceil(TRIED);
+    /// The least volume that three normals span.
+    const LEAST: f64 = 1e-4;
+    let step = all.len().div_ceil(TRIED).max(1);
     let some: Vec<usize> = all.iter().copied().step_by(step).collect();
     let mut best: Option<(f64, [usize; 3])> = None;
     for (i, &a) in some.iter().enumerate() {
@@ -126,14 +155,7 @@ fn corner(facets: &BTreeSet<usize>, planes: &[Plane], near: DVec3) -> Option<Cor
             }
         }
     }
-    let (_, basis) = best.filter(|(square, _)| *square > 1e-6)?;
-    let mut ordered = basis.to_vec();
-    ordered.extend(all.into_iter().filter(|f| !basis.contains(f)));
-    let mut corner = Corner { facets: ordered, position: near, misses: Vec::new(), moves: DMat3::IDENTITY };
-    (corner.position, corner.moves) = corner.moved(planes);
-    corner.misses = corner.facets.iter().map(|&f| planes[f].signed_distance(corner.position)).collect();
-    corner.misses[..3].fill(0.0);
-    Some(corner)
+    best.filter(|(square, _)| *square > LEAST).map(|(_, basis)| basis)
 }
 
 /// Of corners that are each other's images under the stone's symmetry the first: same height, same

@@ -1,7 +1,9 @@
 //! Crown and pavilion stretched along the axis: tangents of all angles by one ratio, every meet kept.
 
-use super::MeetNetwork;
+use super::change::Change;
+use super::corners::Corner;
 use super::error::NetworkError;
+use super::network::MeetNetwork;
 use super::parts::FacetOfPart;
 use crate::design::tiers::Zone;
 use crate::geometry::Plane;
@@ -92,7 +94,7 @@ impl MeetNetwork {
 
     /// The facets' planes in the design's frame with the angles of `scaled` and of the change, each as far from the
     /// middle as it was.
-    pub fn turned_in_place(&self, scaled: &MeetNetwork, change: &super::Change) -> Vec<Plane> {
+    pub fn turned_in_place(&self, scaled: &MeetNetwork, change: &Change) -> Vec<Plane> {
         let part = |i: usize| change.polars.get(i).copied().flatten().unwrap_or(scaled.parts[i].polar);
         let polars: Vec<f64> = (0..self.parts.len()).map(part).collect();
         let added = |i: usize| change.distances.get(i).copied().flatten().unwrap_or(0.0);
@@ -103,11 +105,10 @@ impl MeetNetwork {
 
     /// The least height of girdle between crown and pavilion, above one vertical edge; 0 without a girdle.
     fn thinnest_girdle(&self) -> f64 {
-        let touches = |corner: &super::Corner, zone: Zone| {
+        let touches = |corner: &Corner, zone: Zone| {
             corner.facets.iter().any(|f| self.parts[self.facets[*f].part].zone == zone)
         };
-        let on_girdle: Vec<&super::Corner> =
-            self.corners.iter().filter(|c| touches(c, Zone::Girdle)).collect();
+        let on_girdle: Vec<&Corner> = self.corners.iter().filter(|c| touches(c, Zone::Girdle)).collect();
         let tops = on_girdle.iter().filter(|c| touches(c, Zone::Crown));
         let near = 1e-6 * self.width;
         let heights = tops.flat_map(|top| {

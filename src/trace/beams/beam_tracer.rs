@@ -7,6 +7,7 @@ use super::clip::{self, Clipper, MIN_FACING_COS, locate};
 use super::energy_budget::{EnergyBudget, MAX_FACETS, StopCriteria};
 use super::facets::{NO_NEIGHBOUR, WeldedFacets};
 use super::queue::Queue;
+use super::sector::Sector;
 use crate::trace::dispatch::Vectorised;
 use crate::trace::{ConvexStone, LANES, NO_FACET, NextFacets, Packet};
 use glam::DVec2;
@@ -43,6 +44,8 @@ struct BeamOrigin {
 pub(super) struct BeamTracer<'a, L, V, const K: usize> {
     stone: &'a ConvexStone,
     facets: &'a WeldedFacets,
+    /// The part that is lit for the whole stone.
+    sector: Option<Sector>,
     lit: &'a IncidentBeam<K>,
     /// What falls on the stone, power 1.
     light: L,
@@ -73,7 +76,7 @@ impl<L: BeamLight, V: BeamVisitor<L, K>, const K: usize> Vectorised for BeamTrac
 impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V, K> {
     pub(super) fn new(
         stone: &'a ConvexStone,
-        facets: &'a WeldedFacets,
+        (facets, sector): (&'a WeldedFacets, Option<Sector>),
         lit: &'a IncidentBeam<K>,
         light: L,
         until: StopCriteria,
@@ -82,6 +85,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         BeamTracer {
             stone,
             facets,
+            sector,
             lit,
             light,
             until,
@@ -105,9 +109,10 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         let lit =
             || (0..facets.count()).filter(|f| cosine(*f) > MIN_FACING_COS && !facets.ring(*f).is_empty());
         self.totals.outline = lit().map(|f| facets.area(f) * cosine(f)).sum();
+        let images = self.sector.as_ref().map_or(1.0, |sector| sector.images);
         for facet in lit() {
             let entrance = EntryFacet::new(facet, facets.planes[facet], toward);
-            self.enter(BeamOrigin { entrance, density: cosine(facet) / self.totals.outline });
+            self.enter(BeamOrigin { entrance, density: images * cosine(facet) / self.totals.outline });
         }
         let slot = |_| BeamSlot { beam: None, footprint: Vec::new(), middle: DVec2::ZERO };
         let mut slots: [BeamSlot<L, K>; LANES] = std::array::from_fn(slot);
@@ -172,11 +177,18 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
         let met = self.lit.indices.map(|n| Interface::new(self.lit.direction, -normal, 1.0 / n, false));
         let frames = met.map(|at| entrance.coords(at.transmitted));
         let (inside, reflected) = self.light.split(&met[0]);
-        let share = density * facets.area(entrance.facet);
+        let ring = facets.ring(entrance.facet);
+        let part = self.sector.as_ref().map(|sector| sector.part_of(ring));
+        let lit_ring = part.as_deref().unwrap_or(ring);
+        let corners: Vec<_> = lit_ring.iter().map(|p| entrance.coordinates(*p)).collect();
+        let area = if part.is_some() { clip::area(&corners) } else { facets.area(entrance.facet) };
+        if area <= 0.0 {
+            return;
+        }
+        let share = density * area;
         let (glare, toward) = (reflected.power() * share, self.lit.direction);
         self.totals.reflected += glare;
         self.watch.reflected(entrance, toward.reflect(normal), glare);
-        let corners: Vec<_> = facets.ring(entrance.facet).iter().map(|p| entrance.coordinates(*p)).collect();
         let (facet, number) = (entrance.facet as u32, self.origins.len() as u32);
         let beam = Beam { frames, light: inside, share, facet, origin: number, bounces: 0 };
         self.inside += inside.power() * share;
@@ -323,10 +335,11 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
             frame.mirror(plane);
         }
         let power = kept.power() * beam.share;
-        if power < self.until.power
-            || beam.bounces >= self.until.facets.min(MAX_FACETS)
-            || !kept.is_traced_further()
-        {
+        let is_last = beam.bounces >= self.until.facets.min(MAX_FACETS);
+        if is_last || power < self.until.power || !kept.is_traced_further() {
+            if is_last && self.until.residual > 0.0 {
+                self.inside -= power; // nobody asks how it goes on
+            }
             self.leave(beam, footprint);
             return None;
         }
@@ -342,6 +355,7 @@ impl<'a, L: BeamLight, V: BeamVisitor<L, K>, const K: usize> BeamTracer<'a, L, V
             facet: beam.facet as usize,
             plane: self.facets.planes[beam.facet as usize],
             footprint,
+            bounces: beam.bounces,
             power,
             share: beam.share,
             light: beam.light,

@@ -59,6 +59,8 @@ pub struct ResidualBeam<'a, L, const K: usize> {
     pub plane: Plane,
     /// Its footprint in the plane of the entry facet, counter-clockwise.
     pub footprint: &'a [DVec2],
+    /// Facets met inside.
+    pub bounces: u32,
     /// Its power, as a share of the light on the outline.
     pub power: f64,
     /// The footprint's share of the outline.

@@ -1,10 +1,9 @@
 //! Welded facets for beams: rings of corners, each edge with its neighbouring facet.
 
 use crate::geometry::Plane;
-use crate::geometry::welding::{weld, without_repeats};
+use crate::geometry::welding::{crowded, weld, without_repeats};
 use crate::trace::ConvexStone;
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Corners nearer to each other than this are one (trace units: the stone's radius is 1). Where
 /// many planes meet, rounding leaves corners up to 1e-10 apart, and an edge between two of them has
@@ -52,10 +51,15 @@ impl WeldedFacets {
             let ring = &rings[facet];
             (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))
         };
-        let mut owner = HashMap::new();
+        let mut owners: Vec<((u32, u32), u32)> = Vec::new();
         for facet in 0..rings.len() {
-            owner.extend(edges(facet).map(|edge| (edge, facet as u32)));
+            owners.extend(edges(facet).map(|edge| (edge, facet as u32)));
         }
+        owners.sort_unstable();
+        let owner = |edge: (u32, u32)| {
+            let (of_edge, facet) = *owners[..owners.partition_point(|o| o.0 <= edge)].last()?;
+            (of_edge == edge).then_some(facet)
+        };
         let mut made = WeldedFacets {
             planes: stone.planes.clone(),
             firsts: vec![0],
@@ -79,7 +83,7 @@ impl WeldedFacets {
                     made.edges[last].along[axis][i % EDGES_PER_GROUP] = along[axis];
                 }
                 made.neighbours[last * EDGES_PER_GROUP + i % EDGES_PER_GROUP] =
-                    owner.get(&(b, a)).copied().unwrap_or(NO_NEIGHBOUR);
+                    owner((b, a)).unwrap_or(NO_NEIGHBOUR);
             }
             made.groups.push(made.edges.len() as u32);
         }
@@ -124,7 +128,8 @@ impl WeldedFacets {
 
 /// For each corner, the number of the corner it is welded to.
 fn welded(corners: &[DVec3]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..corners.len()).collect();
+    let crowded = crowded(corners, WELD_DISTANCE);
+    let mut order: Vec<usize> = (0..corners.len()).filter(|i| crowded[*i]).collect();
     order.sort_by(|a, b| corners[*a].x.total_cmp(&corners[*b].x));
     let (low, high) = corners
         .iter()

@@ -1,0 +1,165 @@
+//! Options of `cutlab optimise`.
+
+use crate::cli::args::stone::{self, StoneArgs};
+use crate::cli::args::values;
+use crate::design::edit::Keep;
+use crate::optimise::{Guards, OptimiseRequest, Variable};
+use crate::parse::{self, NumberUnit};
+use crate::scoring::constraint::Constraint;
+use crate::scoring::effort::Effort;
+use crate::scoring::objective::{Objective, TiltedMetric};
+use crate::search::{METHODS, Method};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cutlab optimise mine.asc --maximise iso -o best.asc        by the two tangent ratios
+  cutlab optimise mine.asc --vary 'P*.angle' --vary C1.angle=28:36 --maximise iso --tilt 0,10,20 -o best.asc
+  cutlab optimise tolkowsky --vary crown-angle=30:36 --vary pavilion-angle=40:42 --maximise wlr
+  cutlab optimise mine.asc --maximise iso --maximise fire_streak --at-least weight_ratio=0.95*start -o front
+  cutlab optimise mine.asc --maximise iso@0,10 --minimise windowing@20 --evaluations 800 -o front
+
+Scores of the faceters' view are taken from exact beams, others by the same random numbers for every candidate.
+The designs that are kept are scored again with fresh random numbers; a gain is called significant if it is
+beyond three of its errors and not negligible. An interrupted command leaves the best design so far and goes
+on when it is started again. See `cutlab help optimising`.")]
+pub struct OptimiseArgs {
+    /// The stone: a name from `cutlab list cuts`, with parameters or not, or a file
+    #[arg(value_name = "STONE")]
+    pub stone: OsString,
+    /// What may vary, and how far: WHAT, or WHAT=FROM:TO, where WHAT is as for `cutlab edit --set`; may be
+    /// given several times [the two tangent ratios]
+    #[arg(long, value_name = "WHAT[=FROM:TO]", value_parser = variable)]
+    vary: Vec<Variable>,
+    /// A score of which more is wanted, see `cutlab list metrics`; NAME@0,10,20 at tilts of its own. Several
+    /// objectives give a front
+    #[arg(long, value_name = "NAME", value_parser = tilted)]
+    maximise: Vec<TiltedMetric>,
+    /// A score of which less is wanted
+    #[arg(long, value_name = "NAME", value_parser = tilted)]
+    minimise: Vec<TiltedMetric>,
+    /// Tilts in degrees about the x axis at which scores are taken [0]
+    #[arg(long, value_name = "DEGREES,…", value_delimiter = ',', value_parser = tilt)]
+    tilt: Vec<f64>,
+    /// Of several tilts the worst counts, not the mean
+    #[arg(long)]
+    worst: bool,
+    /// A bound from below on a score or a proportion: NAME=VALUE, or NAME=0.95*start for a part of what the
+    /// stone has
+    #[arg(long, value_name = "NAME=VALUE", value_parser = at_least)]
+    at_least: Vec<Constraint>,
+    /// A bound from above
+    #[arg(long, value_name = "NAME=VALUE", value_parser = at_most)]
+    at_most: Vec<Constraint>,
+    /// No facet becomes narrower than this percentage of the girdle width
+    #[arg(long, value_name = "PERCENT", default_value_t = Guards::default().least_facet_percent, value_parser = percent)]
+    least_facet: f64,
+    /// The girdle keeps at least this part of its thickness
+    #[arg(long, value_name = "PART", default_value_t = Guards::default().least_girdle, value_parser = part)]
+    least_girdle: f64,
+    /// What stays when something varies: meets, angles or depths, as for `cutlab edit`
+    #[arg(long, value_name = "meets|angles|depths", default_value = "meets", value_parser = super::super::edit::keep)]
+    keep: Keep,
+    /// The most designs that are scored
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = values::whole_number(1..=1_000_000, "a number of evaluations is a whole number"))]
+    evaluations: u32,
+    /// How many improvements run side by side
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::whole_number(1..=1000, "a number of starts is a whole number"))]
+    starts: u32,
+    /// How many distinct designs are kept [1, of a front 8]
+    #[arg(long, value_name = "N", value_parser = values::whole_number(1..=1000, "a number of designs is a whole number"))]
+    keep_best: Option<u32>,
+    /// How candidates are chosen: random, nelder-mead, cma-es, nsga-ii, sms-emoa, surrogate
+    #[arg(long, value_name = "NAME", value_parser = method)]
+    method: Option<Method>,
+    /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each its own]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = half_angle)]
+    observer: Option<f64>,
+    /// Whether light keeps its polarisation from facet to facet
+    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
+    polarisation: bool,
+    /// Seed of the search and of the scores
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
+    seed: u64,
+    #[command(flatten)]
+    pub stone_args: StoneArgs,
+    /// Girdle width in millimetres; the scores depend on it if the material absorbs
+    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
+    pub size: Option<f64>,
+    /// Where to write: a design file, whose extension chooses the format (best.asc; further designs are
+    /// best-2.asc, best-3.asc …); or a folder, for these and the table of the front
+    #[arg(long, short, value_name = "FILE|DIR")]
+    pub output: Option<PathBuf>,
+    /// The candidates of the front as a table, with variables and objectives; .csv
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
+}
+
+impl OptimiseArgs {
+    /// The request that was asked for.
+    pub fn request(&self) -> OptimiseRequest {
+        let tilted = |of: &TiltedMetric| {
+            let mut of = of.clone();
+            if of.is_face_up() && !self.tilt.is_empty() {
+                of.tilts.degrees.clone_from(&self.tilt);
+            }
+            of.observer = of.observer.or(self.observer);
+            of
+        };
+        let objective = |objective: Objective| if self.worst { objective.worst() } else { objective };
+        let more = self.maximise.iter().map(|of| objective(Objective::maximise(tilted(of))));
+        let less = self.minimise.iter().map(|of| objective(Objective::minimise(tilted(of))));
+        let mut effort = Effort::default().seed(self.seed).polarised(self.polarisation);
+        effort.size_mm = self.size.unwrap_or(effort.size_mm);
+        let mut request = OptimiseRequest::new(more.chain(less)).vary(self.vary.iter().cloned());
+        request.constraints = self.at_least.iter().chain(&self.at_most).cloned().collect();
+        request.guards = Guards::new(self.least_facet, self.least_girdle);
+        request.keep = self.keep;
+        request.effort = effort;
+        request.method = self.method;
+        request.evaluations = self.evaluations as usize;
+        request.starts = self.starts as usize;
+        request.seed = self.seed;
+        request.keep_best = self.keep_best.map(|n| n as usize);
+        request
+    }
+}
+
+fn variable(text: &str) -> Result<Variable, String> {
+    text.parse().map_err(|error: crate::optimise::VariableError| error.to_string())
+}
+
+fn tilted(text: &str) -> Result<TiltedMetric, String> {
+    text.parse().map_err(|error: crate::scoring::objective::ObjectiveError| error.to_string())
+}
+
+fn at_least(text: &str) -> Result<Constraint, String> {
+    Constraint::at_least(text).map_err(|error| error.to_string())
+}
+
+fn at_most(text: &str) -> Result<Constraint, String> {
+    Constraint::at_most(text).map_err(|error| error.to_string())
+}
+
+fn tilt(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Degrees, -89.0..=89.0, "a tilt is a number of degrees")
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Percent, 0.0..=50.0, "a facet's width is a percentage")
+}
+
+fn part(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::None, 0.0..=1.0, "a part is a number")
+}
+
+fn half_angle(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
+}
+
+fn method(text: &str) -> Result<Method, String> {
+    let names: Vec<&str> = METHODS.iter().map(|m| m.name()).collect();
+    text.trim().to_lowercase().parse().map_err(|_| format!("a method is one of {}", names.join(", ")))
+}

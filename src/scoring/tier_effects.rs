@@ -1,0 +1,105 @@
+//! Tier effects: what a degree more of a tier's angle does to each objective, and the light that is lost through
+//! its facets.
+
+use super::evaluator::Evaluator;
+use super::objective::ObjectiveError;
+use super::paired_runs::PairedRuns;
+use crate::estimators::facet_leakage::{FacetLeakage, facet_leakage};
+use crate::estimators::{TraceOptics, ViewFrame};
+use crate::geometry::Polyhedron;
+use crate::materials::Material;
+use crate::sampling::stats::Estimate;
+use crate::trace::ConvexStone;
+
+/// Degrees by which a tier is turned to both sides: small against the angles over which scores bend, large
+/// against the noise that is left of differences.
+pub const STEP_DEG: f64 = 0.25;
+
+/// What a tier does.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct TierEffect {
+    /// For each objective, its change per degree of the tier's angle, in the metric's unit; or why the tier
+    /// cannot be turned or the turned stone not be scored.
+    pub per_degree: Result<Vec<Estimate>, String>,
+    /// The share of what one sees face-up that comes from below through facets of the tier.
+    pub leakage: Estimate,
+}
+
+impl Evaluator {
+    /// What each tier of a design does.
+    ///
+    /// - `tiers`: for each, the numbers of its faces in `base`
+    /// - `turned`: the design with a tier's angle more by some degrees, or why there is none
+    /// - `material`: of the leakage, which is seen face-up
+    ///
+    /// Changes are central differences over ± [`STEP_DEG`] and half of that. Beside the noise their errors
+    /// hold what the step leaves out: 4/3 of what halving it changes, as for any function with a third
+    /// derivative. All stones have the same random numbers.
+    pub fn tier_effects<E: ToString>(
+        &self,
+        base: &Polyhedron,
+        tiers: &[Vec<usize>],
+        turned: impl Fn(usize, f64) -> Result<Polyhedron, E>,
+        material: &Material,
+    ) -> Result<Vec<TierEffect>, ObjectiveError> {
+        let leakage = self.leakage(base, material)?;
+        let effect = |(tier, faces): (usize, &Vec<usize>)| {
+            let at = |degrees: f64| {
+                let solid = turned(tier, degrees).map_err(|why| why.to_string())?;
+                self.paired(&solid, self.effort().seed).map_err(|why| why.to_string())
+            };
+            TierEffect { per_degree: slopes(at, STEP_DEG), leakage: leakage.through(faces.iter().copied()) }
+        };
+        Ok(tiers.iter().enumerate().map(effect).collect())
+    }
+
+    /// The leakage of a face-up stone, face by face.
+    pub fn leakage(&self, base: &Polyhedron, material: &Material) -> Result<FacetLeakage, ObjectiveError> {
+        let stone = ConvexStone::new(self.sized(base, material));
+        let optics = TraceOptics { material, polarised: self.effort().polarised };
+        let (seed, samples) = (self.effort().seed, self.effort().samples);
+        let lost = facet_leakage(&stone, &optics, ViewFrame::FACE_UP, seed, samples);
+        lost.map_err(|why| ObjectiveError::NotMeasured { quantity: "leakage".into(), why: why.to_string() })
+    }
+}
+
+/// Changes per degree of several quantities at 0°.
+///
+/// - `at`: the quantities at some degrees
+fn slopes(at: impl Fn(f64) -> Result<Vec<PairedRuns>, String>, step: f64) -> Result<Vec<Estimate>, String> {
+    let slope = |step: f64| -> Result<Vec<PairedRuns>, String> {
+        let (more, less) = (at(step)?, at(-step)?);
+        let weight = 0.5 / step;
+        let pairs = more.iter().zip(&less);
+        Ok(pairs.map(|(more, less)| PairedRuns::combined([(weight, more), (-weight, less)])).collect())
+    };
+    let (whole, half) = (slope(step)?, slope(0.5 * step)?);
+    let found = whole.iter().zip(&half).map(|(whole, half)| {
+        let bend = PairedRuns::combined([(1.0, whole), (-1.0, half)]).value();
+        let whole = whole.estimate();
+        Estimate { error: whole.error.hypot(bend * 4.0 / 3.0), ..whole }
+    });
+    Ok(found.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_are_within_their_errors_where_functions_bend() {
+        let at = |degrees: f64| {
+            let x = degrees;
+            let values = [3.0 * x, x * x, 2.0 * x + 5.0 * x.powi(3), (3.0 * x).sin()];
+            Ok(values.map(|value| PairedRuns::new(vec![value], 0.0)).to_vec())
+        };
+        let found = slopes(at, 0.25).expect("all have values");
+        for (found, truth) in found.iter().zip([3.0, 0.0, 2.0, 3.0]) {
+            assert!((found.value - truth).abs() <= 1.05 * found.error + 1e-12, "{found:?} {truth}");
+            assert!(found.error < 0.5, "{found:?}");
+        }
+        let fails = |degrees: f64| if degrees < 0.0 { Err("no stone".to_owned()) } else { Ok(Vec::new()) };
+        assert_eq!(slopes(fails, 0.25), Err("no stone".into()));
+    }
+}
