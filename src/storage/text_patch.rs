@@ -12,6 +12,8 @@ pub struct TextPatch<'b> {
     text: String,
     /// For each byte of the text, and for its end: where in the file its character begins.
     starts: Vec<usize>,
+    /// For each byte of the text: where in the file its character ends. Bytes that are no text may follow.
+    ends: Vec<usize>,
     changes: Vec<(Range<usize>, String)>,
 }
 
@@ -20,7 +22,7 @@ impl<'b> TextPatch<'b> {
     pub fn new(bytes: &'b [u8]) -> TextPatch<'b> {
         let (encoding, mark) = text::encoding_of(bytes);
         let mut decoder = encoding.new_decoder_without_bom_handling();
-        let (mut text, mut starts) = (String::new(), Vec::new());
+        let (mut text, mut starts, mut ends) = (String::new(), Vec::new(), Vec::new());
         let (mut begun, mut end) = (mark, mark);
         for at in mark..bytes.len() {
             // the longest that one byte can complete: what it ends, and what was held back
@@ -32,6 +34,7 @@ impl<'b> TextPatch<'b> {
             if let Some(piece) = std::str::from_utf8(&piece[..written]).ok().filter(|p| *p != "\0") {
                 text += piece;
                 starts.resize(text.len(), begun);
+                ends.resize(text.len(), at + 1);
                 end = at + 1;
             }
             begun = at + 1;
@@ -40,7 +43,7 @@ impl<'b> TextPatch<'b> {
         let kept = text.trim_end_matches('\x1a').len();
         text.truncate(kept);
         starts.truncate(kept + 1);
-        TextPatch { bytes, encoding, text, starts, changes: Vec::new() }
+        TextPatch { bytes, encoding, text, starts, ends, changes: Vec::new() }
     }
 
     /// The decoded text before the changes.
@@ -64,9 +67,13 @@ impl<'b> TextPatch<'b> {
         self.changes.sort_by_key(|(part, _)| (part.start, part.end));
         let mut out = Vec::with_capacity(self.bytes.len());
         let mut copied = 0;
-        let place = |at: usize| self.starts.get(at).copied().unwrap_or(self.bytes.len());
+        let start_of = |at: usize| self.starts.get(at).copied().unwrap_or(self.bytes.len());
+        let end_of = |part: &Range<usize>| match part.is_empty() {
+            true => start_of(part.start),
+            false => self.ends.get(part.end - 1).copied().unwrap_or(self.bytes.len()),
+        };
         for (part, new) in &self.changes {
-            let (start, end) = (place(part.start).max(copied), place(part.end).max(copied));
+            let (start, end) = (start_of(part.start).max(copied), end_of(part).max(copied));
             out.extend(self.bytes.get(copied..start).unwrap_or_default());
             out.extend(encoded(self.encoding, new));
             copied = end;

@@ -3,8 +3,7 @@
 
 use crate::geometry::{AxialSymmetry, Plane};
 use crate::trace::ConvexStone;
-use glam::{DVec2, DVec3};
-use std::f64::consts::PI;
+use glam::DVec3;
 
 /// The symmetry of a stone about an axis, trace frame.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +21,7 @@ pub struct Sector {
     pub images: f64,
 }
 
-/// Light whose direction is off an axis or a mirror by less than this (sine) runs along it.
+/// Light whose direction is off the axis by less than this (sine) runs along it.
 const ALONG: f64 = 1e-12;
 
 impl StoneSymmetry {
@@ -33,20 +32,15 @@ impl StoneSymmetry {
         StoneSymmetry { symmetry: AxialSymmetry::of_planes(&about_axis), centre }
     }
 
-    /// The sector to follow of light in a unit direction; none where no images are lit alike. Light along the
-    /// axis leaves all of the symmetry, light along a mirror plane that mirror.
+    /// The sector to follow of light in a unit direction; none where no images are lit alike: light along the axis
+    /// leaves all of the symmetry. (Light along a mirror plane leaves that mirror; a half of the stone saves too
+    /// little to be followed by itself.)
     pub fn sector(&self, direction: DVec3) -> Option<Sector> {
-        let across = direction.truncate();
-        let left = if across.length() < ALONG {
-            self.symmetry
-        } else {
-            let AxialSymmetry { order, mirror } = self.symmetry;
-            let mirrors = (0..order).map(|k| mirror.map(|first| first + k as f64 * PI / order as f64));
-            let holds = |azimuth: &f64| across.perp_dot(DVec2::from_angle(*azimuth)).abs() < ALONG;
-            AxialSymmetry { order: 1, mirror: mirrors.flatten().find(holds) }
-        };
-        let walls = left.walls().iter().map(|wall| wall.moved(self.centre)).collect();
-        (left.images() > 1).then(|| Sector { walls, images: left.images() as f64 })
+        if direction.truncate().length() >= ALONG || self.symmetry.images() < 2 {
+            return None;
+        }
+        let walls = self.symmetry.walls().iter().map(|wall| wall.moved(self.centre)).collect();
+        Some(Sector { walls, images: self.symmetry.images() as f64 })
     }
 }
 
