@@ -178,7 +178,8 @@ impl fmt::Display for BrokenBound {
 
 /// A proportion as its name.
 mod by_name {
-    use super::{NamedProportion, ObjectiveError};
+    use crate::design::proportion_catalogue::NamedProportion;
+    use crate::scoring::objective::ObjectiveError;
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
     pub fn serialize<S: Serializer>(of: &&'static NamedProportion, serializer: S) -> Result<S::Ok, S::Error> {

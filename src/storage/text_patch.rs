@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(replaced(b"\xFF\xFEa\0\xB0\x001\0", "1", "2\u{b0}"), b"\xFF\xFEa\0\xB0\x002\0\xB0\0");
         assert_eq!(replaced(b"\xFE\xFF\0a\0\xB0\x001", "\u{b0}", "x"), b"\xFE\xFF\0a\0x\x001");
         let japanese = b"<?xml version='1.0' encoding='shift_jis'?>\x83\x8B 1";
-        assert_eq!(replaced(japanese, "1", "2"), [&japanese[..japanese.len() - 1], b"2"].concat());
+        assert_eq!(replaced(japanese, " 1", " 2"), [&japanese[..japanese.len() - 1], b"2"].concat());
         let mut none = TextPatch::new(b"a\x1A");
         assert!(none.is_empty());
         none.replace(1..1, "b");

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The options that name files or folders to write.
-const WRITTEN: [&str; 6] = ["output", "plot", "beams", "diagram", "photon_map", "table"];
+const WRITTEN: [&str; 6] = ["output", "plot", "beams", "diagram", "photon_map", "front"];
 
 /// Faults of files and of standard output.
 pub fn faults(case: &Case, ran: &Ran, inputs: &Inputs) -> Vec<Fault> {

@@ -76,7 +76,7 @@ const SAMPLES: &[Sample] = &[
     ("optimise", "keep_best", &[&["2"]]),
     ("optimise", "method", &[&["random"], &["cma-es"], &["nsga-ii"]]),
     ("optimise", "keep", &[&["meets"], &["angles"], &["depths"]]),
-    ("optimise", "table", &[&["front.csv"]]),
+    ("optimise", "front", &[&["front.csv"]]),
     ("optimise", "output", &[&["x.asc"], &["out"], &["x.toml"]]),
     (
         "edit",

@@ -36,7 +36,7 @@ fn angle(tier: &Value, when: &str) -> f64 {
 fn what_is_asked_for_is_what_is_written() {
     let bench = folder();
     for file in ["c.asc", "c.gem", "c.toml", "classic"] {
-        let output = if file == "classic" { "new.toml".to_owned() } else { file.replace("c.", "new.") };
+        let output = if file == "classic" { "newest.toml".to_owned() } else { file.replace("c.", "new.") };
         let set = ["edit", file, "--set", "P1.angle+=0.5", "--set", "table-=2", "--set", "girdle=3"];
         let report = json(&bench, &[&set[..], &["-o", &output]].concat());
         let p1 = tier(&report, "P1");

@@ -38,13 +38,13 @@ fn the_best_design_is_better_and_scores_as_it_says() {
 #[test]
 fn the_same_command_gives_the_same_files_on_any_number_of_threads_and_after_a_kill() {
     let bench = folder();
-    bench.good(&optimise(&["-o", "one/b.asc", "--threads", "1", "--keep-best", "3", "--table", "one.csv"]));
-    bench.good(&optimise(&["-o", "two/b.asc", "--threads", "2", "--keep-best", "3", "--table", "two.csv"]));
+    bench.good(&optimise(&["-o", "one/b.asc", "--threads", "1", "--keep-best", "3", "--front", "one.csv"]));
+    bench.good(&optimise(&["-o", "two/b.asc", "--threads", "2", "--keep-best", "3", "--front", "two.csv"]));
     for kill in [40, 80, 160] {
-        let arguments = optimise(&["-o", "three/b.asc", "--keep-best", "3", "--table", "three.csv"]);
+        let arguments = optimise(&["-o", "three/b.asc", "--keep-best", "3", "--front", "three.csv"]);
         bench.kill_after(Duration::from_millis(kill), &arguments);
     }
-    bench.good(&optimise(&["-o", "three/b.asc", "--keep-best", "3", "--table", "three.csv"]));
+    bench.good(&optimise(&["-o", "three/b.asc", "--keep-best", "3", "--front", "three.csv"]));
     for other in ["two", "three"] {
         for file in ["b.asc", "b-2.asc", "b-3.asc"] {
             assert_eq!(
@@ -57,7 +57,7 @@ fn the_same_command_gives_the_same_files_on_any_number_of_threads_and_after_a_ki
     }
     assert!(!bench.exists("three/.b.asc.progress"));
     // the same command replaces its own files, another does not
-    bench.good(&optimise(&["-o", "one/b.asc", "--keep-best", "3", "--table", "one.csv"]));
+    bench.good(&optimise(&["-o", "one/b.asc", "--keep-best", "3", "--front", "one.csv"]));
     let (_, said) = bench.ends(3, &optimise(&["-o", "one/b.asc", "--seed", "2"]));
     assert!(said.contains("--force"), "{said}");
 }

@@ -89,9 +89,9 @@ impl<'a> OptimisedFiles<'a> {
         };
         let is_folder = first.is_some() && first != args.output;
         let in_folder = args.output.as_ref().filter(|_| is_folder).map(|folder| folder.join("front.csv"));
-        let table = args.table.clone().or(in_folder);
+        let table = args.front.clone().or(in_folder);
         if let Some(other) =
-            args.table.as_ref().filter(|t| TableFormat::from_path(t).ok() != Some(TableFormat::Csv))
+            args.front.as_ref().filter(|t| TableFormat::from_path(t).ok() != Some(TableFormat::Csv))
         {
             return Err(CliError::input(format!("{}: the table of the front is .csv", display_name(other))));
         }

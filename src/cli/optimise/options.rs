@@ -94,7 +94,7 @@ pub struct OptimiseArgs {
     pub output: Option<PathBuf>,
     /// The candidates of the front as a table, with variables and objectives; .csv
     #[arg(long, value_name = "FILE")]
-    pub table: Option<PathBuf>,
+    pub front: Option<PathBuf>,
 }
 
 impl OptimiseArgs {
