@@ -16,11 +16,7 @@ use text::OptimisedText;
 /// Optimises the stone, prints what was found and writes it.
 pub fn run(args: &OptimiseArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let stone = args.stone_args.open_convex(&args.stone)?;
-    let stone = match args.size {
-        Some(mm) => stone.with_width(mm)?,
-        None => stone.with_width_for_colour()?,
-    };
-    let request = args.request();
+    let request = args.request(&stone);
     let optimisation = request.prepared(&stone)?;
     let files = OptimisedFiles::new(args, &request, &stone, console)?;
     stone.warnings().iter().for_each(|warning| console.note(&format!("note: {warning}")));

@@ -25,7 +25,9 @@ pub fn of(command: &Command) -> Result<Vec<Factor>, String> {
     for arg in command.get_arguments() {
         let id = arg.get_id().as_str();
         let of_the_cut = arg.get_help_heading() == Some(OF_THE_CUT);
-        if ["help", "version"].contains(&id) || arg.is_hide_set() || of_the_cut {
+        // one of two that exclude each other and of which one is needed: the other is never left out
+        let is_excluded = (name, id) == ("retarget", "material");
+        if ["help", "version"].contains(&id) || arg.is_hide_set() || of_the_cut || is_excluded {
             continue;
         }
         let mut levels: Vec<Vec<String>> = Vec::new();

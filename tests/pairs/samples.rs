@@ -19,6 +19,8 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("compare", "metrics"),
     ("compare", "error"),
     ("validate", "only"),
+    ("retarget", "ri"),
+    ("retarget", "score"),
     ("optimise", "maximise"),
     ("optimise", "evaluations"),
 ];
@@ -55,8 +57,8 @@ const SAMPLES: &[Sample] = &[
     ("sweep", "stone", &[&["round-brilliant:facets=73"], &["a.asc"], &["oval"]]),
     ("compare", "stones", &[&["cube", "classic"], &["a.asc", "d/one.asc", "o.stl"], &["d"]]),
     ("report", "stones", &[&["a.asc"], &["cube", "o.stl"]]),
-    ("edit", "stone", &[&["a.asc"], &["round-brilliant"], &["b.gem"], &["-"], &["o.stl"]]),
-    ("retarget", "stone", &[&["a.asc"], &["classic"], &["b.gem"], &["-"], &["o.stl"]]),
+    ("edit", "stone", &[&["classic"], &["round-brilliant"], &["oval"]]),
+    ("retarget", "stone", &[&["classic:ri=1.54"], &["round-brilliant:ri=1.6"]]),
     ("optimise", "stone", &[&["a.asc"], &["round-brilliant"], &["classic"], &["o.stl"]]),
     // changes
     (
@@ -84,6 +86,7 @@ const SAMPLES: &[Sample] = &[
         &[&["P1.angle+=0.1"], &["crown.scale=0.98", "C1.index+=0"], &["girdle+=0.2"], &["P*.angle-=0.2"]],
     ),
     ("edit", "keep", &[&["meets"], &["angles"], &["depths"]]),
+    ("retarget", "ri", &[&["1.62"], &["1.5"]]),
     ("retarget", "from", &[&["1.6"]]),
     ("retarget", "pavilion", &[&["margin"], &["range"], &["keep"], &["43"]]),
     ("retarget", "crown", &[&["prism"], &["keep"], &["0.9"]]),

@@ -153,7 +153,7 @@ impl<'a> OptimisedFiles<'a> {
     pub fn write(&self, found: &Optimised, kept: KeptCandidates<'_>) -> Result<Vec<String>, CliError> {
         let mut files = Vec::new();
         if let Some(table) = &self.table {
-            atomic_write::write(table, &super::text::front_table(found, &self.args.request())?)?;
+            atomic_write::write(table, &super::text::front_table(found, &self.args.request(self.stone))?)?;
             files.push(display_name(table));
         }
         let Some(anchor) = self.anchor() else { return Ok(files) };

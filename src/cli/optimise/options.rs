@@ -2,6 +2,7 @@
 
 use crate::cli::args::stone::{self, StoneArgs};
 use crate::cli::args::values;
+use crate::design::LengthUnit;
 use crate::design::edit::Keep;
 use crate::optimise::{Guards, OptimiseRequest, Variable};
 use crate::parse::{self, NumberUnit};
@@ -9,6 +10,7 @@ use crate::scoring::constraint::Constraint;
 use crate::scoring::effort::Effort;
 use crate::scoring::objective::{Objective, TiltedMetric};
 use crate::search::{METHODS, Method};
+use crate::stone::Stone;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -98,8 +100,8 @@ pub struct OptimiseArgs {
 }
 
 impl OptimiseArgs {
-    /// The request that was asked for.
-    pub fn request(&self) -> OptimiseRequest {
+    /// The request that was asked for, of a stone: one that says how large it is is scored so large.
+    pub fn request(&self, stone: &Stone) -> OptimiseRequest {
         let tilted = |of: &TiltedMetric| {
             let mut of = of.clone();
             if of.is_face_up() && !self.tilt.is_empty() {
@@ -112,7 +114,8 @@ impl OptimiseArgs {
         let more = self.maximise.iter().map(|of| objective(Objective::maximise(tilted(of))));
         let less = self.minimise.iter().map(|of| objective(Objective::minimise(tilted(of))));
         let mut effort = Effort::default().seed(self.seed).polarised(self.polarisation);
-        effort.size_mm = self.size.unwrap_or(effort.size_mm);
+        let own = (stone.unit() == LengthUnit::Millimetre).then(|| stone.width());
+        effort.size_mm = self.size.or(own).unwrap_or(effort.size_mm);
         let mut request = OptimiseRequest::new(more.chain(less)).vary(self.vary.iter().cloned());
         request.constraints = self.at_least.iter().chain(&self.at_most).cloned().collect();
         request.guards = Guards::new(self.least_facet, self.least_girdle);
