@@ -28,7 +28,7 @@ pub fn run(args: &OptimiseArgs, console: &Console) -> Result<ExitStatus, CliErro
     kept.ended()?;
     let text =
         OptimisedText { stone: &stone, request: &request, editor: &optimisation.editor, found: &found };
-    let written = files.write(&found, kept)?;
+    let written = files.write(&found, &request, kept)?;
     if console.json {
         console.print_json(&text.entries(&written))?;
     } else {

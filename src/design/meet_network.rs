@@ -21,7 +21,6 @@ mod solver;
 mod state;
 
 pub use change::{Change, Solved};
-pub use check::Kept;
 pub use corners::Corner;
 pub use error::NetworkError;
 pub use network::MeetNetwork;

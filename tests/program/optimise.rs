@@ -103,3 +103,19 @@ fn what_cannot_be_is_one_line_and_writes_nothing() {
         assert_eq!(bench.names(), ["c.asc"], "{arguments:?}");
     }
 }
+
+#[test]
+fn what_a_material_s_file_holds_belongs_to_the_command() {
+    let bench = folder();
+    let write = |index: f64| {
+        let text = format!("name = \"mine\"\n[index]\ncauchy = [{index}, 0.0087, 1e-4]\n");
+        std::fs::write(bench.path("mine.toml"), text).expect("can be written");
+    };
+    let command = optimise(&["--material", "mine.toml", "-o", "b.asc"]);
+    write(1.6);
+    bench.good(&command);
+    bench.good(&command);
+    write(1.7);
+    let (_, said) = bench.ends(3, &command);
+    assert!(said.contains("--force"), "{said}");
+}

@@ -1,19 +1,20 @@
 //! What `cutlab optimise` writes: designs, the table of the front, and the progress from which it goes on.
 
 use super::options::OptimiseArgs;
-use crate::batch::fingerprint::{FileDigest, Fingerprint};
+use crate::batch::fingerprint::Fingerprint;
 use crate::batch::table::TableFormat;
 use crate::cli::args::stone::display_name;
 use crate::cli::console::Console;
 use crate::cli::error::CliError;
 use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
+use crate::design::Design;
 use crate::optimise::{Optimisation, OptimiseRequest, Optimised};
 use crate::render::record;
 use crate::report::edited_file;
 use crate::report::target_format::TargetFormat;
 use crate::search::Candidate;
-use crate::stone::{Stone, StoneSpec};
+use crate::stone::Stone;
 use crate::storage::atomic_write::{self, WriteError};
 use crate::storage::journal::{Journal, JournalRemark};
 use serde::{Deserialize, Serialize};
@@ -69,9 +70,9 @@ impl<'a> OptimisedFiles<'a> {
         stone: &'a Stone,
         console: &Console,
     ) -> Result<OptimisedFiles<'a>, CliError> {
-        let spec = StoneSpec::parse_within(&args.stone, limits())?;
-        let held = spec.file().map(|file| format!("{:?}", FileDigest::of_file(&file, limits())));
-        let of_stone = (display_name(&args.stone), held, stone.material().name.to_string(), stone.width());
+        // what the stone is, not what it is called: its file, its material's and how it stands may change
+        let planes = stone.design().map(Design::planes);
+        let of_stone = format!("{} {planes:?} {:?}", display_name(&args.stone), stone.material());
         let identity = Fingerprint::of_request(&(request, of_stone)).hex();
         let usual = edited_file::usual_format(stone);
         let (first, target) = match &args.output {
@@ -150,10 +151,15 @@ impl<'a> OptimisedFiles<'a> {
     }
 
     /// Writes the designs, the table of the front and what they were made by; the names of the files.
-    pub fn write(&self, found: &Optimised, kept: KeptCandidates<'_>) -> Result<Vec<String>, CliError> {
+    pub fn write(
+        &self,
+        found: &Optimised,
+        request: &OptimiseRequest,
+        kept: KeptCandidates<'_>,
+    ) -> Result<Vec<String>, CliError> {
         let mut files = Vec::new();
         if let Some(table) = &self.table {
-            atomic_write::write(table, &super::text::front_table(found, &self.args.request(self.stone))?)?;
+            atomic_write::write(table, &super::text::front_table(found, request)?)?;
             files.push(display_name(table));
         }
         let Some(anchor) = self.anchor() else { return Ok(files) };
@@ -177,7 +183,7 @@ impl<'a> OptimisedFiles<'a> {
         Ok(files)
     }
 
-    fn encoded(&self, design: &crate::design::Design) -> Result<Vec<u8>, CliError> {
+    fn encoded(&self, design: &Design) -> Result<Vec<u8>, CliError> {
         let Some(target) = self.target else { return Ok(Vec::new()) };
         let material = self.stone.given_material();
         let made = edited_file::encode((&self.args.stone, self.stone), design, material, target, limits())?;

@@ -11,7 +11,7 @@ const LEAST_AREA: f64 = 1e-6;
 
 /// How far a changed stone kept what it had.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kept {
+enum Kept {
     /// Every corner is where its facets meet: the facets have the edges that they had.
     Everything,
     /// Every facet and every meet, but some edges between them run otherwise.

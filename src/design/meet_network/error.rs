@@ -31,7 +31,4 @@ pub enum NetworkError {
     /// Planes that bound no stone any more.
     #[error("no stone is left: {0}")]
     Solid(crate::geometry::SolidError),
-    /// Nothing can change.
-    #[error("nothing can change")]
-    Nothing,
 }
