@@ -4,6 +4,7 @@
 
 mod args;
 mod arguments;
+mod attribute;
 mod changed_stone;
 mod compare;
 mod completions;
@@ -89,6 +90,8 @@ enum Command {
     Edit(edit::EditArgs),
     /// Make a design for a stone of another refractive index
     Retarget(retarget::RetargetArgs),
+    /// What each tier's angle does to scores, and through which facets light is lost
+    Attribute(attribute::AttributeArgs),
     /// Take a photon-mapped picture, or a turntable of pictures
     Render(render::RenderArgs),
     /// Scores of brilliance and fire, one row a stone
@@ -125,6 +128,7 @@ impl Command {
             Command::Show(args) => show::run(args, console),
             Command::Edit(args) => edit::run(args, console),
             Command::Retarget(args) => retarget::run(args, console),
+            Command::Attribute(args) => attribute::run(args, console),
             Command::Render(args) => render::run(args, console),
             Command::Score(args) => score::run(args, console),
             Command::Sweep(args) => sweep::run(args, console),

@@ -25,8 +25,8 @@ use crate::render::RenderError;
 use crate::report::ReportError;
 #[cfg(feature = "render")]
 use crate::scene::SceneError;
-use crate::scoring::ScoreError;
 use crate::scoring::edit_report::EditScoreError;
+use crate::scoring::{AttributionError, ObjectiveError, ScoreError};
 use crate::stone::StoneError;
 #[cfg(feature = "files")]
 use crate::storage::atomic_write::WriteError;
@@ -97,6 +97,9 @@ pub enum Error {
     /// Of a setting that is not understood.
     #[error(transparent)]
     Setting(#[from] SettingError),
+    /// Of an objective: a metric that there is not, or that a stone does not have.
+    #[error(transparent)]
+    Objective(#[from] ObjectiveError),
     /// Of an optimisation.
     #[cfg(feature = "search")]
     #[error(transparent)]
@@ -142,7 +145,11 @@ impl Error {
             {
                 ErrorKind::NotFound
             }
+            Error::Objective(ObjectiveError::NoSuchMetric(_) | ObjectiveError::NoSuchQuantity { .. }) => {
+                ErrorKind::NotFound
+            }
             Error::Score(_)
+            | Error::Objective(_)
             | Error::Solid(_)
             | Error::Cut(_)
             | Error::Edit(_)
@@ -220,6 +227,17 @@ impl From<EditScoreError> for Error {
         match error {
             EditScoreError::Stone(error) => error.into(),
             EditScoreError::Cancelled => Error::Cancelled,
+        }
+    }
+}
+
+impl From<AttributionError> for Error {
+    fn from(error: AttributionError) -> Error {
+        match error {
+            AttributionError::Stone(error) => error.into(),
+            AttributionError::Edit(error) => error.into(),
+            AttributionError::Objective(error) => error.into(),
+            AttributionError::Cancelled => Error::Cancelled,
         }
     }
 }

@@ -97,5 +97,5 @@ pub use report::ReportRequest;
 pub use sampling::stats::Estimate;
 #[cfg(feature = "render")]
 pub use scene::{Pose, Scene, SceneFile};
-pub use scoring::{Comparison, ScoreError, ScoreRequest, Scores, Target, Tilt};
+pub use scoring::{AttributionRequest, Comparison, ScoreError, ScoreRequest, Scores, Target, Tilt};
 pub use stone::{Orientation, Stone, StoneError, StoneOptions, StoneSpec, UpAxis};

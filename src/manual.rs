@@ -35,7 +35,7 @@ macro_rules! topics {
 topics! {
     stones: "how a stone is named: cuts, parameters, files, folders, sizes", include_str!("manual/stones.md");
     designs: "design files: a cut of your own, tier by tier", include_str!("manual/designs.md");
-    editing: "changing a design: angles, meets, sizes", include_str!("manual/editing.md");
+    editing: "changing a design: angles, meets, sizes; what to change first", include_str!("manual/editing.md");
     optimising: "optimise: variables, objectives, bounds, noise", include_str!("manual/optimising.md");
     materials: "refractive index, dispersion, colour, density", include_str!("manual/materials.md");
     scenes: "scene files: camera, stones, surfaces, lights",

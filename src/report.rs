@@ -1,5 +1,6 @@
 //! Reports: everything about one stone, with drawings, pictures and a page.
 
+mod attribution;
 pub mod chart;
 pub mod comparison_page;
 pub mod diagram;
@@ -18,6 +19,7 @@ pub mod stone_report;
 pub mod svg_canvas;
 pub mod table_plots;
 pub mod target_format;
+pub mod tier_advice;
 pub mod tilt_curves;
 pub mod validation;
 pub mod viewer_images;

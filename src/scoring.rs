@@ -1,6 +1,7 @@
 //! Scores of one stone, as accurate as asked for, and of stones against each other.
 
 mod adaptive;
+pub mod attribution;
 pub mod comparison;
 pub mod constraint;
 pub mod edit_report;
@@ -15,6 +16,7 @@ pub mod settings;
 pub mod tier_effects;
 mod views;
 
+pub use attribution::{Attribution, AttributionError, AttributionRequest};
 pub use comparison::Comparison;
 pub use effort::Effort;
 pub use evaluator::{Evaluator, Values};
@@ -23,4 +25,4 @@ pub use objective::{Aim, Objective, ObjectiveError, TiltedMetric};
 pub use score::{score, score_all};
 pub use scores::{ScoreError, Scores};
 pub use settings::{ScoreInput, ScoreRequest, ScoreRow, StoneShape, Target, Tilt};
-pub use tier_effects::TierEffect;
+pub use tier_effects::{TierEffect, TierSlope};

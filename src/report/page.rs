@@ -1,6 +1,7 @@
 //! The page about one stone: one HTML file that needs nothing beside it.
 
 mod scores;
+mod tiers;
 
 pub use scores::{PageScore, Section};
 
@@ -9,6 +10,7 @@ use super::references::STONES;
 use super::tilt_curves::TiltPlot;
 use super::viewer_images::ViewerPicture;
 use crate::design::proportions::Proportions;
+use crate::scoring::Attribution;
 use maud::{Markup, html};
 
 /// Everything the page shows.
@@ -38,6 +40,8 @@ pub struct Page<'a> {
     pub sections: &'a [Section],
     /// Scores against the tilt.
     pub tilts: &'a [TiltPlot],
+    /// What the tiers do to scores, or why that is left out.
+    pub attribution: &'a Result<Attribution, String>,
     /// The stone on the contour map as SVG, and a line under it; for round brilliants.
     pub map: Option<(String, String)>,
     /// What the reference stones are of.
@@ -106,6 +110,7 @@ impl Page<'_> {
             (self.pictures())
             (self.proportions())
             (self.scores())
+            (tiers::tier_section(self.attribution))
             (tilt_section(self.tilts))
             (self.map())
         };

@@ -1,5 +1,6 @@
 //! Everything about one stone: the files of `cutlab report`.
 
+use super::attribution::attributed;
 use super::page::{Page, Section};
 use super::pdf::PdfError;
 use super::raster::RasterError;
@@ -100,7 +101,7 @@ pub struct StoneReport {
 }
 
 /// Steps that [`make`] reports.
-pub const STEPS: usize = 6;
+pub const STEPS: usize = 7;
 
 /// Makes the report.
 ///
@@ -134,6 +135,9 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
     step("reference stones");
     let references = References::within(&request.material, solid.width(), &plan)?;
     let sections = sections::sections(&plan.metrics, &row, &references);
+
+    step("tiers");
+    let attribution = attributed(request, &solid);
 
     step("scopes");
     let pictures = viewer_images::pictures(&subject, &plan, height(request.width))?;
@@ -181,6 +185,7 @@ pub fn make(request: &ReportInput, step: &dyn Fn(&'static str)) -> Result<StoneR
         diagram: &diagram,
         sections: &sections,
         tilts: &tilts,
+        attribution: &attribution,
         map,
         references: &references.material,
         traced: format!(

@@ -1,6 +1,7 @@
 //! The library, used as any program uses it.
 
 mod absorbing_stones;
+mod attribution;
 mod beam_reciprocity;
 mod beams;
 #[path = "../common/brilliants.rs"]

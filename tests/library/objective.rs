@@ -311,7 +311,8 @@ fn tiers_do_what_small_steps_say() {
     let metrics = ["weight_ratio", "iso", "wlr"];
     let evaluator = evaluator(&metrics, &material, Effort::default().samples(1 << 13), &base);
     let turn = |tier: usize, degrees: f64| turned(&design, tier, degrees);
-    let effects = evaluator.tier_effects(&base, &tiers, turn, &material).expect("is lit");
+    let leakage = evaluator.leakage(&base, &material).expect("is lit");
+    let effects = evaluator.tier_effects(&tiers, turn, &leakage);
     let mains = design.tiers.iter().position(|t| t.angle_deg.is_some_and(|a| a < 0.0)).expect("a pavilion");
     let small = |metric: usize, step: f64| {
         let at = |degrees: f64| {
@@ -324,9 +325,9 @@ fn tiers_do_what_small_steps_say() {
         };
         (at(step) - at(-step)) / (2.0 * step)
     };
-    let found = effects[mains].per_degree.as_ref().expect("can be turned");
+    let found = effects[mains].slopes.as_ref().expect("can be turned");
     for (metric, step) in [(0, 0.01), (1, 0.02), (2, 0.2)] {
-        let (found, slope) = (found[metric], small(metric, step));
+        let (found, slope) = (found[metric].per_degree, small(metric, step));
         let scale = if metric == 1 { 100.0 } else { 1.0 };
         assert!(
             (found.value - slope).abs() < 3.0 * found.error + 2e-3 * scale,

@@ -58,10 +58,20 @@ fn standard_output(case: &Case, ran: &Ran, inputs: &Inputs) -> Option<Fault> {
         };
     }
     // what an import has to say is which files it wrote
-    let answers =
-        ["show", "edit", "retarget", "list", "compare", "validate", "report", "import", "completions"]
-            .contains(&case.command.as_str())
-            && !(case.command == "import" && case.has("quiet"));
+    let answers = [
+        "show",
+        "edit",
+        "retarget",
+        "attribute",
+        "list",
+        "compare",
+        "validate",
+        "report",
+        "import",
+        "completions",
+    ]
+    .contains(&case.command.as_str())
+        && !(case.command == "import" && case.has("quiet"));
     (answers && ran.stdout.is_empty()).then(|| fault("what is asked is answered", "standard output is empty"))
 }
 
@@ -85,8 +95,8 @@ fn sidecar(table: &Path) -> PathBuf {
 pub fn streamed(case: &Case) -> &str {
     match case.command.as_str() {
         // whatever form the parts of a whole have
-        "score" | "sweep" | "merge" | "compare" if case.has("json") => "json",
-        "score" | "sweep" | "merge" | "compare" => "csv",
+        "score" | "sweep" | "merge" | "compare" | "attribute" if case.has("json") => "json",
+        "score" | "sweep" | "merge" | "compare" | "attribute" => "csv",
         "show" => "svg",
         "render" => "png",
         "man" => "1",
@@ -104,7 +114,7 @@ fn named(case: &Case, value: &Value, ran: &Ran) -> Option<Fault> {
     let mut named: Vec<PathBuf> = match case.command.as_str() {
         "render" | "plot" | "man" => listed(value),
         "score" | "sweep" | "merge" => listed(&value["files"]),
-        "edit" | "retarget" => value["file"].as_str().map(PathBuf::from).into_iter().collect(),
+        "edit" | "retarget" | "attribute" => value["file"].as_str().map(PathBuf::from).into_iter().collect(),
         "report" if value.is_object() => listed(&value["files"]),
         "report" => rows().flat_map(|report| listed(&report["files"])).collect(),
         "generate" if value.is_object() => listed(&value["files"]),

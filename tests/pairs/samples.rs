@@ -23,6 +23,8 @@ pub const ALWAYS: &[(&str, &str)] = &[
     ("retarget", "score"),
     ("optimise", "maximise"),
     ("optimise", "evaluations"),
+    ("attribute", "metrics"),
+    ("attribute", "error"),
 ];
 
 /// Heights of a brilliant that go together.
@@ -60,7 +62,12 @@ const SAMPLES: &[Sample] = &[
     ("edit", "stone", &[&["classic"], &["round-brilliant"], &["oval"]]),
     ("retarget", "stone", &[&["classic:ri=1.54"], &["round-brilliant:ri=1.6"]]),
     ("optimise", "stone", &[&["a.asc"], &["round-brilliant"], &["classic"], &["o.stl"]]),
+    ("attribute", "stone", &[&["a.asc"], &["classic"], &["o.stl"], &["-"]]),
     // changes
+    ("attribute", "metrics", &[&["spread,weight_ratio"], &["iso,wlr"], &["windowing"]]),
+    ("attribute", "tilt", &[&["0,10"]]),
+    ("attribute", "keep", &[&["meets"], &["angles"], &["depths"]]),
+    ("attribute", "output", &[&["x.csv"], &["x.json"], &["-"]]),
     (
         "optimise",
         "vary",

@@ -2,6 +2,7 @@
 
 mod absorption;
 mod asked;
+mod attribute;
 mod backgrounds;
 mod bare_index;
 mod bench;

@@ -54,7 +54,7 @@ fn commands(block: &str) -> Vec<String> {
 /// The command with less work to do, unless it says itself how much.
 fn tamed(line: &str) -> String {
     let mut line = line.to_owned();
-    for command in ["score", "compare", "sweep", "retarget"] {
+    for command in ["score", "compare", "sweep", "retarget", "attribute"] {
         if !line.contains("--error") {
             line = line.replacen(&format!("cutlab {command}"), &format!("cutlab {command} --error 0.05"), 1);
         }

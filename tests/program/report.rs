@@ -229,6 +229,7 @@ fn the_page_holds_everything_and_needs_nothing_beside_it() {
         "Seen straight from above",
         "Proportions",
         "Cutting diagram",
+        "What to change first",
         "Tilted",
         "Among round brilliants",
     ] {

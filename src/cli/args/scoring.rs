@@ -114,7 +114,7 @@ impl ScoringHow {
 }
 
 /// Every metric once.
-fn once(asked: &[&'static Metric]) -> Vec<&'static Metric> {
+pub fn once(asked: &[&'static Metric]) -> Vec<&'static Metric> {
     let mut metrics: Vec<&'static Metric> = Vec::new();
     for metric in asked {
         if !metrics.iter().any(|m| m.name == metric.name) {
@@ -147,6 +147,6 @@ pub fn error(text: &str) -> Result<f64, String> {
 }
 
 /// Value parser of `--observer`.
-fn half_angle(text: &str) -> Result<f64, String> {
+pub fn half_angle(text: &str) -> Result<f64, String> {
     parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
 }

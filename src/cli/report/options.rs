@@ -14,10 +14,10 @@ Examples:
   cutlab report designs/ -o out        every design of a folder, each into a folder of its own in out/
 
 index.html shows it all and needs nothing beside it, on a screen, a phone or paper: pictures, proportions,
-the cutting diagram, every score beside five reference stones of the same material, scores against the
-tilt, and for round brilliants their place on the map of light return. Beside it stand the pictures
-(table.png, aset.png, ideal-scope.png, windows.png, brightness.png), diagram.svg, scores.csv, stone.obj and
-stone.toml. Each picture from above is of the same light and stone as the scores beside it.")]
+the cutting diagram, every score beside five reference stones of the same material, which tier to change
+first, scores against the tilt, and for round brilliants their place on the map of light return. Beside it
+stand the pictures (table.png, aset.png, ideal-scope.png, windows.png, brightness.png), diagram.svg,
+scores.csv, stone.obj and stone.toml. Each picture from above is of the same light and stone as the scores beside it.")]
 pub struct ReportArgs {
     /// Stones: names from `cutlab list cuts`, with parameters or not, files, folders of files, patterns;
     /// of several, each has a folder of its own in -o

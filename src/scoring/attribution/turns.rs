@@ -1,0 +1,45 @@
+//! Turns of single tiers: what is kept, and which other tiers follow.
+
+use crate::design::edit::{EditError, EditTarget, Edited, Editor, Keep, Setting};
+use crate::scoring::tier_effects::STEP_DEG;
+
+/// How a tier is turned.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    place: String,
+    /// What is kept.
+    pub keep: Keep,
+    /// Tiers whose angles follow, whichever way it is turned.
+    pub followed: Vec<String>,
+}
+
+impl Turn {
+    /// The design with the tier steeper by some degrees.
+    pub fn edited(&self, editor: &Editor, degrees: f64) -> Result<Edited, EditError> {
+        let target = EditTarget::Angle(self.place.clone());
+        editor.edit(&[Setting { target, is_added: true, value: degrees }], self.keep)
+    }
+}
+
+/// How each tier is turned, or why it cannot be.
+///
+/// - `keep`: none keeps the other angles, and where that cannot be lets them follow
+pub(super) fn of_tiers(editor: &Editor, keep: Option<Keep>) -> Vec<Result<Turn, EditError>> {
+    let tried = keep.map_or_else(|| vec![Keep::Angles, Keep::Meets], |keep| vec![keep]);
+    let turn = |place: &str, keep: Keep| -> Result<Turn, EditError> {
+        let mut turn = Turn { place: place.into(), keep, followed: Vec::new() };
+        for degrees in [STEP_DEG, -STEP_DEG] {
+            for tier in turn.edited(editor, degrees)?.followed {
+                if !turn.followed.contains(&tier) {
+                    turn.followed.push(tier);
+                }
+            }
+        }
+        Ok(turn)
+    };
+    let of = |place: &str| {
+        let (last, others) = tried.split_last().unwrap_or((&Keep::Meets, &[]));
+        others.iter().find_map(|keep| turn(place, *keep).ok()).map_or_else(|| turn(place, *last), Ok)
+    };
+    editor.tiers.tiers.iter().map(|tier| of(&tier.place)).collect()
+}
