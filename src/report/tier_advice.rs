@@ -17,7 +17,7 @@ fn line(of: &AttributedObjective, found: &Attribution) -> String {
         let none_turns = found.tiers.iter().all(|tier| tier.changes.is_empty());
         return match none_turns {
             true => format!("{head}: no tier can be turned"),
-            false => format!("{head}: half a degree of no single tier gains significantly"),
+            false => format!("{head}: no single tier gains significantly by half a degree"),
         };
     };
     let way = if first.degrees > 0.0 { "steeper" } else { "flatter" };
@@ -28,7 +28,7 @@ fn line(of: &AttributedObjective, found: &Attribution) -> String {
     };
     let follow = match &first.followed[..] {
         [] => String::new(),
-        tiers => format!(", {} following", tiers.join(", ")),
+        tiers => format!(", {} following", listed(tiers)),
     };
     let unit = if of.unit.is_empty() { String::new() } else { format!(" {}", of.unit) };
     let signed = |change: Estimate| format!("{}{change}{unit}", plus(change));
@@ -53,8 +53,15 @@ pub fn remark(tier: &TierAttribution) -> String {
         (Some(_), "table" | "culet", _) => "stays horizontal".into(),
         (Some(why), ..) => format!("cannot be turned: {why}"),
         (None, _, []) => String::new(),
-        (None, _, tiers) => format!("others follow: {}", tiers.join(", ")),
+        (None, _, tiers) => format!("others follow: {}", listed(tiers)),
     }
+}
+
+/// Places joined, a long list cut short.
+fn listed(places: &[String]) -> String {
+    const SHOWN: usize = 4;
+    let shown = places[..places.len().min(SHOWN)].join(", ");
+    if places.len() > SHOWN { format!("{shown} and {} more", places.len() - SHOWN) } else { shown }
 }
 
 /// A share in percent.

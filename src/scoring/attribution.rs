@@ -86,9 +86,10 @@ pub struct AttributedObjective {
     pub aim: Aim,
     /// The score of the stone as it is.
     pub value: Estimate,
-    /// The places of the tiers whose change per degree is significant, the greatest first.
+    /// The places of the tiers that can be turned, the greatest change per degree first.
     pub order: Vec<String>,
-    /// The change to make first; none if no half a degree of one tier gains significantly.
+    /// The change to make first: of the first three tiers of `order` the one of which half a degree gains most when
+    /// it is scored; none if none gains significantly.
     pub first: Option<FirstChange>,
 }
 
@@ -108,7 +109,7 @@ pub struct TierAttribution {
     pub facets: usize,
     /// What was kept when it was turned; none if it cannot be.
     pub keep: Option<Keep>,
-    /// Tiers whose angles follow when it is turned.
+    /// The places of tiers whose angles follow when it is turned.
     pub followed: Vec<String>,
     /// One an objective; empty if it cannot be turned.
     pub changes: Vec<ChangePerDegree>,

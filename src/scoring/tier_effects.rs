@@ -49,7 +49,7 @@ impl Evaluator {
     ///
     /// Changes are central differences over ± [`STEP_DEG`] and half of that. Beside the noise their errors
     /// hold what the step leaves out: 4/3 of what halving it changes, as for any function with a third
-    /// derivative. All stones have the same random numbers.
+    /// derivative; of the square of that change its noise is taken off. All stones have the same random numbers.
     pub fn tier_effects<E: ToString>(
         &self,
         tiers: &[Vec<usize>],
@@ -115,7 +115,8 @@ fn slopes(at: impl Fn(f64) -> Result<Vec<PairedRuns>, String>, step: f64) -> Res
     };
     let (whole, half) = (slope(step)?, slope(0.5 * step)?);
     let found = whole.iter().zip(&half).map(|(whole, half)| {
-        let bend = PairedRuns::combined([(1.0, whole), (-1.0, half)]).value();
+        let halving = PairedRuns::combined([(1.0, whole), (-1.0, half)]).estimate();
+        let bend = (halving.value.powi(2) - halving.error.powi(2)).max(0.0).sqrt();
         let found = whole.estimate();
         let per_degree = Estimate { error: found.error.hypot(bend * 4.0 / 3.0), ..found };
         let noise = if whole.is_closed() { 0.0 } else { found.error };

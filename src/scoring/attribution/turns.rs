@@ -1,7 +1,11 @@
 //! Turns of single tiers: what is kept, and which other tiers follow.
 
-use crate::design::edit::{EditError, EditTarget, Edited, Editor, Keep, Setting};
+use crate::design::edit::{EditError, EditTarget, EditableTier, Edited, Editor, Keep, Setting};
+use crate::geometry::Polyhedron;
 use crate::scoring::tier_effects::STEP_DEG;
+
+/// Angles that differ by less, in radians, are the same: far above rounding, far below what a tier follows by.
+const SAME_ANGLE: f64 = 1e-6;
 
 /// How a tier is turned.
 #[derive(Debug, Clone)]
@@ -9,7 +13,7 @@ pub(super) struct Turn {
     place: String,
     /// What is kept.
     pub keep: Keep,
-    /// Tiers whose angles follow, whichever way it is turned.
+    /// The places of tiers whose angles follow, whichever way it is turned.
     pub followed: Vec<String>,
 }
 
@@ -29,9 +33,10 @@ pub(super) fn of_tiers(editor: &Editor, keep: Option<Keep>) -> Vec<Result<Turn, 
     let turn = |place: &str, keep: Keep| -> Result<Turn, EditError> {
         let mut turn = Turn { place: place.into(), keep, followed: Vec::new() };
         for degrees in [STEP_DEG, -STEP_DEG] {
-            for tier in turn.edited(editor, degrees)?.followed {
-                if !turn.followed.contains(&tier) {
-                    turn.followed.push(tier);
+            let edited = turn.edited(editor, degrees)?;
+            for tier in editor.tiers.tiers.iter().filter(|tier| tier.place != place) {
+                if !turn.followed.contains(&tier.place) && is_turned(tier, &editor.solid, &edited.solid) {
+                    turn.followed.push(tier.place.clone());
                 }
             }
         }
@@ -42,4 +47,15 @@ pub(super) fn of_tiers(editor: &Editor, keep: Option<Keep>) -> Vec<Result<Turn, 
         others.iter().find_map(|keep| turn(place, *keep).ok()).map_or_else(|| turn(place, *last), Ok)
     };
     editor.tiers.tiers.iter().map(|tier| of(&tier.place)).collect()
+}
+
+/// Whether a facet of a tier has another angle than it had.
+fn is_turned(tier: &EditableTier, was: &Polyhedron, is: &Polyhedron) -> bool {
+    let angle = |solid: &Polyhedron, facet: &usize| {
+        let face = solid.faces.iter().position(|face| face.plane == *facet)?;
+        let normal = solid.area_vector(face);
+        Some(normal.truncate().length().atan2(normal.z))
+    };
+    let differs = |facet: &usize| Some((angle(was, facet)? - angle(is, facet)?).abs() > SAME_ANGLE);
+    tier.facets.iter().any(|facet| differs(facet).unwrap_or_default())
 }
