@@ -42,7 +42,7 @@ fn tiers(found: &Attribution) -> Markup {
             "Each tier is turned by a quarter of a degree to both sides while what met still meets; shown is the change \
              per degree by which it is steeper, after ± one standard error, bold if it is beyond three errors and not \
              negligible. Light lost: what a viewer who looks straight down sees of what lies below the stone, by the \
-             facets it comes through. cutlab attribute shows other scores, tilts and single facets."
+             facets it comes through. cutlab attribute shows it of other scores, of tilted stones and of single facets."
         }
     }
 }
@@ -53,7 +53,7 @@ fn row(tier: &TierAttribution, objectives: usize) -> Markup {
             th scope="row" { (tier.place) @if tier.name != tier.place { " " span class="se" { (tier.name) } } }
             td { (format!("{:.2}°", tier.angle_deg)) }
             @for objective in 0..objectives { td { (change(tier.changes.get(objective))) } }
-            td { (estimate_html(Some(percent(tier.leakage)), "")) }
+            td { span class="plain" { (estimate_html(Some(percent(tier.leakage)), "")) } }
             td class="note" { (remark(tier)) }
         }
         "\n"

@@ -15,6 +15,10 @@ pub const HALF_DEGREE: f64 = 0.5;
 /// So many tiers are scored half a degree turned: those of the greatest slopes.
 const TRIED: usize = 3;
 
+/// A slope that is not significant is tried where at most this part of its error is noise: the rest is a score that
+/// bends or jumps, of which half a degree may gain much.
+const OF_NOISE: f64 = 0.5;
+
 /// The change to make first.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -65,9 +69,16 @@ pub(super) fn first_changes(
         let sign = evaluator.objectives[objective].aim.sign();
         Some(HALF_DEGREE * sign * slope(tier, objective)?.value.signum())
     };
+    let tried = |objective: usize| {
+        let says_something = move |tier: &&usize| {
+            let slope = slopes[**tier].as_ref().ok().and_then(|of| of.get(objective));
+            slope.is_some_and(|s| s.is_significant || s.noise <= OF_NOISE * s.per_degree.error)
+        };
+        orders[objective].iter().filter(says_something).take(TRIED)
+    };
     let mut trials: Vec<Trial> = Vec::new();
-    for (objective, order) in orders.iter().enumerate() {
-        for &tier in order.iter().take(TRIED) {
+    for objective in 0..orders.len() {
+        for &tier in tried(objective) {
             let Some(degrees) = better_way(tier, objective) else { continue };
             let is_known = trials.iter().any(|trial| trial.tier == tier && trial.degrees == degrees);
             let edited = turns[tier].as_ref().ok().and_then(|turn| turn.edited(editor, degrees).ok());
@@ -85,9 +96,9 @@ pub(super) fn first_changes(
             trial.gains = gains.ok().and_then(|mut gains| gains.pop());
         }),
     }
-    let first = |(objective, order): (usize, &Vec<usize>)| {
+    let first = |objective: usize| {
         let of_order = |trial: &&Trial| {
-            let is_asked = order.iter().take(TRIED).any(|tier| *tier == trial.tier);
+            let is_asked = tried(objective).any(|tier| *tier == trial.tier);
             is_asked && better_way(trial.tier, objective) == Some(trial.degrees)
         };
         let gain = |trial: &Trial| trial.gains.as_ref().and_then(|gains| gains.get(objective).copied());
@@ -105,5 +116,5 @@ pub(super) fn first_changes(
             followed: turns[trial.tier].as_ref().map_or_else(|_| Vec::new(), |turn| turn.followed.clone()),
         })
     };
-    orders.iter().enumerate().map(first).collect()
+    (0..orders.len()).map(first).collect()
 }
