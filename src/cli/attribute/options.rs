@@ -23,11 +23,11 @@ Examples:
   cutlab attribute classic --material quartz --metrics windowing,iso -o tiers.csv
   cutlab attribute mine.asc --json                      with the light that is lost facet by facet
 
-Each tier is turned by a quarter of a degree to both sides while what met still meets; what is shown is
-the change per degree by which it is steeper. * marks changes beyond three of their errors that are not
-negligible. The first lines name the tier of which half a degree gains most: what its change per degree
-predicts, and what the changed stone scores. Light is lost where a face-up viewer sees what lies below the
-stone. See `cutlab help editing`.")]
+Each tier is turned by a quarter of a degree to both sides while what met still meets; what is
+shown is the change per degree by which it is steeper. * marks changes beyond three of their errors
+that are not negligible. The first lines name the tier of which half a degree gains most: what its
+change per degree predicts, and what scoring the changed stone gives. Light is lost where a viewer who
+looks straight down sees what lies below the stone. See `cutlab help editing`.")]
 pub struct AttributeArgs {
     /// The stone: a name from `cutlab list cuts`, with parameters or not, a file, or - for standard input
     #[arg(value_name = "STONE")]
@@ -46,7 +46,7 @@ pub struct AttributeArgs {
     #[arg(long, value_name = "meets|angles|depths", value_parser = super::super::edit::keep)]
     keep: Option<Keep>,
     /// Trace until the noise of every change per degree is below this times the metric's scale: 1 for
-    /// fractions and degrees, 100 for percentages [a number of samples]
+    /// fractions and degrees, 100 for percentages [131,072 points a stone]
     #[arg(long, value_name = "E", value_parser = scoring::error)]
     error: Option<f64>,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each its own]

@@ -42,7 +42,7 @@ fn tiers(found: &Attribution) -> Markup {
             "Each tier is turned by a quarter of a degree to both sides while what met still meets; shown is the change \
              per degree by which it is steeper, after ± one standard error, bold if it is beyond three errors and not \
              negligible. Light lost: what a viewer who looks straight down sees of what lies below the stone, by the \
-             facets it comes through. cutlab attribute shows it of other scores, of tilted stones and of single facets."
+             facets it comes through. cutlab attribute takes other scores and tilts, and shows single facets."
         }
     }
 }
