@@ -6,6 +6,8 @@ mod beams;
 #[path = "../common/brilliants.rs"]
 mod brilliants;
 mod colour;
+#[path = "../common/corpus_folder.rs"]
+mod corpus_folder;
 mod coverage;
 mod cuts;
 mod daylight;

@@ -119,6 +119,7 @@ fn bad_settings_are_refused_in_one_line() {
     let there = bench.names();
     for (set, words) in [
         ("pavilion-mian.angle=41", &["no tier is called", "did you mean 'pavilion-main'"][..]),
+        ("C9.angle=30", &["no tier is called 'C9'", "did you mean 'C3'"]),
         ("P1.angle=95", &["cannot have an angle of 95°"]),
         ("P1.angle=-95", &["cannot have an angle"]),
         ("G1.angle=80", &["girdle", "vertical"]),
