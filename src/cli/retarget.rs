@@ -28,11 +28,12 @@ struct RetargetReport<'a> {
 
 /// Makes the design for its new index, prints what changed and writes the result.
 pub fn run(args: &RetargetArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let asked = args.how.stone_args.options(None);
+    let how = &args.change.how;
+    let asked = how.stone_args.options(None);
     let material = asked.asked_material().map_err(CliError::input)?;
     let material = material
         .ok_or_else(|| CliError::input("a design is made for a new stone: say --material NAME or --ri N"))?;
-    let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
+    let mut file = ChangedFile::new(&args.stone, &args.change.written, console)?;
     // as the stone is before: of its own material
     let own = StoneOptions { material: None, ri: None, opened_material: None, ..asked };
     let stone = Stone::open(&args.stone, &own)?;
@@ -56,17 +57,17 @@ pub fn run(args: &RetargetArgs, console: &Console) -> Result<ExitStatus, CliErro
     let changes = DesignChanges::new(&editor, &made.edited);
     let mut report = EditReport::new(&stone.clone().with_material(material), &made.edited.design, changes)?;
     let metrics = metrics(args);
-    args.how.notes(&metrics, false).iter().for_each(|note| console.note(note));
-    report.score(&args.how.plan(&metrics), args.how.size, &BarProgress::new(console))?;
+    how.notes(&metrics, false).iter().for_each(|note| console.note(note));
+    report.score(&how.plan(&metrics), how.size, &BarProgress::new(console))?;
     let mut text = ChangedText::new(&report);
     text.head = head(&made.figures);
     file.finish(&RetargetReport { report: &report, retarget: &made.figures }, &text, console)
 }
 
 fn metrics(args: &RetargetArgs) -> Vec<&'static Metric> {
-    match args.score.is_empty() {
+    match args.change.score.is_empty() {
         true => USUAL_METRICS.iter().filter_map(|name| Metric::by_name(name)).collect(),
-        false => args.score.clone(),
+        false => args.change.score.clone(),
     }
 }
 

@@ -1,9 +1,7 @@
 //! Options of `cutlab retarget`.
 
-use crate::cli::args::scoring::{self, ScoringHow};
-use crate::cli::changed_stone::WrittenArgs;
+use crate::cli::changed_stone::ChangeArgs;
 use crate::design::retarget::{CrownRule, PavilionRule};
-use crate::metrics::Metric;
 use crate::parse::{self, NumberUnit};
 use crate::stone::grammar;
 use std::ffi::OsString;
@@ -35,12 +33,7 @@ pub struct RetargetArgs {
     #[arg(long, value_name = "prism|keep|RATIO", default_value = "prism", value_parser = crown)]
     pub crown: CrownRule,
     #[command(flatten)]
-    pub written: WrittenArgs,
-    /// Scores before and after [windowing,iso,wlr,leakage]
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = scoring::metric)]
-    pub score: Vec<&'static Metric>,
-    #[command(flatten)]
-    pub how: ScoringHow,
+    pub change: ChangeArgs,
 }
 
 /// Value parser of `--pavilion`.
