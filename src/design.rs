@@ -1,5 +1,6 @@
 //! Designs: tiers of facets, parametric families, the library, proportions.
 
+pub mod cutting_error;
 pub mod design_file;
 pub mod edit;
 pub mod families;
