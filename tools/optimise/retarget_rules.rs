@@ -20,7 +20,7 @@
 use cutlab::advanced::design::edit::Editor;
 use cutlab::advanced::design::retarget::{CrownRule, PavilionRule, RetargetRequest};
 use cutlab::advanced::scoring::{Effort, Evaluator, Objective};
-use cutlab::{Limits, Material, Polyhedron, Stone, expand_stones};
+use cutlab::{Limits, Material, Polyhedron, Stone, StoneOptions, expand_stones};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::ffi::OsString;
@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut table: BTreeMap<(usize, usize, usize), Vec<Made>> = BTreeMap::new();
     let mut before: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for stone in stones {
-        let Ok(stone) = Stone::parse(&stone) else { continue };
+        let Ok(stone) = Stone::open(&stone, &StoneOptions::default()) else { continue };
         let Ok(design) = stone.convex_design() else { continue };
         let Ok(editor) = Editor::new(design) else { continue };
         let from = stone.material().index_d();
