@@ -18,7 +18,7 @@ use std::str::FromStr;
 /// | shape | rule |
 /// |---|---|
 /// | round | r is the same within 4.5 % everywhere: twelve sides and more |
-/// | triangle, pentagon, hexagon, octagon, polygon | turned by 1/3, 1/5, 1/6, 1/8, or another part of a circle but 1/2 and 1/4, it falls upon itself; straight sides or bent |
+/// | triangle, pentagon, hexagon, octagon, polygon | turned by 1/3, 1/5, 1/6, 1/8, or another part of a circle down to 1/12 but 1/2 and 1/4, it falls upon itself; straight sides or bent |
 /// | square | turned by 1/4 it falls upon itself, and its four long sides make half of the perimeter: cut corners or not |
 /// | cushion | turned by 1/4 it falls upon itself, and its sides are bent |
 /// | rectangle | turned by 1/2 it falls upon itself, long sides make 60 % of the perimeter, and it fills 85 % of length × width: cut corners or not |
@@ -78,6 +78,10 @@ const DIRECTIONS: usize = 960;
 
 /// What the reach may differ by in parts of the width, where an outline falls upon itself.
 const SAME: f64 = 0.02;
+
+/// The finest turn that is tried, as one over so many: an outline of dozens of sides falls upon itself nearly enough
+/// by any turn of one side.
+const FINEST: usize = 12;
 
 /// The reach of a round outline is the same to this part: sides of a twelve-gon reach 3.5 % less than its corners.
 const ROUND: f64 = 1.045;
@@ -237,7 +241,7 @@ impl Outline {
     }
 
     /// The finest part of a circle by which it can be turned upon itself, as one over so many: as many as its sides
-    /// can be divided by.
+    /// can be divided by, and no more than [`FINEST`].
     fn order(&self) -> usize {
         let falls = |parts: &usize| {
             let by = TAU / *parts as f64;
@@ -245,7 +249,7 @@ impl Outline {
             (0..DIRECTIONS).all(|i| (turned(i) - self.reach[i]).abs() <= SAME * self.width)
         };
         let sides = self.corners.len();
-        (2..=sides).rev().filter(|parts| sides.is_multiple_of(*parts)).find(falls).unwrap_or(1)
+        (2..=sides.min(FINEST)).rev().filter(|parts| sides.is_multiple_of(*parts)).find(falls).unwrap_or(1)
     }
 
     /// By how much the ends of its best line of symmetry differ in their reach; none of an outline without one.
