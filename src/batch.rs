@@ -6,6 +6,7 @@ pub mod fingerprint;
 pub mod finished_row;
 pub mod input_files;
 pub mod merge;
+pub mod outlines;
 pub mod output_places;
 mod proportion_columns;
 pub mod request;

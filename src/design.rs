@@ -1,5 +1,6 @@
 //! Designs: tiers of facets, parametric families, the library, proportions.
 
+pub mod cutting_error;
 pub mod design_file;
 pub mod edit;
 pub mod families;
@@ -10,6 +11,7 @@ pub mod measured_tiers;
 pub mod meet_network;
 pub mod meet_points;
 pub mod orientation;
+pub mod outline_shape;
 pub mod proportion_catalogue;
 pub mod proportions;
 pub mod retarget;

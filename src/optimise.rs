@@ -10,5 +10,5 @@ mod variable;
 pub use candidates::Candidates;
 pub use guards::{GuardedStone, Guards};
 pub use request::OptimiseRequest;
-pub use run::{Finalist, Optimisation, OptimiseError, Optimised};
+pub use run::{Finalist, MOST_TOLERANCE_DEG, Optimisation, OptimiseError, Optimised};
 pub use variable::{Degree, Variable, VariableError, resolved, usual};

@@ -10,6 +10,7 @@ pub mod evaluator;
 pub mod gain;
 pub mod objective;
 mod paired_runs;
+pub mod retarget;
 pub mod score;
 pub mod scores;
 pub mod settings;

@@ -5,6 +5,7 @@
 
 use super::sweep::{Steps, SweptParameter};
 use super::table_job::Order;
+use crate::design::outline_shape::OutlineShape;
 use crate::metrics::Metric;
 use crate::parse::shell::quoted;
 use crate::scoring::settings::{ScoreRequest, Target};
@@ -60,6 +61,9 @@ pub struct ScoreTable {
     pub proportions: bool,
     /// By what the rows are sorted, if they are.
     pub sort: Option<SortRequest>,
+    /// The outlines of which stones are scored; none for any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outline: Vec<OutlineShape>,
 }
 
 impl ScoreTable {
@@ -67,7 +71,15 @@ impl ScoreTable {
     pub fn new<S: Into<String>>(stones: impl IntoIterator<Item = S>, scores: ScoreRequest) -> ScoreTable {
         let stones = stones.into_iter().map(Into::into).collect();
         let options = StoneOptions::default();
-        ScoreTable { stones, options, scores, tilt: None, proportions: false, sort: None }
+        ScoreTable {
+            stones,
+            options,
+            scores,
+            tilt: None,
+            proportions: false,
+            sort: None,
+            outline: Vec::new(),
+        }
     }
 
     /// With what is asked for of every stone.
@@ -85,6 +97,12 @@ impl ScoreTable {
     /// Whether there are columns of each stone's proportions.
     pub fn proportions(mut self, proportions: bool) -> ScoreTable {
         self.proportions = proportions;
+        self
+    }
+
+    /// Of stones with one of these outlines alone.
+    pub fn outline(mut self, outlines: impl IntoIterator<Item = OutlineShape>) -> ScoreTable {
+        self.outline = outlines.into_iter().collect();
         self
     }
 
@@ -231,6 +249,10 @@ impl TableRequest {
                 let mut words = command_of("score", &table.stones, &table.scores, &table.options);
                 if table.proportions {
                     words += " --proportions";
+                }
+                if !table.outline.is_empty() {
+                    let names: Vec<&str> = table.outline.iter().map(|outline| outline.name()).collect();
+                    words += &format!(" --outline {}", names.join(","));
                 }
                 if let Some(SortRequest { metric, order }) = table.sort {
                     words += &format!(" --sort {}{}", if order.ascending { "-" } else { "" }, metric.name);

@@ -3,5 +3,5 @@
 mod file;
 mod text;
 
-pub use file::{ChangedFile, WrittenArgs};
+pub use file::{ChangeArgs, ChangedFile};
 pub use text::ChangedText;

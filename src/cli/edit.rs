@@ -13,8 +13,9 @@ pub use options::{EditArgs, keep};
 
 /// Changes the stone, prints what changed and writes the result.
 pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let mut file = ChangedFile::new(&args.stone, &args.written, console)?;
-    let stone = args.how.stone_args.open(&args.stone)?;
+    let mut file = ChangedFile::new(&args.stone, &args.change.written, console)?;
+    let (how, metrics) = (&args.change.how, &args.change.score);
+    let stone = how.stone_args.open(&args.stone)?;
     let design = stone.convex_design().map_err(|error| CliError::needs_convex("a change", error))?;
     let editor = Editor::new(design)?;
     let mut request = EditRequest::default().keep(args.keep);
@@ -23,9 +24,9 @@ pub fn run(args: &EditArgs, console: &Console) -> Result<ExitStatus, CliError> {
     file.encode(&stone, &edited.design, stone.given_material())?;
     let mut report = EditReport::new(&stone, &edited.design, DesignChanges::new(&editor, &edited))?;
     stone.warnings().iter().for_each(|warning| console.note(&format!("note: {warning}")));
-    if !args.score.is_empty() {
-        args.how.notes(&args.score, false).iter().for_each(|note| console.note(note));
-        report.score(&args.how.plan(&args.score), args.how.size, &BarProgress::new(console))?;
+    if !metrics.is_empty() {
+        how.notes(metrics, false).iter().for_each(|note| console.note(note));
+        report.score(&how.plan(metrics), how.size, &BarProgress::new(console))?;
     }
     file.finish(&report, &ChangedText::new(&report), console)
 }

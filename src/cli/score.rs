@@ -9,6 +9,7 @@ use super::exit_code::ExitStatus;
 use super::outputs::Outputs;
 use super::plot_output::Plots;
 use super::table_command::TableCommand;
+use crate::batch::outlines::with_outline;
 use crate::batch::request::{ScoreTable, SortRequest, TableRequest, TiltRange};
 use crate::batch::score_rows::ScoreRows;
 use crate::batch::stone_files::expand_stones;
@@ -22,7 +23,16 @@ pub use options::ScoreArgs;
 pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let scores = args.scoring.plan();
     let sort = sort(args, &scores.metrics)?;
-    let stones = expand_stones(&args.stones, limits())?;
+    let all = expand_stones(&args.stones, limits())?;
+    let given = all.len();
+    let stones = with_outline(all, &args.scoring.options(), &args.outline);
+    if !args.outline.is_empty() {
+        let named = args.outline.iter().map(|outline| outline.name()).collect::<Vec<_>>().join(" or ");
+        if stones.is_empty() {
+            return Err(CliError::input(format!("none of {given} stones is {named} in outline")));
+        }
+        console.note(&format!("{} of {given} stones are {named} in outline", stones.len()));
+    }
     let mut outputs = Outputs::reading_stones(&stones, console);
     let azimuths = match (&args.tilt_axis[..], args.plot.is_empty()) {
         ([], true) => vec![0.0],
@@ -37,6 +47,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
         tilt: args.tilt.map(|degrees| TiltRange { degrees, azimuths }),
         proportions: args.proportions,
         sort,
+        outline: args.outline.clone(),
     };
     let request = TableRequest::Score(table.clone());
     let rows = ScoreRows::new(&request, &table, &stones, console);

@@ -185,6 +185,7 @@ impl DesignFile {
                 design.name = self.name.clone();
             }
             design.source = self.source.clone();
+            design.refractive_index = self.refractive_index;
             return Ok(design);
         }
         let mut values = self.parameters.clone();

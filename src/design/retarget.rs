@@ -1,18 +1,19 @@
 //! A design for a stone of another refractive index: pavilion by the critical angle, crown by a tangent ratio. The
-//! formulas are in [`crate::manual::editing`].
+//! formulas are in [`crate::manual::editing`]; which of them suits a design its scores decide
+//! ([`RetargetRequest::edit`]).
 
 use super::edit::{BeforeAfter, EditError, EditTarget, Edited, Editor, Keep, Setting, Side};
-use super::tiers::{Design, Zone};
+use super::tiers::Zone;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
+use std::fmt;
 
 /// Which angle the main facets of the pavilion get.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum PavilionRule {
     /// As far above the critical angle as before.
-    #[default]
     Margin,
     /// The same place in the range of angles at which light along the axis is reflected at both sides.
     Range,
@@ -23,17 +24,42 @@ pub enum PavilionRule {
 }
 
 /// What the tangents of the crown's angles are multiplied by.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum CrownRule {
     /// (n − 1)/(n' − 1) from n to n': a thin prism then deviates light as before.
-    #[default]
     Prism,
+    /// n/n'.
+    Index,
     /// Nothing: as they are.
     Keep,
     /// This.
     Ratio(f64),
+}
+
+impl fmt::Display for PavilionRule {
+    /// As it is typed: `margin`, `41.5°`.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            PavilionRule::Margin => f.write_str("margin"),
+            PavilionRule::Range => f.write_str("range"),
+            PavilionRule::Keep => f.write_str("keep"),
+            PavilionRule::Angle(degrees) => write!(f, "{degrees}°"),
+        }
+    }
+}
+
+impl fmt::Display for CrownRule {
+    /// As it is typed: `prism`, `0.9`.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            CrownRule::Prism => f.write_str("prism"),
+            CrownRule::Index => f.write_str("index"),
+            CrownRule::Keep => f.write_str("keep"),
+            CrownRule::Ratio(ratio) => write!(f, "{ratio}"),
+        }
+    }
 }
 
 /// What a design is to be made for.
@@ -56,12 +82,12 @@ pub struct RetargetRequest {
     /// The index that the design is for; none for the one that it states.
     #[serde(default)]
     pub from: Option<f64>,
-    /// The pavilion's rule.
+    /// The pavilion's rule; none for the one with which the design scores best.
     #[serde(default)]
-    pub pavilion: PavilionRule,
-    /// The crown's rule.
+    pub pavilion: Option<PavilionRule>,
+    /// The crown's rule; none for the one with which the design scores best.
     #[serde(default)]
-    pub crown: CrownRule,
+    pub crown: Option<CrownRule>,
 }
 
 /// The figures by which a design was made for another index.
@@ -76,6 +102,10 @@ pub struct RetargetFigures {
     pub pavilion_tier: String,
     /// Its angle in degrees.
     pub pavilion_angle_deg: BeforeAfter<f64>,
+    /// The pavilion's rule.
+    pub pavilion_rule: PavilionRule,
+    /// The crown's rule.
+    pub crown_rule: CrownRule,
     /// What the tangents of the pavilion's angles were multiplied by.
     pub pavilion_scale: f64,
     /// What those of the crown were multiplied by.
@@ -90,6 +120,23 @@ pub struct Retargeted {
     pub edited: Edited,
     /// How it was made.
     pub figures: RetargetFigures,
+    /// The pairs of rules that were tried, in their order; none where both rules were asked for.
+    pub trials: Vec<RuleTrial>,
+}
+
+/// A pair of rules that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RuleTrial {
+    /// The pavilion's rule.
+    pub pavilion: PavilionRule,
+    /// The crown's rule.
+    pub crown: CrownRule,
+    /// What the design scores by it, see [`RetargetRequest::edit`]; none if it makes no stone.
+    pub score: Option<f64>,
+    /// Why it makes none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
 }
 
 /// A design that cannot be made for another index. Each error is one line.
@@ -136,6 +183,9 @@ pub enum RetargetError {
     /// A ratio that is none.
     #[error("the ratio of the crown cannot be {0}: a number above 0")]
     Ratio(f64),
+    /// A stone that cannot be scored.
+    #[error("{0}")]
+    Score(String),
     /// A change that the stone does not allow.
     #[error(transparent)]
     Edit(#[from] EditError),
@@ -158,7 +208,7 @@ fn most_deg(index: f64) -> f64 {
 impl RetargetRequest {
     /// For a stone of this refractive index.
     pub fn new(to: f64) -> RetargetRequest {
-        RetargetRequest { to, from: None, pavilion: PavilionRule::default(), crown: CrownRule::default() }
+        RetargetRequest { to, from: None, pavilion: None, crown: None }
     }
 
     /// From a stone of this refractive index, in place of the one that the design states.
@@ -169,23 +219,23 @@ impl RetargetRequest {
 
     /// With a rule for the pavilion.
     pub fn pavilion(mut self, rule: PavilionRule) -> RetargetRequest {
-        self.pavilion = rule;
+        self.pavilion = Some(rule);
         self
     }
 
     /// With a rule for the crown.
     pub fn crown(mut self, rule: CrownRule) -> RetargetRequest {
-        self.crown = rule;
+        self.crown = Some(rule);
         self
     }
 
-    /// Makes the design for its new index. Errors name the limit, the tier or the meet.
-    pub fn run(&self, design: &Design) -> Result<Retargeted, RetargetError> {
-        self.edit(&Editor::new(design)?)
-    }
-
-    /// As [`RetargetRequest::run`], of a design made ready to be changed.
-    pub fn edit(&self, editor: &Editor) -> Result<Retargeted, RetargetError> {
+    /// The design for its new index by a pair of rules. Errors name the limit, the tier or the meet.
+    pub fn by_rules(
+        &self,
+        editor: &Editor,
+        pavilion: PavilionRule,
+        crown: CrownRule,
+    ) -> Result<Retargeted, RetargetError> {
         let from = self.from.or(editor.design.refractive_index).ok_or(RetargetError::NoIndex)?;
         for index in [from, self.to] {
             if !(index > 1.0 && index.is_finite()) {
@@ -193,12 +243,13 @@ impl RetargetRequest {
             }
         }
         let (pavilion_tier, before) = main_facets(editor).ok_or(RetargetError::NoPavilion)?;
-        let after = self.pavilion_deg(from, before, &pavilion_tier)?;
+        let after = self.pavilion_deg(pavilion, from, before, &pavilion_tier)?;
         if !(after > 0.0 && after < 90.0) {
             return Err(RetargetError::Angle { tier: pavilion_tier, angle: after });
         }
-        let crown_scale = match self.crown {
+        let crown_scale = match crown {
             CrownRule::Prism => (from - 1.0) / (self.to - 1.0),
+            CrownRule::Index => from / self.to,
             CrownRule::Keep => 1.0,
             CrownRule::Ratio(ratio) if ratio > 0.0 && ratio.is_finite() => ratio,
             CrownRule::Ratio(ratio) => return Err(RetargetError::Ratio(ratio)),
@@ -215,17 +266,26 @@ impl RetargetRequest {
                 critical_angle_deg: BeforeAfter::new(critical_deg(from), critical_deg(self.to)),
                 pavilion_tier,
                 pavilion_angle_deg: BeforeAfter::new(before, after),
+                pavilion_rule: pavilion,
+                crown_rule: crown,
                 pavilion_scale,
                 crown_scale,
             },
+            trials: Vec::new(),
         })
     }
 
     /// The new angle of the pavilion's main facets.
-    fn pavilion_deg(&self, from: f64, before: f64, tier: &str) -> Result<f64, RetargetError> {
+    fn pavilion_deg(
+        &self,
+        rule: PavilionRule,
+        from: f64,
+        before: f64,
+        tier: &str,
+    ) -> Result<f64, RetargetError> {
         let [c_from, c_to] = [from, self.to].map(critical_deg);
         let [most_from, most_to] = [from, self.to].map(most_deg);
-        match self.pavilion {
+        match rule {
             PavilionRule::Keep => Ok(before),
             PavilionRule::Angle(degrees) => Ok(degrees),
             PavilionRule::Range => match [from, self.to].iter().find(|n| **n <= SQRT_2) {

@@ -2,7 +2,9 @@
 
 use super::guards::GuardedStone;
 use super::variable::Degree;
+use crate::design::cutting_error;
 use crate::design::edit::{EditError, Edited, Editor, Keep, Setting};
+use crate::geometry::{Polyhedron, SolidError};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::sampling::stats::Estimate;
@@ -22,6 +24,8 @@ pub struct Candidates<'a> {
     pub guards: &'a GuardedStone,
     /// What a stone is worth.
     pub evaluator: &'a Evaluator,
+    /// By how many degrees the angle of a tier may be off when the stone is cut; 0 for stones cut as they are drawn.
+    pub tolerance_deg: f64,
     /// Whether to go on.
     pub progress: &'a dyn Progress,
 }
@@ -44,9 +48,20 @@ impl Candidates<'_> {
         }
     }
 
+    /// The stones that may come of a design within the tolerance ([`cutting_error::stones`]); none without one.
+    pub fn stones(&self, edited: &Edited) -> Result<Option<Vec<Polyhedron>>, SolidError> {
+        let stones = || cutting_error::stones(&edited.design, &edited.solid, self.tolerance_deg);
+        (self.tolerance_deg > 0.0).then(stones).transpose()
+    }
+
     fn outcome(&self, values: &[f64]) -> Outcome {
         let Ok(edited) = self.edited(values) else { return Outcome::nothing() };
-        let Ok(values) = self.evaluator.values(&edited.solid) else { return Outcome::nothing() };
+        let values = match self.stones(&edited) {
+            Ok(None) => self.evaluator.values(&edited.solid),
+            Ok(Some(stones)) => self.evaluator.values_over(&edited.solid, &stones),
+            Err(_) => return Outcome::nothing(),
+        };
+        let Ok(values) = values else { return Outcome::nothing() };
         let signed = |(of, value): (&Objective, &Estimate)| of.aim.sign() * value.value;
         Outcome {
             objectives: self.evaluator.objectives.iter().zip(&values.objectives).map(signed).collect(),

@@ -3,9 +3,10 @@
 use super::guards::Guards;
 use super::variable::Variable;
 use crate::design::edit::Keep;
+use crate::parse::format_number;
 use crate::scoring::constraint::Constraint;
 use crate::scoring::effort::Effort;
-use crate::scoring::objective::Objective;
+use crate::scoring::objective::{Objective, OverTilts};
 use crate::search::Method;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +41,10 @@ pub struct OptimiseRequest {
     pub keep: Keep,
     /// How finely candidates are scored.
     pub effort: Effort,
+    /// By how many degrees the angle of a tier may be off when the stone is cut: an objective is then that of the
+    /// stones that [`crate::advanced::design::cutting_error::stones`] makes, the mean, or the worst for an objective
+    /// of the worst tilt. 0 for stones cut as they are drawn.
+    pub tolerance_deg: f64,
     /// How points are chosen; none for the method that was best when measured.
     #[serde(with = "method_by_name")]
     pub method: Option<Method>,
@@ -78,6 +83,7 @@ impl Default for OptimiseRequest {
             guards: Guards::default(),
             keep: Keep::default(),
             effort: Effort::default(),
+            tolerance_deg: 0.0,
             method: None,
             evaluations: 200,
             starts: 1,
@@ -97,6 +103,21 @@ impl OptimiseRequest {
     pub fn vary(mut self, variables: impl IntoIterator<Item = Variable>) -> OptimiseRequest {
         self.vary = variables.into_iter().collect();
         self
+    }
+
+    /// With the error in degrees that the angle of a tier may have when the stone is cut.
+    pub fn tolerance(mut self, degrees: f64) -> OptimiseRequest {
+        self.tolerance_deg = degrees;
+        self
+    }
+
+    /// What the search made better, as tables call it: `iso within ± 0.2°`, without a tolerance `iso`.
+    pub fn searched_name(&self, of: &Objective) -> String {
+        let worst = if of.of.tilts.over == OverTilts::Worst { "worst " } else { "" };
+        match self.tolerance_deg > 0.0 {
+            true => format!("{} {worst}within ± {}°", of.name(), format_number(self.tolerance_deg)),
+            false => of.name(),
+        }
     }
 
     /// With one more bound.

@@ -5,7 +5,7 @@ use super::guards::GuardedStone;
 use super::request::OptimiseRequest;
 use super::variable::{self, Degree};
 use crate::design::edit::{EditError, Edited, Editor};
-use crate::geometry::Polyhedron;
+use crate::geometry::{Polyhedron, SolidError};
 use crate::progress::Progress;
 use crate::scoring::evaluator::Evaluator;
 use crate::scoring::gain::Gain;
@@ -16,6 +16,9 @@ use crate::stone::{Stone, StoneError};
 
 /// Designs nearer to each other than this, in the unit cube of the variables, are not distinct.
 const DISTINCT: f64 = 0.05;
+
+/// The greatest error of an angle, in degrees, that a stone can be optimised for.
+pub const MOST_TOLERANCE_DEG: f64 = 5.0;
 
 /// Why there is nothing optimised.
 #[derive(Debug, thiserror::Error)]
@@ -36,6 +39,12 @@ pub enum OptimiseError {
     /// A method that does not fit.
     #[error(transparent)]
     Search(#[from] SearchError),
+    /// A tolerance that is none.
+    #[error("the error of an angle is from 0° to {MOST_TOLERANCE_DEG}°, not {0}°")]
+    Tolerance(f64),
+    /// Planes that bound no stone.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
     /// A bound that the design breaks as it is.
     #[error("the design as it is breaks a bound: {0}; optimise from one that keeps it, or set another bound")]
     Broken(String),
@@ -51,8 +60,17 @@ pub struct Finalist {
     pub values: Vec<f64>,
     /// The design, its solid, and what followed.
     pub edited: Edited,
-    /// What it gains over the start in each objective, by fresh random numbers.
+    /// What it gains over the start in each objective, by fresh random numbers, if both are cut as they are drawn.
     pub gains: Vec<Gain>,
+    /// What it gains if both are cut within the tolerance; none without one.
+    pub tolerant_gains: Option<Vec<Gain>>,
+}
+
+impl Finalist {
+    /// What it gains in what the search made better: within the tolerance if there is one.
+    pub fn searched_gains(&self) -> &[Gain] {
+        self.tolerant_gains.as_ref().unwrap_or(&self.gains)
+    }
 }
 
 /// What an optimisation has found.
@@ -100,6 +118,9 @@ impl OptimiseRequest {
         let (method, objectives) = (self.method.unwrap_or(Method::BEST), self.objectives.len());
         if !method.takes(objectives) {
             return Err(SearchError::Method { method, objectives }.into());
+        }
+        if !(0.0..=MOST_TOLERANCE_DEG).contains(&self.tolerance_deg) {
+            return Err(OptimiseError::Tolerance(self.tolerance_deg));
         }
         let editor = Editor::new(stone.convex_design()?)?;
         let usual;
@@ -159,16 +180,20 @@ impl Optimisation<'_> {
             .collect::<Result<_, _>>()?;
         let solids: Vec<Polyhedron> = edited.iter().map(|e| e.solid.clone()).collect();
         let gains = self.evaluator.gains(&self.editor.solid, &solids)?;
-        let finalists = chosen.iter().zip(edited).zip(gains).map(|((candidate, edited), gains)| Finalist {
+        let tolerant = self.tolerant_gains(&candidates, &edited)?;
+        let finalists = chosen.iter().zip(edited).zip(gains).enumerate();
+        let finalist = |(i, ((candidate, edited), gains)): (usize, ((&usize, Edited), Vec<Gain>))| Finalist {
             candidate: *candidate,
             values: result.candidates[*candidate].values.clone(),
             edited,
             gains,
-        });
-        let mut finalists: Vec<Finalist> = finalists.collect();
+            tolerant_gains: tolerant.as_ref().map(|gains| gains[i].clone()),
+        };
+        let mut finalists: Vec<Finalist> = finalists.map(finalist).collect();
         if request.objectives.len() == 1 {
             // the fresh numbers decide which is best
-            finalists.sort_by(|a, b| b.gains[0].gain.value.total_cmp(&a.gains[0].gain.value));
+            let gained = |f: &Finalist| f.searched_gains()[0].gain.value;
+            finalists.sort_by(|a, b| gained(b).total_cmp(&gained(a)));
         }
         Ok(Optimised {
             finalists,
@@ -179,6 +204,18 @@ impl Optimisation<'_> {
         })
     }
 
+    /// What designs gain over the start if all are cut within the tolerance; none without one.
+    fn tolerant_gains(
+        &self,
+        candidates: &Candidates,
+        finalists: &[Edited],
+    ) -> Result<Option<Vec<Vec<Gain>>>, OptimiseError> {
+        let Some(start) = candidates.stones(&self.editor.unchanged())? else { return Ok(None) };
+        let each: Option<Vec<Vec<Polyhedron>>> =
+            finalists.iter().map(|edited| candidates.stones(edited)).collect::<Result<_, _>>()?;
+        Ok(Some(self.evaluator.gains_over(&start, &each.unwrap_or_default())?))
+    }
+
     /// The candidates of the search.
     pub fn candidates<'a>(&'a self, progress: &'a dyn Progress) -> Candidates<'a> {
         Candidates {
@@ -187,6 +224,7 @@ impl Optimisation<'_> {
             keep: self.request.keep,
             guards: &self.guards,
             evaluator: &self.evaluator,
+            tolerance_deg: self.request.tolerance_deg,
             progress,
         }
     }

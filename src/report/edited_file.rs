@@ -58,7 +58,7 @@ pub fn encode(
         let change = Change { parameters: new_parameters(stone, &changed), ..Change::new(&changed) };
         return Ok(change.write_back(&file)?);
     }
-    match family_file(changed).filter(|_| format.extensions.contains(&TOML)) {
+    match family_file(changed, material).filter(|_| format.extensions.contains(&TOML)) {
         Some(file) => Ok(Encoded { bytes: file.to_toml().into_bytes(), remarks: Vec::new() }),
         None => target.encoded(changed, material, Paper::A4),
     }
@@ -88,12 +88,14 @@ fn new_parameters(stone: &Stone, changed: &Design) -> BTreeMap<String, f64> {
     given.filter(|(key, value)| was(key) != Some(*value)).collect()
 }
 
-/// The design file of a family with its parameters; none of a design that is not a family's any more.
-fn family_file(design: &Design) -> Option<DesignFile> {
+/// The design file of a family with its parameters and the index of what it is of; none of a design that is not
+/// a family's any more.
+fn family_file(design: &Design, material: Option<&Material>) -> Option<DesignFile> {
     let family = design.family.as_ref()?;
     Some(DesignFile {
         name: design.name.clone(),
         source: design.source.clone(),
+        refractive_index: material.map(Material::index_d).or(design.refractive_index),
         family: Some(family.name.clone()),
         parameters: family.given.clone(),
         ..DesignFile::default()

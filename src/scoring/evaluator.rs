@@ -150,7 +150,7 @@ impl Evaluator {
         let stone = self.prepared(candidate);
         let Effort { error, samples, seed, .. } = self.effort;
         // half of what is left untraced may be the error
-        let scores = self.scored(&stone, 2.0 * error, samples, seed, |_| true)?;
+        let scores = self.scored(&stone, 2.0 * error, samples, seed, |_, _| true)?;
         let objectives = self.of_objectives.iter().map(|of| views::value(of, &scores)).collect();
         let mut constraints = Vec::with_capacity(self.of_constraints.len());
         let mut measured = None;
@@ -166,6 +166,30 @@ impl Evaluator {
         }
         let violation = self.violation(&constraints);
         Ok(Values { objectives, constraints, violation })
+    }
+
+    /// What a candidate is worth if it is cut as any of these stones: objectives over them, their mean or for an
+    /// objective of the worst tilt the worst, constraints of the candidate itself.
+    ///
+    /// - `stones`: at least one
+    pub fn values_over(
+        &self,
+        candidate: &Polyhedron,
+        stones: &[Polyhedron],
+    ) -> Result<Values, ObjectiveError> {
+        let own = match self.constraints.is_empty() {
+            true => Values { objectives: Vec::new(), constraints: Vec::new(), violation: 0.0 },
+            false => self.values(candidate)?,
+        };
+        let Effort { error, samples, seed, .. } = self.effort;
+        let used = |view: usize| self.of_objectives.iter().any(|of| of.uses(view));
+        let scored = |stone: &Polyhedron| {
+            let scores = self.scored(&self.prepared(stone), 2.0 * error, samples, seed, |i, _| used(i))?;
+            Ok(self.of_objectives.iter().map(|of| views::value(of, &scores)).collect())
+        };
+        let each: Vec<Vec<Estimate>> = stones.iter().map(scored).collect::<Result<_, ObjectiveError>>()?;
+        let over = |(i, of): (usize, &Places)| of.over(each.iter().map(|values| values[i]).collect());
+        Ok(Values { objectives: self.of_objectives.iter().enumerate().map(over).collect(), ..own })
     }
 
     /// The objectives of a candidate so that more of each is better: the sign of those is turned of which less
@@ -184,7 +208,7 @@ impl Evaluator {
     /// `seed`, and without light left untraced.
     pub(super) fn paired(&self, solid: &Polyhedron, seed: u64) -> Result<Vec<PairedRuns>, ObjectiveError> {
         let stone = self.prepared(solid);
-        let closed = self.scored(&stone, 0.0, self.effort.samples, seed, |view| view.is_closed)?;
+        let closed = self.scored(&stone, 0.0, self.effort.samples, seed, |_, view| view.is_closed)?;
         let noisy = self.views.iter().any(|view| !view.is_closed);
         let mut runs = vec![closed];
         if noisy {
@@ -192,7 +216,7 @@ impl Evaluator {
             for run in 0..RUNS {
                 let seed = seed.wrapping_mul(RUNS).wrapping_add(run);
                 let samples = (self.effort.samples / RUNS).max(1);
-                let mut scored = self.scored(&stone, 0.0, samples, seed, |view| !view.is_closed)?;
+                let mut scored = self.scored(&stone, 0.0, samples, seed, |_, view| !view.is_closed)?;
                 for (scored, closed) in scored.iter_mut().zip(&closed) {
                     if scored.is_empty() {
                         scored.clone_from(closed);
@@ -202,6 +226,19 @@ impl Evaluator {
             }
         }
         Ok(self.of_objectives.iter().map(|of| views::paired(of, &runs)).collect())
+    }
+
+    /// As [`Evaluator::paired`], of a candidate that is cut as any of these stones.
+    pub(super) fn paired_over(
+        &self,
+        stones: &[Polyhedron],
+        seed: u64,
+    ) -> Result<Vec<PairedRuns>, ObjectiveError> {
+        let each: Vec<Vec<PairedRuns>> =
+            stones.iter().map(|stone| self.paired(stone, seed)).collect::<Result<_, _>>()?;
+        let over =
+            |(i, of): (usize, &Places)| of.paired_over(each.iter().map(|runs| runs[i].clone()).collect());
+        Ok(self.of_objectives.iter().enumerate().map(over).collect())
     }
 
     /// A solid ready for tracing.
@@ -227,7 +264,7 @@ impl Evaluator {
         untraced: f64,
         samples: u64,
         seed: u64,
-        asked: impl Fn(&View) -> bool,
+        asked: impl Fn(usize, &View) -> bool,
     ) -> Result<Vec<Vec<Estimate>>, ObjectiveError> {
         let one = |view: &View| {
             let plan = ScoreRequest { observer: view.observer, ..ScoreRequest::default() }
@@ -242,7 +279,8 @@ impl Evaluator {
             });
             scores.collect()
         };
-        self.views.iter().map(|view| if asked(view) { one(view) } else { Ok(Vec::new()) }).collect()
+        let views = self.views.iter().enumerate();
+        views.map(|(i, view)| if asked(i, view) { one(view) } else { Ok(Vec::new()) }).collect()
     }
 }
 

@@ -40,10 +40,21 @@ impl Evaluator {
         start: &Polyhedron,
         finalists: &[Polyhedron],
     ) -> Result<Vec<Vec<Gain>>, ObjectiveError> {
+        let each: Vec<Vec<Polyhedron>> = finalists.iter().map(|solid| vec![solid.clone()]).collect();
+        self.gains_over(std::slice::from_ref(start), &each)
+    }
+
+    /// As [`Evaluator::gains`], of a start and finalists that are each cut as any of several stones
+    /// ([`Evaluator::values_over`]).
+    pub fn gains_over(
+        &self,
+        start: &[Polyhedron],
+        finalists: &[Vec<Polyhedron>],
+    ) -> Result<Vec<Vec<Gain>>, ObjectiveError> {
         let seed = !self.effort().seed;
-        let before = self.paired(start, seed)?;
-        let against = |finalist: &Polyhedron| {
-            let after = self.paired(finalist, seed)?;
+        let before = self.paired_over(start, seed)?;
+        let against = |finalist: &Vec<Polyhedron>| {
+            let after = self.paired_over(finalist, seed)?;
             let each = before.iter().zip(&after).zip(&self.objectives);
             let gains = each.map(|((before, after), objective)| {
                 let sign = objective.aim.sign();

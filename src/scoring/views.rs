@@ -85,18 +85,47 @@ pub(super) fn value(of: &Places, scores: &[Vec<Estimate>]) -> Estimate {
         .iter()
         .map(|about| mean(about.iter().map(|place| scores[place.view][place.column])))
         .collect();
-    let badness = |e: &Estimate| -of.aim.sign() * e.value;
-    let worst = match of.over {
-        OverTilts::Mean => return mean(tilts.iter().copied()),
-        OverTilts::Worst => tilts.iter().copied().max_by(|a, b| badness(a).total_cmp(&badness(b))),
-    };
-    let worst = worst.unwrap_or(Estimate::exact(f64::NAN));
-    // any tilt may be the worst that is within the errors of it
-    let could_be = |e: &&Estimate| badness(e) + 2.0 * e.error >= badness(&worst) - 2.0 * worst.error;
-    Estimate { error: tilts.iter().filter(could_be).map(|e| e.error).fold(0.0, f64::max), ..worst }
+    of.over(tilts)
 }
 
-/// A metric at its tilts in paired runs. The worst tilt is the one that is worst in the mean over the runs.
+impl Places {
+    /// Whether it reads scores of a view.
+    pub fn uses(&self, view: usize) -> bool {
+        self.tilts.iter().flatten().any(|place| place.view == view)
+    }
+
+    /// What counts of values at several tilts, or of several stones: their mean, or the worst.
+    pub fn over(&self, values: Vec<Estimate>) -> Estimate {
+        let badness = |e: &Estimate| -self.aim.sign() * e.value;
+        let worst = match self.over {
+            OverTilts::Mean => return mean(values.iter().copied()),
+            OverTilts::Worst => values.iter().copied().max_by(|a, b| badness(a).total_cmp(&badness(b))),
+        };
+        let worst = worst.unwrap_or(Estimate::exact(f64::NAN));
+        // any may be the worst that is within the errors of it
+        let could_be = |e: &&Estimate| badness(e) + 2.0 * e.error >= badness(&worst) - 2.0 * worst.error;
+        Estimate { error: values.iter().filter(could_be).map(|e| e.error).fold(0.0, f64::max), ..worst }
+    }
+
+    /// As [`Places::over`], of paired runs. The worst is what is worst in the mean over the runs.
+    pub fn paired_over(&self, runs: Vec<PairedRuns>) -> PairedRuns {
+        let badness = |runs: &PairedRuns| -self.aim.sign() * runs.value();
+        match self.over {
+            OverTilts::Mean => mean_of_runs(&runs),
+            OverTilts::Worst => {
+                let worst = runs.into_iter().max_by(|a, b| badness(a).total_cmp(&badness(b)));
+                worst.unwrap_or_else(|| PairedRuns::new(Vec::new(), 0.0))
+            }
+        }
+    }
+}
+
+fn mean_of_runs(parts: &[PairedRuns]) -> PairedRuns {
+    let weight = 1.0 / parts.len() as f64;
+    PairedRuns::combined(parts.iter().map(|part| (weight, part)))
+}
+
+/// A metric at its tilts in paired runs.
 pub(super) fn paired(of: &Places, runs: &[Vec<Vec<Estimate>>]) -> PairedRuns {
     let at = |place: &Place| {
         let scores = || runs.iter().map(|scores| scores[place.view][place.column]);
@@ -107,17 +136,6 @@ pub(super) fn paired(of: &Places, runs: &[Vec<Vec<Estimate>>]) -> PairedRuns {
             false => PairedRuns::new(scores().map(|score| score.value).collect(), 0.0),
         }
     };
-    let mean = |parts: Vec<PairedRuns>| {
-        let weight = 1.0 / parts.len() as f64;
-        PairedRuns::combined(parts.iter().map(|part| (weight, part)))
-    };
-    let tilts: Vec<PairedRuns> = of.tilts.iter().map(|about| mean(about.iter().map(at).collect())).collect();
-    let badness = |runs: &PairedRuns| -of.aim.sign() * runs.value();
-    match of.over {
-        OverTilts::Mean => mean(tilts),
-        OverTilts::Worst => {
-            let worst = tilts.into_iter().max_by(|a, b| badness(a).total_cmp(&badness(b)));
-            worst.unwrap_or_else(|| PairedRuns::new(Vec::new(), 0.0))
-        }
-    }
+    let about_each_axis = |about: &Vec<Place>| mean_of_runs(&about.iter().map(at).collect::<Vec<_>>());
+    of.paired_over(of.tilts.iter().map(about_each_axis).collect())
 }

@@ -3,6 +3,7 @@
 
 use crate::brilliants;
 use crate::brilliants::{SEED, n2417, named, plan, scores, stone, subject};
+use crate::corpus_folder::corpus;
 use cutlab::advanced::batch::validate::figures;
 use cutlab::advanced::design::{Design, library};
 use cutlab::advanced::estimators::{
@@ -17,7 +18,6 @@ use cutlab::advanced::scoring::score::score;
 use cutlab::advanced::trace::{ConvexStone, reference};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 fn cut(name: &str) -> Design {
     library::design(name, &BTreeMap::new()).expect("named").expect("builds")
@@ -39,15 +39,9 @@ fn published_cos_and_iso_come_out_without_head_shadow() {
 /// error is about 0.2 points (its edge cells).
 #[test]
 fn iso_cos_and_sc2_of_the_reference_tracer() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let corpus =
-        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
+    let Some(corpus) = corpus() else { return };
     for f in figures::set("head of 10°") {
         let path = corpus.join("pairs").join(&f.of);
-        if !path.is_file() {
-            println!("skipped: no {}", path.display());
-            continue;
-        }
         let design = formats::read(&path).expect("reads").design;
         let index = f.at.expect("the set varies it");
         let [e] = scores(&design, Material::from_index(index), [f.quantity.as_str()], 1 << 17);

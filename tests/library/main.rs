@@ -7,8 +7,11 @@ mod beams;
 #[path = "../common/brilliants.rs"]
 mod brilliants;
 mod colour;
+#[path = "../common/corpus_folder.rs"]
+mod corpus_folder;
 mod coverage;
 mod cuts;
+mod cutting_errors;
 mod daylight;
 mod depth_of_field;
 mod designs;
@@ -29,6 +32,7 @@ mod instruction_sets;
 mod meet;
 mod objective;
 mod optics;
+mod outlines;
 mod polarisation;
 mod progress;
 mod progressive;

@@ -1,6 +1,7 @@
 //! Scores of a caller's own weights, by exact beams: GemRay's ISO, COS and SC2 of `physics.md` §4,
 //! followed for nine facets inside as GemRay does.
 
+use crate::corpus_folder::corpus;
 use cutlab::advanced::batch::validate::figures;
 use cutlab::advanced::design::{Design, library};
 use cutlab::advanced::estimators::weighted_exits::{BeamEffort, integrate_exits};
@@ -9,7 +10,6 @@ use cutlab::advanced::trace::ConvexStone;
 use cutlab::advanced::trace::beams::{Beams, IncidentBeam, StopCriteria};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// ISO, COS and SC2 in percent, face-up, under a head of this half-angle.
 fn averages(design: &Design, index: f64, head_deg: f64) -> [f64; 3] {
@@ -43,17 +43,12 @@ fn averages_are_those_that_the_faceters_guild_prints() {
 /// [R] With a head of 10°, by 300 × 300 points of an independent tracer (`physics.md` §4).
 #[test]
 fn averages_are_those_of_an_independent_tracer() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let corpus =
-        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
+    let Some(corpus) = corpus() else { return };
     let weights = ["iso", "cos", "sc2"];
     for f in figures::set("head of 10°") {
         let Some(weight) = weights.iter().position(|w| *w == f.quantity) else { continue };
         let path = corpus.join("pairs").join(&f.of);
-        let Ok(imported) = formats::read(&path) else {
-            println!("no {}: not checked", path.display());
-            continue;
-        };
+        let imported = formats::read(&path).expect("reads");
         let got = averages(&imported.design, f.at.expect("the set varies it"), 10.0)[weight];
         println!("{} {}: {got:.2}", f.of, f.quantity);
         assert!((got - f.expected).abs() < 0.5, "{f:?}: {got}");

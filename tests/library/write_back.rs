@@ -4,6 +4,7 @@ mod design_files;
 mod gem_cut_studio;
 mod gemcad;
 
+use crate::corpus_folder::corpus;
 use cutlab::advanced::design::tiers::facet_normal;
 use cutlab::advanced::design::{Design, Facet};
 use cutlab::advanced::formats::write_back::Change;
@@ -13,7 +14,7 @@ use cutlab::advanced::limits::Limits;
 use cutlab::advanced::materials::Material;
 use cutlab::{ScoreRequest, Stone};
 use glam::DVec3;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 fn data(name: &str) -> Vec<u8> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/write_back").join(name);
@@ -199,17 +200,6 @@ fn damaged_files_are_written_back_or_refused() {
         println!("{name}: {kept} of {read}");
         assert!(read > 50 && kept * 10 >= read * 9, "{name}: {kept} of {read}");
     }
-}
-
-fn corpus() -> Option<PathBuf> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder =
-        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
-    if !folder.join("geometry.csv").is_file() {
-        println!("no corpus at {}: set CUTLAB_CORPUS; nothing was checked", folder.display());
-        return None;
-    }
-    Some(folder)
 }
 
 #[test]

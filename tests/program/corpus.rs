@@ -4,22 +4,12 @@
 //! The corpus is in `$CUTLAB_CORPUS`, or in `../shared/corpus` beside the package; where there is
 //! none, the tests say so and pass.
 
+use crate::corpus_folder::corpus;
 use cutlab::advanced::design::Design;
 use cutlab::advanced::formats::{self, FORMATS, Format, Loaded};
 use cutlab::advanced::geometry::{Plane, Polyhedron};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
-
-fn corpus() -> Option<PathBuf> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder =
-        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
-    if !folder.join("geometry.csv").is_file() {
-        println!("no corpus at {}: set CUTLAB_CORPUS; nothing was checked", folder.display());
-        return None;
-    }
-    Some(folder)
-}
+use std::path::Path;
 
 fn volume(stone: &Loaded) -> f64 {
     stone.design.solid().expect("what is read is closed").volume()

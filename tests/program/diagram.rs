@@ -1,5 +1,6 @@
 //! The cutting diagram: one page, black on white, every facet once, names inside their facets.
 
+use crate::corpus_folder::corpus;
 use cutlab::advanced::design::{Design, Gear, Tier, Zone, library};
 use cutlab::advanced::formats;
 use cutlab::advanced::report::diagram::Paper;
@@ -9,7 +10,6 @@ use glam::DVec2;
 use rayon::prelude::*;
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 fn cut(name: &str) -> Design {
     library::design(name, &BTreeMap::new()).expect("in the library").expect("can be made")
@@ -148,16 +148,11 @@ fn every_library_cut_fits_its_page_with_its_names_in_its_facets() {
 #[test]
 #[ignore = "draws every file of the corpus"]
 fn every_file_of_the_corpus_fits_its_page() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let corpus =
-        std::env::var_os("CUTLAB_CORPUS").map_or_else(|| here.join("../shared/corpus"), PathBuf::from);
+    let Some(corpus) = corpus() else { return };
     let mut files = Vec::new();
     for folder in ["gemcad", "pairs", "other", "meshes"] {
         let Ok(entries) = std::fs::read_dir(corpus.join(folder)) else { continue };
         files.extend(entries.map(|e| e.expect("can be listed").path()));
-    }
-    if files.is_empty() {
-        return println!("no corpus at {}: set CUTLAB_CORPUS; nothing was checked", corpus.display());
     }
     let drawn = files.par_iter().filter_map(|f| Some((f, formats::read(f).ok()?))).map(|(file, imported)| {
         check(&file.display().to_string(), &imported.design);

@@ -119,6 +119,7 @@ fn bad_settings_are_refused_in_one_line() {
     let there = bench.names();
     for (set, words) in [
         ("pavilion-mian.angle=41", &["no tier is called", "did you mean 'pavilion-main'"][..]),
+        ("C9.angle=30", &["no tier is called 'C9'", "did you mean 'C3'"]),
         ("P1.angle=95", &["cannot have an angle of 95°"]),
         ("P1.angle=-95", &["cannot have an angle"]),
         ("G1.angle=80", &["girdle", "vertical"]),
@@ -166,7 +167,8 @@ fn a_design_is_made_for_another_index() {
     let run = |more: &[&str]| json(&bench, &[&["retarget", "c.asc"], &no_scores[..], more].concat());
     let critical = |n: f64| (1.0 / n).asin().to_degrees();
     let (c, new) = (critical(1.54), critical(1.76));
-    let report = run(&["-o", "sapphire.asc"]);
+    let margin = ["--pavilion", "margin", "--crown", "prism"];
+    let report = run(&[&margin[..], &["-o", "sapphire.asc"]].concat());
     let figures = &report["retarget"];
     let of = |key: &str, when: &str| figures[key][when].as_f64().expect("a figure");
     let (was, is) = (of("pavilion_angle_deg", "before"), of("pavilion_angle_deg", "after"));
@@ -192,9 +194,72 @@ fn a_design_is_made_for_another_index() {
     let set = run(&["--pavilion", "39.5", "--crown", "0.8"]);
     assert!((set["retarget"]["pavilion_angle_deg"]["after"].as_f64().expect("an angle") - 39.5).abs() < 1e-9);
     // a diamond's margin is more than quartz has
-    let beyond = ["retarget", "round-brilliant", "--material", "quartz"];
+    let beyond = ["retarget", "round-brilliant", "--material", "quartz", "--pavilion", "margin"];
     let (_, said) = bench.ends(2, &beyond);
     assert!(said.contains("reflected at both sides") && said.contains("--pavilion"), "{said}");
+}
+
+/// Unless a rule is named they are all tried: what is taken is the best of them, and no worse than the design as it
+/// is; by scores of the program's own.
+#[test]
+fn the_rules_that_score_best_are_taken() {
+    let bench = folder();
+    let iso = |stone: &str| {
+        let tilted = ["--tilt", "0:10:10", "--tilt-axis", "0,90", "--exact", "--metrics", "iso", "--json"];
+        let scored = json(&bench, &[&["score", stone, "--ri", "1.76"], &tilted[..]].concat());
+        let rows = scored.as_array().expect("rows");
+        rows.iter().map(|row| row["iso"].as_f64().expect("a score")).sum::<f64>() / rows.len() as f64
+    };
+    let as_it_is = iso("c.asc");
+    let run = |more: &[&str]| {
+        let base = ["retarget", "c.asc", "--from", "1.54", "--ri", "1.76", "--score", "spread"];
+        json(&bench, &[&base[..], more].concat())["retarget"].clone()
+    };
+    let best = run(&["-o", "best.asc"]);
+    let trials = best["trials"].as_array().expect("trials");
+    let score = |trial: &Value| trial["score"].as_f64().expect("a score");
+    let most = trials.iter().map(score).fold(0.0, f64::max);
+    assert_eq!(trials.len(), 9, "{best}");
+    assert!((iso("best.asc") - most).abs() < 0.2 && most > as_it_is + 1.0, "{most} {as_it_is}: {best}");
+    for trial in trials {
+        let rules = ["pavilion", "crown"].map(|rule| trial[rule].as_str().expect("a rule"));
+        let file = format!("{}-{}.asc", rules[0], rules[1]);
+        let one = run(&["--pavilion", rules[0], "--crown", rules[1], "-o", &file]);
+        assert!(one.get("trials").is_none() && one["pavilion_rule"] == trial["pavilion"], "{one}");
+        assert!((iso(&file) - score(trial)).abs() < 0.2, "{file}: {} {trial}", iso(&file));
+    }
+    // of one kind, beside a rule that is named
+    let crowns = run(&["--pavilion", "best", "--crown", "0.9"]);
+    assert_eq!(crowns["trials"].as_array().map(Vec::len), Some(3), "{crowns}");
+    assert_eq!(crowns["crown_scale"], 0.9);
+    let (text, _) = bench.ends(0, &["retarget", "c.asc", "--ri", "1.76", "--score", "spread"]);
+    assert!(
+        text.contains("pavilion margin") && text.contains(" *") && text.contains("10° of tilt"),
+        "{text}"
+    );
+    // a rule that a stone cannot follow is passed over: a diamond's margin in quartz
+    let passed = ["retarget", "round-brilliant", "--ri", "1.54", "--score", "spread"];
+    let made = &json(&bench, &passed)["retarget"];
+    let why = made["trials"][0]["why"].as_str().expect("why not");
+    assert!(why.contains("reflected at both sides") && made["trials"][0]["score"].is_null(), "{made}");
+}
+
+/// The index that a family's design is for stays in its file, and is what it is then scored in.
+#[test]
+fn a_family_keeps_its_index() {
+    let bench = Bench::new();
+    bench.good(&["edit", "round-brilliant", "--set", "crown-angle=33", "--ri", "1.76", "-q", "-o", "f.toml"]);
+    let text = String::from_utf8(bench.read("f.toml")).expect("text");
+    assert!(text.contains("refractive-index = 1.76") && text.contains("family ="), "{text}");
+    let keep = ["--pavilion", "keep", "--crown", "keep", "--score", "spread", "-q"];
+    bench.good(&[&["retarget", "round-brilliant", "--ri", "1.62", "-o", "k.toml"], &keep[..]].concat());
+    let text = String::from_utf8(bench.read("k.toml")).expect("text");
+    assert!(text.contains("refractive-index = 1.62"), "{text}");
+    assert!(json(&bench, &["show", "f.toml"])[0].to_string().contains("1.76"));
+    // and is changed in its own file
+    bench.good(&["edit", "f.toml", "--set", "table=55", "--ri", "1.54", "-q", "--force", "-o", "f.toml"]);
+    let text = String::from_utf8(bench.read("f.toml")).expect("text");
+    assert!(text.contains("refractive-index = 1.54") && text.contains("table = 55"), "{text}");
 }
 
 /// Every tier by its place, every meet once: the corners that a count of the solid's own has.

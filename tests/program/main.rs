@@ -12,6 +12,8 @@ mod cli;
 mod compare;
 mod concurrent_outputs;
 mod corpus;
+#[path = "../common/corpus_folder.rs"]
+mod corpus_folder;
 mod diagram;
 mod edit;
 mod error_estimates;

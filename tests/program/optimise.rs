@@ -62,6 +62,25 @@ fn the_same_command_gives_the_same_files_on_any_number_of_threads_and_after_a_ki
     assert!(said.contains("--force"), "{said}");
 }
 
+/// With a tolerance both gains are said, and what was searched is named by it.
+#[test]
+fn a_design_is_made_better_for_stones_cut_with_errors() {
+    let bench = folder();
+    let tolerant = ["--tolerance", "0.2", "--worst"];
+    let (out, _) = bench.ends(0, &optimise(&[&tolerant[..], &["--front", "f.csv"]].concat()));
+    let name = "iso@0,10 (worst) worst within ± 0.2°";
+    assert!(out.contains(name) && out.lines().any(|l| l.trim().starts_with("iso@0,10 (worst) ")), "{out}");
+    let head = String::from_utf8(bench.read("f.csv")).expect("text");
+    assert!(head.lines().next().is_some_and(|line| line.ends_with(&format!("\"{name}\""))), "{head}");
+    let (out, _) = bench.ends(0, &optimise(&[&tolerant[..], &["--json"]].concat()));
+    let found: Value = serde_json::from_str(&out).expect("JSON");
+    let of = |key: &str| found["finalists"][0][key]["iso@0,10 (worst)"]["value"]["value"].as_f64();
+    let (within, drawn) = (of("within_tolerance").expect("a score"), of("objectives").expect("a score"));
+    assert!(within < drawn, "the worst of eight stones is below the stone as drawn: {found}");
+    let (_, said) = bench.ends(2, &optimise(&["--tolerance", "-1"]));
+    assert!(said.contains("number of degrees"), "{said}");
+}
+
 #[test]
 fn several_objectives_give_a_front() {
     let bench = folder();

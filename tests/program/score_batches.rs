@@ -45,6 +45,31 @@ fn folders_and_patterns_are_taken_in_order_and_a_bad_stone_keeps_its_row() {
     assert!(bench.ends(2, &score(&["in/bad.asc"], &[])).1.contains("in/bad.asc"), "no input was good");
 }
 
+/// The stones of an outline alone, with what cannot be read; said, kept in the table's record, refused if none is.
+#[test]
+fn stones_are_chosen_by_their_outline() {
+    let bench = Bench::new();
+    designs(&bench);
+    for cut in ["oval", "pear", "princess"] {
+        bench.good(&["generate", cut, "-q", "-o", &format!("in/{cut}.asc")]);
+    }
+    let stones = |table: &str| -> Vec<String> {
+        table.lines().skip(1).map(|l| l.split(',').next().expect("a cell").to_owned()).collect()
+    };
+    let ask = ["score", "in", "--metrics", "spread", "--outline"];
+    let (table, said) = bench.ends(1, &[&ask[..], &["oval,pear"]].concat());
+    assert_eq!(stones(&table), ["in/bad.asc", "in/oval.asc", "in/pear.asc"]);
+    assert!(said.contains("3 of 7 stones are oval or pear in outline"), "{said}");
+    let best = ["Round", "--sort", "spread", "--top", "1", "-q", "-o", "round.csv"];
+    bench.ends(1, &[&ask[..], &best].concat());
+    assert_eq!(stones(&text(&bench.read("round.csv"))).len(), 1);
+    assert!(text(&bench.read("round.csv.meta.json")).contains("--outline round"));
+    let (_, said) = bench.ends(2, &["score", "tolkowsky", "--metrics", "spread", "--outline", "pear"]);
+    assert!(said.contains("none of 1 stones is pear"), "{said}");
+    let (_, said) = bench.ends(2, &["score", "tolkowsky", "--outline", "ovel"]);
+    assert!(said.contains("no outline is called 'ovel': round, oval"), "{said}");
+}
+
 #[test]
 fn every_form_has_the_same_numbers_and_a_sidecar_says_what_they_are() {
     let bench = Bench::new();

@@ -32,7 +32,7 @@ pub struct ScoringHow {
     exact: bool,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each
     /// its own]
-    #[arg(long, value_name = "HALF-ANGLE", value_parser = half_angle)]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = values::half_angle)]
     observer: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet; off takes it as unpolarised at each
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
@@ -144,9 +144,4 @@ pub fn error(text: &str) -> Result<f64, String> {
         }
         Err(error) => Err(error.to_string()),
     }
-}
-
-/// Value parser of `--observer`.
-pub fn half_angle(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
 }

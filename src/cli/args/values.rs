@@ -27,6 +27,21 @@ pub fn number(unit: NumberUnit) -> impl Fn(&str) -> Result<f64, String> + Clone 
     move |text| parse::parse_number(text, unit).map_err(|e| e.to_string())
 }
 
+/// Value parser of `--observer`.
+pub fn half_angle(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
+}
+
+/// Value parser of `--least-facet`.
+pub fn facet_width(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Percent, 0.0..=50.0, "a facet's width is a percentage")
+}
+
+/// Value parser of `--least-girdle`.
+pub fn part(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::None, 0.0..=1.0, "a part is a number")
+}
+
 /// Value parser of `--time`.
 pub fn duration(text: &str) -> Result<Duration, String> {
     humantime::parse_duration(text.trim())

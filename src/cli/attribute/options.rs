@@ -50,7 +50,7 @@ pub struct AttributeArgs {
     #[arg(long, value_name = "E", value_parser = scoring::error)]
     error: Option<f64>,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each its own]
-    #[arg(long, value_name = "HALF-ANGLE", value_parser = scoring::half_angle)]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = values::half_angle)]
     observer: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]

@@ -1,6 +1,7 @@
 //! Where a changed stone is written, and as what.
 
 use super::text::ChangedText;
+use crate::cli::args::scoring::{self, ScoringHow};
 use crate::cli::args::stone;
 use crate::cli::console::Console;
 use crate::cli::error::CliError;
@@ -9,6 +10,7 @@ use crate::cli::limits::limits;
 use crate::cli::outputs::{self, Outputs};
 use crate::design::Design;
 use crate::materials::Material;
+use crate::metrics::Metric;
 use crate::report::edited_file;
 use crate::report::target_format::TargetFormat;
 use crate::stone::Stone;
@@ -28,6 +30,19 @@ pub struct WrittenArgs {
     /// `cutlab list formats`, svg, pdf or png [the stone's own, or toml]
     #[arg(long, value_name = "FORMAT", requires = "output")]
     pub to: Option<String>,
+}
+
+/// What the commands that change a stone have in common: where it goes, and what is scored.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ChangeArgs {
+    #[command(flatten)]
+    pub written: WrittenArgs,
+    /// Scores before and after, and their differences (see `cutlab list metrics`) [none; of a design for another
+    /// stone windowing,iso,wlr,leakage]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = scoring::metric)]
+    pub score: Vec<&'static Metric>,
+    #[command(flatten)]
+    pub how: ScoringHow,
 }
 
 /// The file of a changed stone.

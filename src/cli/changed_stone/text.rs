@@ -105,7 +105,7 @@ fn tier(tier: &TierChange) -> Vec<String> {
 }
 
 fn measure(measure: &MeasureChange) -> Vec<String> {
-    let decimals = if measure.name == "volume_w3" { 4 } else { 2 };
+    let decimals = if measure.unit.is_empty() { 4 } else { 2 };
     let shown = |value: Option<f64>| value.map_or_else(|| NONE.into(), |v| format!("{v:.decimals$}"));
     let BeforeAfter { before, after } = measure.value;
     let after = if measure.is_changed() { format!("{} *", shown(after)) } else { shown(after) };

@@ -1,9 +1,7 @@
 //! Options of `cutlab edit`.
 
-use crate::cli::args::scoring::{self, ScoringHow};
-use crate::cli::changed_stone::WrittenArgs;
+use crate::cli::changed_stone::ChangeArgs;
 use crate::design::edit::{Keep, Setting};
-use crate::metrics::Metric;
 use std::ffi::OsString;
 
 #[derive(Debug, clap::Args)]
@@ -34,12 +32,7 @@ pub struct EditArgs {
     #[arg(long, value_name = "meets|angles|depths", default_value = "meets", value_parser = keep)]
     pub keep: Keep,
     #[command(flatten)]
-    pub written: WrittenArgs,
-    /// Scores before and after, and their differences (see `cutlab list metrics`)
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = scoring::metric)]
-    pub score: Vec<&'static Metric>,
-    #[command(flatten)]
-    pub how: ScoringHow,
+    pub change: ChangeArgs,
 }
 
 /// Value parser of `--set`.

@@ -4,7 +4,7 @@ use crate::cli::args::stone::{self, StoneArgs};
 use crate::cli::args::values;
 use crate::design::LengthUnit;
 use crate::design::edit::Keep;
-use crate::optimise::{Guards, OptimiseRequest, Variable};
+use crate::optimise::{Guards, MOST_TOLERANCE_DEG, OptimiseRequest, Variable};
 use crate::parse::{self, NumberUnit};
 use crate::scoring::constraint::Constraint;
 use crate::scoring::effort::Effort;
@@ -45,9 +45,13 @@ pub struct OptimiseArgs {
     /// Tilts in degrees about the x axis at which scores are taken [0]
     #[arg(long, value_name = "DEGREES,…", value_delimiter = ',', value_parser = tilt)]
     tilt: Vec<f64>,
-    /// Of several tilts the worst counts, not the mean
+    /// Of several tilts, and of the stones within --tolerance, the worst counts, not the mean
     #[arg(long)]
     worst: bool,
+    /// By how much each tier's angle may be off when the stone is cut: scores are those of stones with such errors
+    /// [0, cut as drawn]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, hide_default_value = true, value_parser = tolerance)]
+    tolerance: f64,
     /// A bound from below on a score or a proportion: NAME=VALUE, or NAME=0.95*start for a part of what the
     /// stone has
     #[arg(long, value_name = "NAME=VALUE", value_parser = at_least)]
@@ -56,10 +60,10 @@ pub struct OptimiseArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = at_most)]
     at_most: Vec<Constraint>,
     /// No facet becomes narrower than this percentage of the girdle width
-    #[arg(long, value_name = "PERCENT", default_value_t = Guards::default().least_facet_percent, value_parser = percent)]
+    #[arg(long, value_name = "PERCENT", default_value_t = Guards::default().least_facet_percent, value_parser = values::facet_width)]
     least_facet: f64,
     /// The girdle keeps at least this part of its thickness
-    #[arg(long, value_name = "PART", default_value_t = Guards::default().least_girdle, value_parser = part)]
+    #[arg(long, value_name = "PART", default_value_t = Guards::default().least_girdle, value_parser = values::part)]
     least_girdle: f64,
     /// What stays when something varies: meets, angles or depths, as for `cutlab edit`
     #[arg(long, value_name = "meets|angles|depths", default_value = "meets", value_parser = super::super::edit::keep)]
@@ -77,7 +81,7 @@ pub struct OptimiseArgs {
     #[arg(long, value_name = "NAME", value_parser = method)]
     method: Option<Method>,
     /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each its own]
-    #[arg(long, value_name = "HALF-ANGLE", value_parser = half_angle)]
+    #[arg(long, value_name = "HALF-ANGLE", value_parser = values::half_angle)]
     observer: Option<f64>,
     /// Whether light keeps its polarisation from facet to facet
     #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
@@ -121,6 +125,7 @@ impl OptimiseArgs {
         request.guards = Guards::new(self.least_facet, self.least_girdle);
         request.keep = self.keep;
         request.effort = effort;
+        request.tolerance_deg = self.tolerance;
         request.method = self.method;
         request.evaluations = self.evaluations as usize;
         request.starts = self.starts as usize;
@@ -150,16 +155,9 @@ fn tilt(text: &str) -> Result<f64, String> {
     parse::parse_number_within(text, NumberUnit::Degrees, -89.0..=89.0, "a tilt is a number of degrees")
 }
 
-fn percent(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::Percent, 0.0..=50.0, "a facet's width is a percentage")
-}
-
-fn part(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::None, 0.0..=1.0, "a part is a number")
-}
-
-fn half_angle(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")
+fn tolerance(text: &str) -> Result<f64, String> {
+    let what = "the error of an angle is a number of degrees";
+    parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=MOST_TOLERANCE_DEG, what)
 }
 
 fn method(text: &str) -> Result<Method, String> {

@@ -41,6 +41,9 @@ struct FinalistEntry<'a> {
     candidate: usize,
     values: BTreeMap<&'a str, f64>,
     objectives: BTreeMap<String, GainEntry>,
+    /// The same of stones cut within the tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    within_tolerance: Option<BTreeMap<String, GainEntry>>,
     followed: &'a [String],
 }
 
@@ -59,6 +62,7 @@ impl<'a> OptimisedText<'a> {
             let Gain { start, value, gain, is_significant: significant, .. } = *gain;
             (of.name(), GainEntry { start, value, gain, significant })
         };
+        let objectives = |gains: &[Gain]| self.request.objectives.iter().zip(gains).map(gain).collect();
         let finalist = |f: &'a Finalist| FinalistEntry {
             candidate: f.candidate,
             values: self
@@ -68,7 +72,8 @@ impl<'a> OptimisedText<'a> {
                 .map(|d| d.name.as_str())
                 .zip(f.values.iter().copied())
                 .collect(),
-            objectives: self.request.objectives.iter().zip(&f.gains).map(gain).collect(),
+            objectives: objectives(&f.gains),
+            within_tolerance: f.tolerant_gains.as_deref().map(objectives),
             followed: &f.edited.followed,
         };
         OptimisedEntry {
@@ -98,9 +103,13 @@ impl<'a> OptimisedText<'a> {
         text += &terminal_table::lines(&table);
         let mut table = terminal_table::new();
         table.set_header(["", "start", "best", "gain", ""]);
-        for (of, gain) in self.request.objectives.iter().zip(&best.gains) {
+        let objectives = || self.request.objectives.iter();
+        let within = objectives().zip(best.tolerant_gains.iter().flatten());
+        let within = within.map(|(of, gain)| (self.request.searched_name(of), gain));
+        let as_drawn = objectives().zip(&best.gains).map(|(of, gain)| (of.name(), gain));
+        for (name, gain) in within.chain(as_drawn) {
             table.add_row([
-                of.name(),
+                name,
                 format_estimate(gain.start),
                 format_estimate(gain.value),
                 format!("{}{}", plus(gain.gain), format_estimate(gain.gain)),
@@ -124,12 +133,12 @@ impl<'a> OptimisedText<'a> {
     /// The designs that are kept, one a line.
     fn others(&self) -> String {
         let mut table = terminal_table::new();
-        let names = self.request.objectives.iter().map(Objective::name);
+        let names = self.request.objectives.iter().map(|of| self.request.searched_name(of));
         let heads =
             ["".to_owned()].into_iter().chain(names).chain(self.found.degrees.iter().map(|d| d.name.clone()));
         table.set_header(heads);
         for (i, finalist) in self.found.finalists.iter().enumerate() {
-            let gains = finalist.gains.iter().map(|g| format_estimate(g.value));
+            let gains = finalist.searched_gains().iter().map(|g| format_estimate(g.value));
             let values = finalist.values.iter().map(|v| rounded(*v));
             table.add_row([(i + 1).to_string()].into_iter().chain(gains).chain(values));
         }
@@ -145,7 +154,7 @@ fn rounded(value: f64) -> String {
 /// The candidates of the front as CSV: variables, then objectives as the search saw them.
 pub fn front_table(found: &Optimised, request: &OptimiseRequest) -> Result<Vec<u8>, CliError> {
     let mut table = csv::Writer::from_writer(Vec::new());
-    let names = request.objectives.iter().map(Objective::name);
+    let names = request.objectives.iter().map(|of| request.searched_name(of));
     let head =
         ["candidate".to_owned()].into_iter().chain(found.degrees.iter().map(|d| d.name.clone())).chain(names);
     let failed = |error: csv::Error| CliError::input(error.to_string());

@@ -7,6 +7,7 @@ use crate::cli::args::scoring::{self, ScoringArgs};
 use crate::cli::args::stone::DEFAULT_STONE;
 use crate::cli::args::tables::TableArgs;
 use crate::cli::plot_output::Look;
+use crate::design::outline_shape::{NoSuchOutline, OutlineShape};
 use crate::parse::{self, NumberUnit};
 use crate::scoring::Tilt;
 use std::ffi::OsString;
@@ -18,6 +19,7 @@ Examples:
   cutlab score                                       the reference brilliant, to be read, or CSV in a pipe
   cutlab score designs/ '*.gem' -o scores.csv        every design of a folder, and what matches
   cutlab score designs/ --metrics iso,cos --sort iso --top 10 --proportions -o best.csv
+  cutlab score designs/ --outline oval --material tourmaline --metrics iso,wlr --sort iso --top 20
   cutlab score tolkowsky --metrics wlr,fire_streak --error 0.001
   cutlab score D.asc:material=quartz D.asc:material=topaz
   cutlab score tolkowsky --metrics wlr --tilt -30:30:5 --plot tilt.svg    curves about both axes
@@ -34,6 +36,10 @@ pub struct ScoreArgs {
     /// Add columns of each stone's name, proportions and weight
     #[arg(long)]
     pub proportions: bool,
+    /// Score stones with this outline alone: round, oval, pear, marquise, square, rectangle, cushion, triangle,
+    /// pentagon, hexagon, octagon, polygon or other; several with commas
+    #[arg(long, value_name = "OUTLINE,…", value_delimiter = ',', value_parser = outline)]
+    pub outline: Vec<OutlineShape>,
     /// Sort the rows by a metric, the greatest first; -METRIC the least first
     #[arg(long, value_name = "METRIC", value_parser = parse_sort, allow_hyphen_values = true)]
     pub sort: Option<SortRequest>,
@@ -67,6 +73,11 @@ fn parse_sort(text: &str) -> Result<SortRequest, String> {
     let name = text.strip_prefix('-').unwrap_or(text);
     let order = Order { ascending: text.starts_with('-'), top: None };
     Ok(SortRequest { metric: scoring::metric(name)?, order })
+}
+
+/// Value parser of `--outline`.
+fn outline(text: &str) -> Result<OutlineShape, String> {
+    text.parse().map_err(|error: NoSuchOutline| error.to_string())
 }
 
 /// Value parser of `--top`.

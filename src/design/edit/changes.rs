@@ -3,7 +3,8 @@
 use super::editor::{Edited, Editor};
 use super::tier_list::{EditableTier, TierList};
 use crate::design::meet_network::MeetNetwork;
-use crate::design::proportions::{self, Proportions};
+use crate::design::proportion_catalogue::{NamedProportion, PROPORTIONS};
+use crate::design::proportions;
 use crate::design::tiers::Design;
 use crate::geometry::{Plane, Polyhedron};
 use serde::Serialize;
@@ -51,7 +52,7 @@ pub struct TierChange {
 /// A proportion before and after a change; none where the stone has no such measure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// Its name.
+    /// Its name ([`NamedProportion::short`]).
     pub name: &'static str,
     /// Its unit; empty for a ratio.
     pub unit: &'static str,
@@ -231,24 +232,11 @@ fn nearest_turn(shift: f64, teeth: f64) -> f64 {
 }
 
 fn measures(before: &Polyhedron, after: &Polyhedron) -> Vec<MeasureChange> {
-    type Of = fn(&Proportions) -> Option<f64>;
-    let all: [(&str, &str, Of); 10] = [
-        ("length_to_width", "", |p| Some(p.length / p.width)),
-        ("table", "%", |p| p.table_percent),
-        ("crown_angle", "°", |p| p.crown_angle_deg),
-        ("crown_height", "%", |p| Some(p.crown_height_percent)),
-        ("girdle", "%", |p| Some(p.girdle_percent)),
-        ("pavilion_angle", "°", |p| p.pavilion_angle_deg),
-        ("pavilion_depth", "%", |p| Some(p.pavilion_depth_percent)),
-        ("culet", "%", |p| Some(p.culet_percent).filter(|c| *c > 0.0)),
-        ("depth", "%", |p| Some(p.depth_percent)),
-        ("volume_w3", "", |p| Some(p.volume / p.width.powi(3))),
-    ];
     let (was, is) = (proportions::measure(before), proportions::measure(after));
-    let change = |(name, unit, of): (_, _, Of)| MeasureChange {
-        name,
-        unit,
-        value: BeforeAfter::new(of(&was), of(&is)),
+    let change = |proportion: &NamedProportion| MeasureChange {
+        name: proportion.short,
+        unit: proportion.unit,
+        value: BeforeAfter::new((proportion.of)(&was), (proportion.of)(&is)),
     };
-    all.into_iter().map(change).collect()
+    PROPORTIONS.iter().map(change).collect()
 }

@@ -127,7 +127,8 @@ impl Editor {
         self.edited(planes, &change)
     }
 
-    fn unchanged(&self) -> Edited {
+    /// The design as it is, as if nothing had been set.
+    pub fn unchanged(&self) -> Edited {
         let (design, solid) = (self.design.clone(), self.solid.clone());
         Edited { design, solid, followed: Vec::new(), is_outline_changed: false }
     }
@@ -163,6 +164,7 @@ impl Editor {
         let Some(of) = family else { return Ok(None) };
         let mut rebuilt = families::build_from(&of.name, &of.given, &given)?;
         (rebuilt.name, rebuilt.source) = (self.design.name.clone(), self.design.source.clone());
+        rebuilt.refractive_index = self.design.refractive_index;
         if self.design.unit != rebuilt.unit {
             rebuilt.unit = self.design.unit;
         }

@@ -115,14 +115,26 @@ impl TierList {
                 .unwrap_or_default()
         };
         if found.is_empty() {
-            let names = || self.tiers.iter().flat_map(|t| [t.name.as_str(), t.place.as_str()]);
             return Err(EditError::NoSuchTier {
                 asked: asked.into(),
-                nearest: parse::nearest_name(asked, names().filter(|n| !n.is_empty())).map(String::from),
+                nearest: self.nearest(asked).map(String::from),
                 known: self.tiers.iter().map(|t| t.label().to_owned()).collect(),
             });
         }
         Ok(found)
+    }
+
+    /// The name or place that is probably meant: of a place beyond the last (`P9` of four) the last of its part
+    /// of the stone, else what is spelled alike.
+    fn nearest(&self, asked: &str) -> Option<&str> {
+        let places = || self.tiers.iter().map(|t| t.place.as_str());
+        let beyond = numbered_place(asked).and_then(|(letter, number)| {
+            let alike = places().filter_map(|place| Some((place, numbered_place(place)?)));
+            let numbers = alike.filter(|(_, (other, _))| *other == letter).map(|(place, (_, n))| (place, n));
+            numbers.min_by_key(|(_, other)| other.abs_diff(number)).map(|(place, _)| place)
+        });
+        let names = places().chain(self.tiers.iter().map(|t| t.name.as_str())).filter(|n| !n.is_empty());
+        beyond.or_else(|| parse::nearest_name(asked, names))
     }
 
     /// What a facet is called: its tier, and its index or number there.
@@ -140,6 +152,13 @@ impl TierList {
             }
         }
     }
+}
+
+/// The letter, as a capital, and the number of a place: `P9`.
+fn numbered_place(text: &str) -> Option<(char, usize)> {
+    let mut letters = text.trim().chars();
+    let letter = letters.next()?.to_ascii_uppercase();
+    letters.as_str().parse().ok().map(|number| (letter, number))
 }
 
 /// The place of each tier in its part of the stone: `P1`, `C2`, `G1`, `T1`, `K1`. Where another tier has that as its

@@ -100,7 +100,14 @@ impl MeetNetwork {
         let added = |i: usize| change.distances.get(i).copied().flatten().unwrap_or(0.0);
         let distances: Vec<f64> = self.parts.iter().enumerate().map(|(i, p)| p.distance + added(i)).collect();
         let turned = |f: &FacetOfPart| f.turned(change.turns.get(f.part).copied().unwrap_or(0.0));
-        self.facets.iter().map(|f| self.frame.from(&turned(f).plane(&polars, &distances))).collect()
+        // the frame's origin lies on the axis, wherever the file has it: the distances that stay are from the middle
+        let height = self.middle().z - self.frame.origin.z;
+        let in_place = |(facet, was): (&FacetOfPart, Plane)| {
+            let plane = turned(facet).plane(&polars, &distances);
+            let from_middle = (plane.normal.z - was.normal.z) * height;
+            self.frame.from(&Plane { distance: plane.distance + from_middle, ..plane })
+        };
+        self.facets.iter().zip(self.own_planes()).map(in_place).collect()
     }
 
     /// The least height of girdle between crown and pavilion, above one vertical edge; 0 without a girdle.
