@@ -28,6 +28,7 @@ mod instruction_sets;
 mod meet;
 mod objective;
 mod optics;
+mod optimised_page;
 mod polarisation;
 mod progress;
 mod progressive;
