@@ -15,11 +15,11 @@ use super::stone_report::ReportError;
 use crate::design::edit::Editor;
 use crate::optimise::{OptimiseRequest, Optimised};
 use crate::progress::Progress;
-use crate::scoring::comparison::{self, Comparison, compare_while};
-use crate::scoring::score::{ScoreInput, ScoreRequest};
+use crate::scoring::score::ScoreRequest;
 use crate::stone::Stone;
 use kept::KeptDesign;
 use maud::html;
+use price::OtherScores;
 
 const OWN_STYLE: &str =
     concat!(include_str!("comparison_page.css"), include_str!("optimised_page/optimised_page.css"));
@@ -92,22 +92,22 @@ impl<'a> OptimisedPage<'a> {
         let start = self.stone.clone().with_width(effort.size_mm)?;
         let kept = kept::kept(self.stone, self.editor, found, &self.files, effort.size_mm)?;
         let plan = ScoreRequest { observer: headline::observer(request), ..ScoreRequest::default() }
-            .metrics(price::metrics(request))
-            .samples(self.samples)
             .seed(!effort.seed)
             .polarised(effort.polarised);
         let stones: Vec<&Stone> = std::iter::once(&start).chain(kept.iter().map(|k| &k.stone)).collect();
 
-        progress.begin("page", comparison::runs(&plan) + stones.len() as u64 + 1);
-        let comparison = scored(&stones, &plan, progress)?;
+        let before = (self.stone.material(), &self.editor.solid);
+
+        progress.begin("page", stones.len() as u64 + 2);
+        let others = OtherScores::of(request, &kept, before, self.samples);
+        step_done(progress)?;
         let mut seen = Vec::new();
         for stone in &stones {
-            self.goes_on(progress)?;
             seen.push(pictures::of_stone(stone, &plan, self.side)?);
+            step_done(progress)?;
         }
-        self.goes_on(progress)?;
-        let drawn = tilts::drawn(&kept);
-        let curves = tilts::plots(request, self.stone.material(), &self.editor.solid, &drawn);
+        let curves = tilts::plots(request, before, &tilts::drawn(&kept));
+        step_done(progress)?;
         progress.end();
 
         let content = html! {
@@ -116,7 +116,7 @@ impl<'a> OptimisedPage<'a> {
             (search_plots::section(request, found, &kept))
             (headline::variables(found, &kept))
             (pictures::section(&seen, &kept))
-            (price::section(request, &kept, &plan.metrics, &comparison))
+            (price::section(request, &kept, &others))
             (tilt_section(&curves))
             (tiers::section(&kept, self.stone.material().index_d())?)
         };
@@ -129,11 +129,6 @@ impl<'a> OptimisedPage<'a> {
             command: &self.command,
         };
         Ok(page.html())
-    }
-
-    fn goes_on(&self, progress: &dyn Progress) -> Result<(), ReportError> {
-        progress.advance(1);
-        if progress.is_cancelled() { Err(ReportError::Cancelled) } else { Ok(()) }
     }
 
     /// Objectives, material, and how many designs are kept.
@@ -154,16 +149,8 @@ impl<'a> OptimisedPage<'a> {
     }
 }
 
-/// The scores of all stones by the same random numbers.
-fn scored(
-    stones: &[&Stone],
-    plan: &ScoreRequest,
-    progress: &dyn Progress,
-) -> Result<Comparison, ReportError> {
-    let inputs: Vec<ScoreInput> = stones.iter().map(|stone| ScoreInput::from_stone(stone, None)).collect();
-    let compared = compare_while(&inputs, plan, &|| {
-        progress.advance(1);
-        !progress.is_cancelled()
-    });
-    compared.ok_or(ReportError::Cancelled)
+/// A step of the work is done; whether there is to be another.
+fn step_done(progress: &dyn Progress) -> Result<(), ReportError> {
+    progress.advance(1);
+    if progress.is_cancelled() { Err(ReportError::Cancelled) } else { Ok(()) }
 }

@@ -80,7 +80,7 @@ fn estimate(of: Estimate) -> String {
 }
 
 fn unit(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+    if matches!(unit, "" | "°") { unit.to_owned() } else { format!("\u{a0}{unit}") }
 }
 
 /// What was asked for, and how it was searched.
@@ -108,7 +108,13 @@ pub(super) fn request(request: &OptimiseRequest, found: &Optimised) -> Markup {
         ("candidates", format!("{}, of which {feasible} keep the bounds", found.candidates.len())),
         (
             "search",
-            format!("{}, starts side by side: {}, seed {}", method.name(), request.starts, request.seed),
+            format!(
+                "method {}, {} start{}, seed {}",
+                method.name(),
+                request.starts,
+                if request.starts == 1 { "" } else { "s side by side" },
+                request.seed
+            ),
         ),
     ];
     html! {

@@ -57,7 +57,7 @@ pub(super) fn section(pictures: &[Vec<ViewerPicture>], kept: &[KeptDesign]) -> M
 fn figure(label: &str, picture: &ViewerPicture) -> Markup {
     let shares = picture.scope.legend.iter().zip(&picture.shares);
     let shares: Vec<String> =
-        shares.map(|(key, share)| format!("{} {:.1} %", key.name, 100.0 * share)).collect();
+        shares.map(|(key, share)| format!("{}\u{a0}{:.1}\u{a0}%", key.name, 100.0 * share)).collect();
     html! {
         figure {
             img src=(data_uri(&picture.png)) alt={ (picture.scope.name) " of " (label) ", seen from above" };

@@ -172,7 +172,7 @@ fn with_unit(objective: &Objective) -> String {
 /// Plots with their texts for those who do not see them.
 fn figures(plots: &[(String, String)], is_large: bool) -> Markup {
     html! {
-        div class=(if is_large { "map" } else { "plots" }) {
+        div class=(if is_large { "front" } else { "plots" }) {
             @for (alt, svg) in plots { figure { img src=(svg_uri(svg)) alt=(alt); } "\n" }
         }
     }

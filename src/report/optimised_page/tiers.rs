@@ -71,7 +71,7 @@ fn tier_row(tier: &TierChange) -> Markup {
         false => format!("{:.2} %", state.depth_percent),
     });
     let index = match tier.index_shift {
-        0.0 => "as it was".to_owned(),
+        0.0 => "unchanged".to_owned(),
         shift => format!("{}{}", if shift > 0.0 { "+" } else { "−" }, format_number(shift.abs())),
     };
     let said = match (before, after) {

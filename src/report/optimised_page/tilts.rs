@@ -47,18 +47,17 @@ pub(super) fn drawn<'k, 'a>(kept: &'k [KeptDesign<'a>]) -> Vec<&'k KeptDesign<'a
 
 /// One plot for each metric, with a line for the start and one for each of the designs.
 ///
-/// - `start`: the solid as it was
+/// - `start`: the solid as it was, and what all are made of
 pub(super) fn plots(
     request: &OptimiseRequest,
-    material: &Material,
-    start: &Polyhedron,
+    start: (&Material, &Polyhedron),
     designs: &[&KeptDesign],
 ) -> Vec<TiltPlot> {
     let tilts: Vec<f64> = tilt_curves::tilts().collect();
     let names = ["start"].into_iter().chain(designs.iter().map(|design| design.mark.as_str()));
     let names: Vec<&str> = names.collect();
     let plot = |of: TiltedMetric| {
-        let rows = parallel::map(tilts.len(), |i| at_tilt(request, &of, tilts[i], material, start, designs));
+        let rows = parallel::map(tilts.len(), |i| at_tilt(request, (&of, tilts[i]), start, designs));
         let curve = |(line, name): (usize, &&str)| PlotCurve {
             name: (*name).to_owned(),
             points: tilts
@@ -75,10 +74,8 @@ pub(super) fn plots(
 /// A metric of the start and of the designs at one tilt; none where it has no value.
 fn at_tilt(
     request: &OptimiseRequest,
-    of: &TiltedMetric,
-    degrees: f64,
-    material: &Material,
-    start: &Polyhedron,
+    (of, degrees): (&TiltedMetric, f64),
+    (material, start): (&Material, &Polyhedron),
     designs: &[&KeptDesign],
 ) -> Vec<Option<Estimate>> {
     let mut of = of.clone();

@@ -72,12 +72,12 @@ impl Scatter {
         let mut out = frame.open(&self.title, "");
         frame.axes(&mut out, &self.x, &self.y, true);
         let mut inside = Element::group().clip(&frame.clip);
-        inside.push(dots(&frame, &self.all.points, GREY, 4.0));
+        inside.push(dots(&frame, &self.all.points, GREY, 5.0));
         if !self.line.is_empty() {
             let line = PathData::new(DECIMALS).line(self.line.iter().map(|p| place(&frame, *p)));
             inside.push(Element::path(line).fill("none").stroke(BEST, 1.6).round_joins());
         }
-        inside.push(dots(&frame, &self.best.points, BEST, 6.0));
+        inside.push(dots(&frame, &self.best.points, BEST, 7.0));
         out.push(inside);
         self.named(&frame, &mut out);
         self.legend(&frame, &mut out);
