@@ -90,7 +90,6 @@ impl Scatter {
 
     /// The start and the chosen points with their names, which stand where none stands yet.
     fn named(&self, frame: &PlotFrame, out: &mut Element) {
-        let mut taken: Vec<(f64, f64, f64)> = Vec::new(); // left, right and base line of a name
         let start = self.start.iter().map(|point| (point, false));
         let all: Vec<(&NamedPoint, bool)> = self.chosen.iter().map(|p| (p, true)).chain(start).collect();
         for (point, is_chosen) in &all {
@@ -101,11 +100,16 @@ impl Scatter {
                 false => dot.fill("none").stroke(START, 1.8),
             });
         }
+        // left, right and base line of what letters must not cover: dots, then names
+        let dot = |(x, y): (f64, f64)| (x - 5.0, x + 5.0, y + 0.4 * LETTERS);
+        let mut taken: Vec<(f64, f64, f64)> = all.iter().map(|(p, _)| dot(place(frame, p.at))).collect();
         let (left, top, w, h) = frame.rectangle();
         for (point, is_chosen) in all {
             let (x, y) = place(frame, point.at);
             let width = LETTERS * text_width(&point.name, true);
-            let places = [(9.0, -5.0), (9.0, 15.0), (-9.0 - width, -5.0), (-9.0 - width, 15.0), (9.0, 29.0)];
+            let beside = [-5.0, 15.0, -19.0, 29.0, -33.0, 43.0];
+            let places: Vec<(f64, f64)> =
+                beside.into_iter().flat_map(|dy| [(9.0, dy), (-9.0 - width, dy)]).collect();
             let is_free = |(dx, dy): &&(f64, f64)| {
                 let (from, to, base) = (x + dx, x + dx + width, y + dy);
                 let is_inside = from > left && to < left + w && base - LETTERS > top && base < top + h;
