@@ -173,6 +173,8 @@ impl Error {
             #[cfg(feature = "report")]
             Error::Report(error) => match &**error {
                 ReportError::Format(error) => of_format(error),
+                ReportError::Stone(error) => of_stone(error),
+                ReportError::Cancelled => ErrorKind::Cancelled,
                 ReportError::Write(_) => ErrorKind::Io,
                 _ => ErrorKind::Invalid,
             },

@@ -71,6 +71,11 @@ impl NumberUnit {
         }
     }
 
+    /// The sign that stands behind a number; empty for none.
+    pub fn sign(self) -> &'static str {
+        self.signs().first().copied().unwrap_or_default()
+    }
+
     fn signs(self) -> &'static [&'static str] {
         match self {
             NumberUnit::None => &[],

@@ -8,6 +8,7 @@ pub mod drawing_format;
 pub mod edited_file;
 pub mod estimates;
 mod html;
+pub mod optimised_page;
 pub mod page;
 pub mod pdf;
 pub mod plot;

@@ -2,6 +2,7 @@
 
 mod files;
 mod options;
+mod page_file;
 mod text;
 
 use super::console::Console;
@@ -24,11 +25,12 @@ pub fn run(args: &OptimiseArgs, console: &Console) -> Result<ExitStatus, CliErro
         interrupt::mark_resumable();
     }
     let (known, kept) = files.begin(console)?;
-    let found = optimisation.run(known, &|new| kept.keep(new, &optimisation), &BarProgress::new(console))?;
+    let progress = BarProgress::new(console);
+    let found = optimisation.run(known, &|new| kept.keep(new, &optimisation), &progress)?;
     kept.ended()?;
     let text =
         OptimisedText { stone: &stone, request: &request, editor: &optimisation.editor, found: &found };
-    let written = files.write(&found, &request, kept)?;
+    let written = files.write(&found, (&request, &optimisation.editor), kept, &progress)?;
     if console.json {
         console.print_json(&text.entries(&written))?;
     } else {

@@ -1,9 +1,10 @@
-//! Plots of sweeps as SVG: a score along one parameter, or over two.
+//! Plots as SVG: of sweeps a score along one parameter, or over two; of searches their candidates.
 
 mod axes;
 mod curve;
 mod frame;
 mod map;
+mod scatter;
 mod style;
 mod surface;
 
@@ -11,6 +12,7 @@ use crate::design::gia_envelopes;
 pub use axes::{Axis, ScorePlot, TILT, TILT_AXIS};
 use axes::{BAND, ReferenceMark};
 pub use curve::{Curves, Dot, PlotCurve};
+pub use scatter::{NamedPoint, PointSet, Scatter};
 pub use style::{ColourScale, Style};
 
 use crate::batch::table::NumericColumns;

@@ -19,6 +19,7 @@ use crate::materials::weight::Weight;
 use crate::photons::{self, PhotonSets};
 use crate::scene::{SceneError, SceneOverrides, preset};
 use crate::scoring::score::{ScoreInput, ScoreRequest, score};
+use crate::stone::StoneError;
 use crate::storage::atomic_write::{self, WriteError};
 use std::path::Path;
 
@@ -34,6 +35,12 @@ pub enum ReportError {
     /// The planes bound no stone.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// A shape that is no convex stone, or a width that is none.
+    #[error(transparent)]
+    Stone(#[from] StoneError),
+    /// The work was ended early by [`crate::Progress::is_cancelled`].
+    #[error("cancelled")]
+    Cancelled,
     /// The planes bound no stone.
     #[error(transparent)]
     Cut(#[from] CutError),

@@ -48,7 +48,7 @@ pub fn plots(
     for (request, name, solid) in stones {
         step();
         let mut lines = vec![PlotCurve { name: name.to_string(), points: Vec::new() }; metrics.len()];
-        for degrees in (-MOST_TILT..=MOST_TILT).step_by(STEP).map(f64::from) {
+        for degrees in tilts() {
             let subject = ScoreInput {
                 stone: request.stone.clone(),
                 material: request.material.clone(),
@@ -61,18 +61,25 @@ pub fn plots(
         }
         curves.iter_mut().zip(lines).for_each(|(all, line)| all.push(line));
     }
-    let plot = |(metric, curves): (&'static Metric, Vec<PlotCurve>)| {
-        let unit = if metric.unit.is_empty() { String::new() } else { format!(" ({})", metric.unit) };
-        let drawing = Curves {
-            title: metric.name.into(),
-            x: "tilt (°)".into(),
-            y: format!("{}{unit}", metric.name),
-            curves,
-            dots: Vec::new(),
-            small: true,
-            ..Curves::default()
-        };
-        TiltPlot { metric, svg: drawing.svg() }
+    metrics.into_iter().zip(curves).map(|(metric, curves)| plot(metric, curves)).collect()
+}
+
+/// Tilts at which scores are drawn, in degrees.
+pub(super) fn tilts() -> impl Iterator<Item = f64> {
+    (-MOST_TILT..=MOST_TILT).step_by(STEP).map(f64::from)
+}
+
+/// The plot of one score.
+pub(super) fn plot(metric: &'static Metric, curves: Vec<PlotCurve>) -> TiltPlot {
+    let unit = if metric.unit.is_empty() { String::new() } else { format!(" ({})", metric.unit) };
+    let drawing = Curves {
+        title: metric.name.into(),
+        x: "tilt (°)".into(),
+        y: format!("{}{unit}", metric.name),
+        curves,
+        dots: Vec::new(),
+        small: true,
+        ..Curves::default()
     };
-    metrics.into_iter().zip(curves).map(plot).collect()
+    TiltPlot { metric, svg: drawing.svg() }
 }

@@ -32,6 +32,7 @@ mod instruction_sets;
 mod meet;
 mod objective;
 mod optics;
+mod optimised_page;
 mod outlines;
 mod polarisation;
 mod progress;

@@ -78,7 +78,8 @@ impl Case {
 
     /// Whether it takes seconds: a page.
     pub fn is_dear(&self) -> bool {
-        self.command == "report" || (self.command == "compare" && self.values("output").contains(&"out"))
+        let has_page = ["compare", "optimise"].contains(&self.command.as_str());
+        self.command == "report" || (has_page && self.values("output").contains(&"out"))
     }
 
     /// Whether its rows have scores, of which some may be missing.

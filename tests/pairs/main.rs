@@ -7,8 +7,8 @@
 //! found out, and each refusal is a case of its own.
 //!
 //! All pairs, but where a page is made, which takes up to a minute of processor time: with a page of
-//! `compare` go the first two values of each other option, of `report` every value goes with one stone, and
-//! only the first page of each command is made again. Parameters of a cut are given family by family, not
+//! `compare` or `optimise` go the first two values of each other option, of `report` every value goes with one
+//! stone, and only the first page of each command is made again. Parameters of a cut are given family by family, not
 //! one by one. Values are few and small (`samples.rs`): none is tried for its size, and no three options for
 //! each other.
 //!

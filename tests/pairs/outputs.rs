@@ -113,7 +113,7 @@ fn named(case: &Case, value: &Value, ran: &Ran) -> Option<Fault> {
     let rows = || value.as_array().into_iter().flatten();
     let mut named: Vec<PathBuf> = match case.command.as_str() {
         "render" | "plot" | "man" => listed(value),
-        "score" | "sweep" | "merge" => listed(&value["files"]),
+        "score" | "sweep" | "merge" | "optimise" => listed(&value["files"]),
         "edit" | "retarget" | "attribute" => value["file"].as_str().map(PathBuf::from).into_iter().collect(),
         "report" if value.is_object() => listed(&value["files"]),
         "report" => rows().flat_map(|report| listed(&report["files"])).collect(),

@@ -195,6 +195,7 @@ const SAMPLES: &[Sample] = &[
     ("render", "width", &[&["16"], &["24"]]),
     ("report", "width", &[&["64"], &["96"]]),
     ("compare", "width", &[&["64"], &["96"]]),
+    ("optimise", "width", &[&["64"], &["96"]]),
     ("render", "height", &[&["18"]]),
     ("render", "spp", &[&["1"], &["2"]]),
     ("render", "photons", &[&["100"], &["200"]]),
@@ -244,7 +245,7 @@ pub fn tamed(command: &str, words: &[String]) -> Vec<String> {
         return vec!["--rounds".into(), "1".into()];
     }
     let mut words = Vec::new();
-    let is_page = command == "report" || (command == "compare" && has("out"));
+    let is_page = command == "report" || (["compare", "optimise"].contains(&command) && has("out"));
     if is_page && !has("--width") {
         words.extend(["--width".into(), "64".into()]);
     }

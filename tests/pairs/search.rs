@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Rounds of finding what is refused: each finds all that the last one's rows ran into.
 const ROUNDS: usize = 12;
 
-/// The word that makes a page of a comparison.
+/// The word that makes a page of a comparison or an optimisation.
 const PAGE: &str = "out";
 
 /// A failure of a kind that is known: it needs these choices.
@@ -119,11 +119,12 @@ impl<'a> Search<'a> {
         report.ends(self.command, start.elapsed());
     }
 
-    /// Whether a pair is to be tried. Pages take up to a minute of processor time: with one of `compare` go
-    /// the first two values of each other option, and of `report` each value goes with one stone.
+    /// Whether a pair is to be tried. Pages take up to a minute of processor time: with one of `compare` or
+    /// `optimise` go the first two values of each other option, and of `report` each value goes with one stone.
     fn is_tried(&self, (a, b): (Choice, Choice)) -> bool {
         let page = |(f, level): Choice| {
-            self.command == "compare" && self.factors[f].levels[level].contains(&PAGE.into())
+            ["compare", "optimise"].contains(&self.command)
+                && self.factors[f].levels[level].contains(&PAGE.into())
         };
         match (self.command, page(a), page(b)) {
             ("report", ..) => a.0 == 0 && a.1 == b.1 % self.factors[0].levels.len(),

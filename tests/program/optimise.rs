@@ -103,6 +103,57 @@ fn several_objectives_give_a_front() {
     assert!(bench.exists("front/best-2.asc"));
 }
 
+/// The page is one of the files: the same on any number of threads and after kills, replaced by its own command
+/// alone.
+#[test]
+fn a_folder_has_a_page() {
+    let bench = folder();
+    let command = |output: &str| [&optimise(&["--width", "64"])[..], &["-o", output]].concat().join(" ");
+    let run = |output: &str, threads: &str| {
+        let line = command(output);
+        let words: Vec<&str> = line.split(' ').chain(["--threads", threads]).collect();
+        bench.good(&words);
+    };
+    run("one", "1");
+    run("two", "2");
+    let line = command("three");
+    let words: Vec<&str> = line.split(' ').collect();
+    let mut kills = 0;
+    for wait in [300, 600, 900, 1200, 1500] {
+        kills += usize::from(bench.kill_after(Duration::from_millis(wait), &words));
+        if let Some(page) = bench.exists("three/index.html").then(|| bench.read("three/index.html")) {
+            assert_eq!(page, bench.read("one/index.html"), "a page is whole or not there");
+        }
+    }
+    println!("{kills} of 5 kills came in time");
+    run("three", "2");
+    let files = bench.files();
+    let of = |folder: &str| -> Vec<(String, &Vec<u8>)> {
+        let inside = files.iter().filter_map(|(path, bytes)| Some((path.strip_prefix(folder).ok()?, bytes)));
+        inside.map(|(path, bytes)| (path.display().to_string(), bytes)).collect()
+    };
+    let names = |folder: &str| of(folder).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+    assert_eq!(names("one"), ["best.asc", "best.asc.meta.json", "front.csv", "index.html"]);
+    for other in ["two", "three"] {
+        assert_eq!(names("one"), names(other));
+        for ((name, bytes), (_, others)) in of("one").iter().zip(of(other)) {
+            // the files are named with their folder
+            assert!(name.ends_with(".meta.json") || **bytes == *others, "{other}/{name}");
+        }
+    }
+    let (out, _) = bench.ends(0, &[&words[..], &["--json"]].concat());
+    let said: Value = serde_json::from_str(&out).expect("JSON");
+    assert_eq!(said["files"], serde_json::json!(["three/front.csv", "three/best.asc", "three/index.html"]));
+    // the same command replaces its page; another search or size of pictures does not
+    for other in [&["--seed", "2"][..], &["--width", "80"]] {
+        let words = [&optimise(&["-o", "one"])[..], other].concat();
+        let (_, said) = bench.ends(3, &words);
+        assert!(said.contains("--force"), "{said}");
+    }
+    let (_, said) = bench.ends(2, &optimise(&["-o", "b.asc", "--width", "80"]));
+    assert!(said.contains("-o FOLDER"), "{said}");
+}
+
 #[test]
 fn what_cannot_be_is_one_line_and_writes_nothing() {
     let bench = folder();

@@ -1,6 +1,7 @@
-//! What `cutlab optimise` writes: designs, the table of the front, and the progress from which it goes on.
+//! What `cutlab optimise` writes: designs, the table of the front, the page, and the progress from which it goes on.
 
 use super::options::OptimiseArgs;
+use super::page_file::OptimisedPageFile;
 use crate::batch::fingerprint::Fingerprint;
 use crate::batch::table::TableFormat;
 use crate::cli::args::stone::display_name;
@@ -9,9 +10,12 @@ use crate::cli::error::CliError;
 use crate::cli::limits::limits;
 use crate::cli::outputs::Outputs;
 use crate::design::Design;
+use crate::design::edit::Editor;
 use crate::optimise::{Optimisation, OptimiseRequest, Optimised};
+use crate::progress::Progress;
 use crate::render::record;
 use crate::report::edited_file;
+use crate::report::optimised_page::OptimisedPage;
 use crate::report::target_format::TargetFormat;
 use crate::search::Candidate;
 use crate::stone::Stone;
@@ -33,6 +37,8 @@ pub struct OptimisedFiles<'a> {
     first: Option<PathBuf>,
     target: Option<TargetFormat>,
     table: Option<PathBuf>,
+    /// In a folder.
+    page: Option<OptimisedPageFile>,
     /// Of the request and of what its files hold.
     identity: String,
 }
@@ -91,12 +97,14 @@ impl<'a> OptimisedFiles<'a> {
         let is_folder = first.is_some() && first != args.output;
         let in_folder = args.output.as_ref().filter(|_| is_folder).map(|folder| folder.join("front.csv"));
         let table = args.front.clone().or(in_folder);
+        let folder = args.output.as_deref().filter(|_| is_folder);
+        let page = OptimisedPageFile::new(folder, args.width, (request, &identity))?;
         if let Some(other) =
             args.front.as_ref().filter(|t| TableFormat::from_path(t).ok() != Some(TableFormat::Csv))
         {
             return Err(CliError::input(format!("{}: the table of the front is .csv", display_name(other))));
         }
-        let files = OptimisedFiles { args, stone, first, target, table, identity };
+        let files = OptimisedFiles { args, stone, first, target, table, page, identity };
         let mut outputs = Outputs::reading_stones([&args.stone], console);
         let is_begun = files.anchor().is_some_and(|path| {
             Journal::belongs_to(&Journal::path_for(path), &files.identity) || files.is_made_by_this(path)
@@ -104,6 +112,9 @@ impl<'a> OptimisedFiles<'a> {
         let others = (2..=request.most_kept()).filter_map(|i| Some(numbered(files.first.as_ref()?, i)));
         for path in files.first.iter().chain(&files.table).cloned().chain(others) {
             outputs.claim(&path, |_| is_begun)?;
+        }
+        if let Some(page) = &files.page {
+            page.claim(is_begun, &mut outputs)?;
         }
         Ok(files)
     }
@@ -150,12 +161,15 @@ impl<'a> OptimisedFiles<'a> {
         Ok((known, KeptCandidates { files: self, state: Mutex::new(state) }))
     }
 
-    /// Writes the designs, the table of the front and what they were made by; the names of the files.
+    /// Writes the designs, the table of the front, the page and what they were made by; the names of the files.
+    ///
+    /// - `editor`: of the stone's design
     pub fn write(
         &self,
         found: &Optimised,
-        request: &OptimiseRequest,
+        (request, editor): (&OptimiseRequest, &Editor),
         kept: KeptCandidates<'_>,
+        progress: &dyn Progress,
     ) -> Result<Vec<String>, CliError> {
         let mut files = Vec::new();
         if let Some(table) = &self.table {
@@ -163,11 +177,19 @@ impl<'a> OptimisedFiles<'a> {
             files.push(display_name(table));
         }
         let Some(anchor) = self.anchor() else { return Ok(files) };
+        let mut designs = Vec::new();
         for (i, finalist) in found.finalists.iter().enumerate() {
             let Some(first) = &self.first else { break };
             let path = if i == 0 { first.clone() } else { numbered(first, i + 1) };
             atomic_write::write(&path, &self.encoded(&finalist.edited.design)?)?;
             files.push(display_name(&path));
+            designs.push(display_name(path.file_name().unwrap_or_default()));
+        }
+        // the last and the slowest: until it is there the journal stays, and the same command goes on
+        if let Some(page) = self.page.as_ref().filter(|_| !designs.is_empty()) {
+            let found = OptimisedPage::new(self.stone, request, editor, found);
+            page.write(OptimisedPage { files: designs, ..found }, progress)?;
+            files.push(display_name(page.path()));
         }
         let made = Provenance {
             command: record::own_command(),

@@ -6,6 +6,8 @@ use crate::design::LengthUnit;
 use crate::design::edit::Keep;
 use crate::optimise::{Guards, MOST_TOLERANCE_DEG, OptimiseRequest, Variable};
 use crate::parse::{self, NumberUnit};
+use crate::report::LEAST_WIDTH;
+use crate::scene::scene_file::MOST_PIXELS;
 use crate::scoring::constraint::Constraint;
 use crate::scoring::effort::Effort;
 use crate::scoring::objective::{Objective, TiltedMetric};
@@ -95,9 +97,12 @@ pub struct OptimiseArgs {
     #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
     pub size: Option<f64>,
     /// Where to write: a design file, whose extension chooses the format (best.asc; further designs are
-    /// best-2.asc, best-3.asc …); or a folder, for these and the table of the front
+    /// best-2.asc, best-3.asc …); or a folder, for these, the table of the front, and a page (index.html)
     #[arg(long, short, value_name = "FILE|DIR")]
     pub output: Option<PathBuf>,
+    /// Pixels across each picture of the page in a folder [320]
+    #[arg(long, value_name = "PIXELS", value_parser = values::whole_number(LEAST_WIDTH..=MOST_PIXELS, "a width is a whole number of pixels"))]
+    pub width: Option<u32>,
     /// The candidates of the front as a table, with variables and objectives; .csv
     #[arg(long, value_name = "FILE")]
     pub front: Option<PathBuf>,

@@ -11,6 +11,9 @@ pub const HEIGHT: f64 = 600.0;
 /// Width and height of a drawing that is to be shown small, with text as large as in others.
 pub const SMALL: (f64, f64) = (460.0, 345.0);
 
+/// Height of the letters of numbers beside the axes.
+const LETTERS: f64 = 13.0;
+
 /// Room above and below the plot.
 const TOP: f64 = 64.0;
 const BELOW: f64 = 72.0;
@@ -99,7 +102,7 @@ impl PlotFrame {
         Element::drawing((0.0, 0.0), self.size)
             .decimals(DECIMALS)
             .attribute("font-family", FONTS)
-            .font_size(13.0)
+            .font_size(LETTERS)
             .fill("#222")
             .with(Element::rect((0.0, 0.0), self.size).fill("#fff"))
             .with(Element::clip_region(&self.clip, Element::rect((x, y), (w, h))))
@@ -113,7 +116,14 @@ impl PlotFrame {
         let bottom = top + h;
         let line = |path: PathData, colour| Element::path(path).stroke(colour, 1.0);
         let path = || PathData::new(DECIMALS);
-        for (number, text) in ticks(self.x.from, self.x.to, 9) {
+        // as many as have room for their numbers
+        let across = (2..=9).rev().map(|parts| ticks(self.x.from, self.x.to, parts));
+        let have_room = |ticks: &Vec<(f64, String)>| {
+            let widest = ticks.iter().map(|(_, text)| text_width(text, false)).fold(0.0, f64::max);
+            let gap = ticks.windows(2).map(|t| self.x.position(t[1].0) - self.x.position(t[0].0));
+            gap.fold(f64::INFINITY, f64::min) > LETTERS * widest + 6.0
+        };
+        for (number, text) in across.clone().find(have_room).or(across.last()).unwrap_or_default() {
             let x = self.x.position(number);
             if grid {
                 drawing.push(line(path().down((x, top), h), GRID));
@@ -180,5 +190,26 @@ mod tests {
         assert_eq!(texts(-10.0, 10.0, 4), ["−10", "−5", "0", "5", "10"]);
         assert_eq!(texts(0.2513, 0.2538, 5), ["0.2515", "0.2520", "0.2525", "0.2530", "0.2535"]);
         assert!(ticks(30.0, 38.0, 9).iter().all(|(x, _)| (30.0..=38.0).contains(x)));
+    }
+
+    #[test]
+    fn numbers_below_the_axis_do_not_touch() {
+        for (from, to) in [(0.87, 1.15), (-20.0, 20.0), (0.0, 200.0), (-0.0123, -0.0119), (1e5, 1.00001e5)] {
+            let frame = PlotFrame::new(SMALL, (from, to), (0.0, 1.0), 28.0, "plot");
+            let mut drawing = frame.open("", "");
+            frame.axes(&mut drawing, "x", "y", true);
+            let svg = drawing.document();
+            let document = roxmltree::Document::parse(&svg).expect("is XML");
+            let (_, top, _, h) = frame.rectangle();
+            let base = format!("{}", top + h + 20.0);
+            let numbers = document.descendants().filter(|n| n.attribute("y") == Some(&base));
+            let at = |n: roxmltree::Node| -> Option<(f64, f64)> {
+                Some((n.attribute("x")?.parse().ok()?, 13.0 * text_width(n.text()?, false)))
+            };
+            let spans: Vec<(f64, f64)> = numbers.filter_map(at).collect();
+            assert!(spans.len() > 1, "{from} to {to}: {svg}");
+            let apart = |w: &[(f64, f64)]| w[1].0 - w[0].0 > 0.5 * (w[0].1 + w[1].1);
+            assert!(spans.windows(2).all(apart), "{from} to {to}: {spans:?}");
+        }
     }
 }
