@@ -41,13 +41,16 @@ pub fn run(_: &[String]) -> Result<(), Box<dyn Error>> {
         let ends = |at: f64, by: f64, low: f64, high: f64| ((at - by).max(low), (at + by).min(high));
         grid(ends(node[0], STEPS[0].0, 20.0, 40.0), ends(node[1], STEPS[0].1, 38.0, 43.0), STEPS[1])
     });
-    let fine = ranked(&optimisation, around.collect());
+    let mut around: Vec<Vec<f64>> = around.collect();
+    around.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    around.dedup();
+    let fine = ranked(&optimisation, around);
     println!("grid: {} nodes, then {} around the best {}; highest:", coarse.len(), fine.len(), BEST[0]);
     // the highest of many noisy values is high by luck: the best nodes compete again by other random numbers
     let mut fresh = request.clone();
     fresh.effort = Effort::default().samples(SAMPLES / 8).seed(2);
     let again = fresh.prepared(&stone)?;
-    let nodes = fine.iter().chain(&coarse[..BEST[0]]).map(|(_, node)| node.clone()).take(BEST[1] + BEST[0]);
+    let nodes = fine[..BEST[1]].iter().chain(&coarse[..BEST[0]]).map(|(_, node)| node.clone());
     let top = ranked(&again, nodes.collect());
     let (value, node) = &top[0];
     println!("  crown {:.2}°, pavilion {:.3}°: {value:.5}", node[0], node[1]);
@@ -95,7 +98,10 @@ fn solid(angles: (f64, f64)) -> Result<Polyhedron, Box<dyn Error>> {
 fn grid(crown: (f64, f64), pavilion: (f64, f64), step: (f64, f64)) -> Vec<Vec<f64>> {
     let count = |(low, high): (f64, f64), step: f64| ((high - low) / step).round() as usize;
     let nodes = (0..=count(crown, step.0)).flat_map(|i| (0..=count(pavilion, step.1)).map(move |j| (i, j)));
-    nodes.map(|(i, j)| vec![crown.0 + i as f64 * step.0, pavilion.0 + j as f64 * step.1]).collect()
+    // grids that overlap have the same nodes, whatever they are counted from
+    let rounded = |angle: f64| (1e6 * angle).round() / 1e6;
+    let at = |(low, _): (f64, f64), i: usize, step: f64| rounded(low + i as f64 * step);
+    nodes.map(|(i, j)| vec![at(crown, i, step.0), at(pavilion, j, step.1)]).collect()
 }
 
 /// Points with their values, from the highest.
