@@ -27,46 +27,28 @@ const STEPS: [(f64, f64); 2] = [(0.5, 0.125), (0.1, 0.025)];
 /// Nodes of the coarse grid around which the fine one is laid, and nodes of that which are scored again.
 const BEST: [usize; 2] = [6, 20];
 
-/// Points of the hemisphere of the final scores.
-const SAMPLES: u64 = 1 << 23;
+/// Points of the hemisphere: of the coarse grid, the fine one, its best nodes, and the final scores.
+const SAMPLES: [u64; 4] = [1 << 15, 1 << 17, 1 << 20, 1 << 22];
 
 /// Finds the grid's maximum, then optimises from each start.
 pub fn run(_: &[String]) -> Result<(), Box<dyn Error>> {
     println!("{}", timing::machine());
-    let request = request()?;
-    let stone = stone(STARTS[0])?;
-    let optimisation = request.prepared(&stone)?;
-    let coarse = ranked(&optimisation, grid((20.0, 40.0), (38.0, 43.0), STEPS[0]));
-    let around = coarse[..BEST[0]].iter().flat_map(|(_, node)| {
-        let ends = |at: f64, by: f64, low: f64, high: f64| ((at - by).max(low), (at + by).min(high));
-        grid(ends(node[0], STEPS[0].0, 20.0, 40.0), ends(node[1], STEPS[0].1, 38.0, 43.0), STEPS[1])
-    });
-    let mut around: Vec<Vec<f64>> = around.collect();
-    around.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-    around.dedup();
-    let fine = ranked(&optimisation, around);
-    println!("grid: {} nodes, then {} around the best {}; highest:", coarse.len(), fine.len(), BEST[0]);
-    // the highest of many noisy values is high by luck: the best nodes compete again by other random numbers
-    let mut fresh = request.clone();
-    fresh.effort = Effort::default().samples(SAMPLES / 8).seed(2);
-    let again = fresh.prepared(&stone)?;
-    let nodes = fine[..BEST[1]].iter().chain(&coarse[..BEST[0]]).map(|(_, node)| node.clone());
-    let top = ranked(&again, nodes.collect());
-    let (value, node) = &top[0];
-    println!("  crown {:.2}°, pavilion {:.3}°: {value:.5}", node[0], node[1]);
-    let peak = solid((node[0], node[1]))?;
-
-    fresh.effort = Effort::default().samples(SAMPLES);
-    let judge = fresh.prepared(&stone)?;
+    let peak = peak_of_grid()?;
+    let request = request(SAMPLES[1], 1)?;
+    let mut found = Vec::new();
     for start in STARTS {
-        let stone = self::stone(start)?;
-        let found = request.run(&stone, &())?;
-        let best = found.finalists.first().ok_or("no finalist")?;
-        let against =
-            judge.candidates(&()).evaluator.gains(&peak, std::slice::from_ref(&best.edited.solid))?;
-        let gain = &against[0][0];
+        found.push(request.run(&stone(start)?, &())?);
+    }
+    // all of them, and the grid's maximum, by the same random numbers, which none of them was chosen by
+    let solids = found.iter().flat_map(|found| found.finalists.first()).map(|best| best.edited.solid.clone());
+    let solids: Vec<Polyhedron> = solids.collect();
+    let (request, start) = (self::request(SAMPLES[3], 3)?, stone(STARTS[0])?);
+    let against = request.prepared(&start)?.candidates(&()).evaluator.gains(&peak, &solids)?;
+    println!("the grid's maximum: {}", against[0][0].start);
+    for ((start, found), gains) in STARTS.iter().zip(&found).zip(against) {
+        let (best, gain) = (&found.finalists[0], &gains[0]);
         println!(
-            "from {:.1}°, {:.1}°: {} candidates, best at {:.2}°, {:.3}°: {}, against the grid's maximum {:+.5} ± {:.5}: {}",
+            "from {:.1}°, {:.1}°: {} candidates, best at {:.2}°, {:.3}°: {}, against the grid's {:+.5} ± {:.5}: {}",
             start.0,
             start.1,
             found.candidates.len(),
@@ -81,9 +63,36 @@ pub fn run(_: &[String]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn request() -> Result<OptimiseRequest, Box<dyn Error>> {
+/// The stone of the grid's maximum.
+fn peak_of_grid() -> Result<Polyhedron, Box<dyn Error>> {
+    let stone = stone(STARTS[0])?;
+    let scored = |nodes: Vec<Vec<f64>>, samples: u64, seed: u64| -> Result<Vec<_>, Box<dyn Error>> {
+        Ok(ranked(&request(samples, seed)?.prepared(&stone)?, nodes))
+    };
+    let coarse = scored(grid((20.0, 40.0), (38.0, 43.0), STEPS[0]), SAMPLES[0], 1)?;
+    let around = coarse[..BEST[0]].iter().flat_map(|(_, node)| {
+        let ends = |at: f64, by: f64, low: f64, high: f64| ((at - by).max(low), (at + by).min(high));
+        grid(ends(node[0], STEPS[0].0, 20.0, 40.0), ends(node[1], STEPS[0].1, 38.0, 43.0), STEPS[1])
+    });
+    let mut around: Vec<Vec<f64>> = around.collect();
+    around.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    around.dedup();
+    let fine = scored(around, SAMPLES[1], 1)?;
+    println!("grid: {} nodes, then {} around the best {}", coarse.len(), fine.len(), BEST[0]);
+    // the highest of many noisy values is high by luck: the best nodes compete again by other random numbers
+    let best = fine[..BEST[1]].iter().chain(&coarse[..BEST[0]]).map(|(_, node)| node.clone());
+    let again = scored(best.collect(), SAMPLES[2], 2)?;
+    let (value, node) = &again[0];
+    println!("highest: {value:.5} at crown {:.2}°, pavilion {:.3}°", node[0], node[1]);
+    solid((node[0], node[1]))
+}
+
+/// A request of the two angles, with random numbers of a seed for the scores.
+fn request(samples: u64, seed: u64) -> Result<OptimiseRequest, Box<dyn Error>> {
     let vary: Vec<Variable> = VARY.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
-    Ok(OptimiseRequest::new(objectives(&["wlr"])?).vary(vary).evaluations(CANDIDATES))
+    let mut request = OptimiseRequest::new(objectives(&["wlr"])?).vary(vary).evaluations(CANDIDATES);
+    request.effort = Effort::default().samples(samples).seed(seed);
+    Ok(request)
 }
 
 fn stone((crown, pavilion): (f64, f64)) -> Result<Stone, Box<dyn Error>> {
