@@ -9,6 +9,8 @@ use std::fmt;
 /// use cutlab::Estimate;
 ///
 /// assert_eq!(Estimate { value: 0.28376, error: 0.00103 }.to_string(), "0.2838 ± 0.0010");
+/// assert_eq!(Estimate { value: 0.5764512, error: 6.9e-6 }.to_string(), "0.5764512 ± 0.0000069");
+/// assert_eq!(Estimate { value: 3.1e-5, error: 2e-7 }.to_string(), "3.10e-5 ± 2e-7");
 /// assert_eq!(Estimate::exact(0.5).to_string(), "0.5000");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -36,12 +38,18 @@ impl Estimate {
             return (unsigned(format!("{:.4}", self.value)), None);
         }
         let digits = (1.0 - self.error.log10().floor()).max(0.0) as usize;
-        if digits > 6 {
+        if digits > MOST_DECIMALS && self.value.abs() < SMALL {
             return (unsigned(format!("{:.2e}", self.value)), Some(format!("{:.0e}", self.error)));
         }
         (unsigned(format!("{:.digits$}", self.value)), Some(format!("{:.digits$}", self.error)))
     }
 }
+
+/// More decimals than these are not written of a small number: it is in powers of ten.
+const MOST_DECIMALS: usize = 6;
+
+/// Numbers below this are small.
+const SMALL: f64 = 1e-3;
 
 /// `0.2838 ± 0.0010`; a value without error alone.
 impl fmt::Display for Estimate {
