@@ -88,10 +88,10 @@ fn facet_widths(stone: &Polyhedron) -> Vec<f64> {
 fn girdle(stone: &Polyhedron) -> Option<(f64, f64)> {
     let is_girdle = |i: &usize| Zone::from_normal(stone.area_vector(*i).normalize_or_zero()) == Zone::Girdle;
     let faces: Vec<usize> = (0..stone.faces.len()).filter(is_girdle).collect();
+    let near = 1e-6 * stone.width();
     let columns = faces.iter().flat_map(|&i| {
         // heights above the corners of one facet that stand above each other
         let corners: Vec<DVec3> = stone.polygon(i).collect();
-        let near = 1e-6 * stone.width();
         let above = move |a: &DVec3| {
             let column = corners.iter().filter(|b| b.truncate().distance(a.truncate()) < near).map(|b| b.z);
             column.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))

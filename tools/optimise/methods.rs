@@ -2,7 +2,9 @@
 //! value after 50, 100 and 200 candidates, and by two and three objectives together the front's hypervolume. Prints
 //! the tables of `reports/optimise.md`, and on standard error how far it is.
 //!
-//! Best values are scored again, finer and by other random numbers than those that they were chosen by.
+//! Best values are scored again, finer and by other random numbers than those that they were chosen by. What is
+//! measured of a design is kept in `target/optimise/` for the same build, so that the whole can be made in pieces:
+//! `methods --only NAME` measures one design and prints nothing.
 
 use super::fronts::{hypervolumes, objectives_of};
 use super::subjects::{SUBJECTS, Subject, ends, median, objectives, problem};
@@ -11,7 +13,9 @@ use cutlab::advanced::optimise::Optimisation;
 use cutlab::advanced::scoring::{Effort, Objective};
 use cutlab::advanced::search::front::best_distinct;
 use cutlab::advanced::search::{Candidate, Evaluate, METHODS, Method, Problem, SearchSettings, search};
+use serde::{Deserialize, Serialize};
 use std::error::Error;
+use std::path::Path;
 use std::time::Instant;
 
 /// Candidates of a search.
@@ -33,42 +37,67 @@ const TOGETHER: [&[&str]; 2] = [&["iso", "fire_streak"], &["iso", "fire_streak",
 type Reached = [Vec<f64>; AFTER.len()];
 
 /// The results of all methods that take a problem.
+#[derive(Serialize, Deserialize)]
 struct Table {
     subject: String,
     objective: String,
     /// What the start has and the best that any method found, in words.
     ends: String,
     /// 0 is what the start has, 1 the best that any search of the table found.
-    rows: Vec<(Method, Reached)>,
+    rows: Vec<(String, Reached)>,
 }
 
-/// Measures all, or the subjects that are named.
+/// What is measured of a design.
+#[derive(Serialize, Deserialize)]
+struct Measured {
+    single: Vec<Table>,
+    together: Vec<Table>,
+    /// How long it took.
+    seconds: f64,
+}
+
+/// Measures what is not measured yet, and prints all; after `--only` measures one design.
 pub fn run(arguments: &[String]) -> Result<(), Box<dyn Error>> {
-    let asked =
-        |subject: &&Subject| arguments.is_empty() || arguments.iter().any(|name| name == subject.stone);
-    let begun = Instant::now();
-    let (mut single, mut together) = (Vec::new(), Vec::new());
-    for subject in SUBJECTS.iter().filter(asked) {
-        let told = |what: &str| {
-            eprintln!("{}, {what}: {:.0} s", subject.title(), begun.elapsed().as_secs_f64());
-        };
-        for name in SINGLE {
-            single.push(of_one(subject, name)?);
-            told(name);
-        }
-        for names in TOGETHER {
-            together.push(of_several(subject, names)?);
-            told(&names.join(", "));
-        }
+    if let [only, name] = arguments
+        && only == "--only"
+    {
+        let subject = SUBJECTS.iter().find(|subject| subject.stone == name).ok_or("no such design")?;
+        return measured(subject).map(drop);
     }
-    println!("{}; {:.0} s in all", timing::machine(), begun.elapsed().as_secs_f64());
+    let all = SUBJECTS.iter().map(measured).collect::<Result<Vec<_>, _>>()?;
+    let seconds: f64 = all.iter().map(|measured| measured.seconds).sum();
+    let threads = rayon::current_num_threads();
+    println!("{}; {:.0} min in all on {threads} of them", timing::machine(), seconds / 60.0);
     println!("\n### One objective\n");
-    print_summary(&single);
-    print_tables(&single);
+    let (single, together): (Vec<_>, Vec<_>) = all.into_iter().map(|m| (m.single, m.together)).unzip();
+    print_all(&single.into_iter().flatten().collect::<Vec<_>>());
     println!("\n### Several objectives\n");
-    print_summary(&together);
-    print_tables(&together);
+    print_all(&together.into_iter().flatten().collect::<Vec<_>>());
     Ok(())
+}
+
+/// What is measured of a design, now or before by the same build.
+fn measured(subject: &Subject) -> Result<Measured, Box<dyn Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/optimise");
+    let kept = folder.join(format!("methods-{}-{}.json", subject.stone, env!("CUTLAB_BUILD")));
+    if let Ok(text) = std::fs::read_to_string(&kept) {
+        return Ok(serde_json::from_str(&text)?);
+    }
+    let begun = Instant::now();
+    let told = |what: &str| eprintln!("{}, {what}: {:.0} s", subject.title(), begun.elapsed().as_secs_f64());
+    let mut measured = Measured { single: Vec::new(), together: Vec::new(), seconds: 0.0 };
+    for name in SINGLE {
+        measured.single.push(of_one(subject, name)?);
+        told(name);
+    }
+    for names in TOGETHER {
+        measured.together.push(of_several(subject, names)?);
+        told(&names.join(", "));
+    }
+    measured.seconds = begun.elapsed().as_secs_f64();
+    std::fs::create_dir_all(&folder)?;
+    std::fs::write(&kept, serde_json::to_string(&measured)?)?;
+    Ok(measured)
 }
 
 /// The searches of a method, one for each seed.
@@ -112,9 +141,9 @@ fn of_one(subject: &Subject, name: &str) -> Result<Table, Box<dyn Error>> {
     let start = judge.candidates(&()).evaluator.start().objectives[0];
     let best = ends(rows.iter().flat_map(|(_, reached)| reached.iter().flatten().copied())).1;
     let share = |value: f64| (value - start.value) / (best - start.value).max(f64::MIN_POSITIVE);
-    let rows = rows
-        .into_iter()
-        .map(|(method, reached)| (method, reached.map(|v| v.into_iter().map(share).collect())));
+    let rows = rows.into_iter().map(|(method, reached)| {
+        (method.name().to_owned(), reached.map(|v| v.into_iter().map(share).collect()))
+    });
     Ok(Table {
         subject: format!("{} ({} variables)", subject.title(), problem.ranges().len()),
         objective: request.objectives[0].name(),
@@ -160,7 +189,7 @@ fn of_several(subject: &Subject, names: &[&str]) -> Result<Table, Box<dyn Error>
     let mut rows = Vec::new();
     for (method, _) in all {
         let reached = AFTER.map(|_| volumes.by_ref().take(SEEDS as usize).map(share).collect::<Vec<_>>());
-        rows.push((method, reached));
+        rows.push((method.name().to_owned(), reached));
     }
     Ok(Table {
         subject: format!("{} ({} variables)", subject.title(), problem.ranges().len()),
@@ -195,9 +224,14 @@ fn print_summary(tables: &[Table]) {
             // what differs by less than is printed is the same
             table.rows.iter().all(|(_, reached)| own >= median(&reached[last]) - 5e-4)
         });
-        println!("| {} | {} | {worst:.3} | {} |", method.name(), medians.join(" | "), leads.count());
+        println!("| {} | {} | {worst:.3} | {} |", method, medians.join(" | "), leads.count());
     }
     println!();
+}
+
+fn print_all(tables: &[Table]) {
+    print_summary(tables);
+    print_tables(tables);
 }
 
 fn print_tables(tables: &[Table]) {
@@ -208,14 +242,7 @@ fn print_tables(tables: &[Table]) {
         let mut head = [table.subject.as_str(), &table.objective, &table.ends];
         for (method, reached) in &table.rows {
             let cells: Vec<String> = reached.iter().map(|values| cell(values)).collect();
-            println!(
-                "| {} | {} | {} | {} | {} |",
-                head[0],
-                head[1],
-                head[2],
-                method.name(),
-                cells.join(" | ")
-            );
+            println!("| {} | {} | {} | {} | {} |", head[0], head[1], head[2], method, cells.join(" | "));
             head = [""; 3];
         }
     }

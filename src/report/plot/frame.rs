@@ -117,13 +117,13 @@ impl PlotFrame {
         let line = |path: PathData, colour| Element::path(path).stroke(colour, 1.0);
         let path = || PathData::new(DECIMALS);
         // as many as have room for their numbers
-        let across = (2..=9).rev().map(|parts| ticks(self.x.from, self.x.to, parts));
+        let across = |parts| ticks(self.x.from, self.x.to, parts);
         let have_room = |ticks: &Vec<(f64, String)>| {
             let widest = ticks.iter().map(|(_, text)| text_width(text, false)).fold(0.0, f64::max);
             let gap = ticks.windows(2).map(|t| self.x.position(t[1].0) - self.x.position(t[0].0));
             gap.fold(f64::INFINITY, f64::min) > LETTERS * widest + 6.0
         };
-        for (number, text) in across.clone().find(have_room).or(across.last()).unwrap_or_default() {
+        for (number, text) in (2..=9).rev().map(across).find(have_room).unwrap_or_else(|| across(2)) {
             let x = self.x.position(number);
             if grid {
                 drawing.push(line(path().down((x, top), h), GRID));

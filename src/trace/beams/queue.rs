@@ -12,21 +12,28 @@ struct QueueLevel<B> {
     corners: Vec<DVec2>,
 }
 
+impl<B> QueueLevel<B> {
+    fn new() -> Self {
+        QueueLevel { beams: Vec::new(), corners: Vec::new() }
+    }
+}
+
 /// A priority queue of beams.
 #[derive(Debug)]
 pub struct Queue<B> {
     levels: Vec<QueueLevel<B>>,
     /// No level before this one has a beam.
     strongest: usize,
+    /// What levels that have become empty were stored in, for levels that have not begun: to let each level grow
+    /// from nothing takes a good part of the time of a stone that is not followed far.
+    spare: Vec<QueueLevel<B>>,
 }
 
 impl<B> Queue<B> {
     /// An empty queue; one that is not `sorted` is a stack, which stays short.
     pub fn new(sorted: bool) -> Self {
-        let levels = (0..if sorted { LEVELS } else { 1 })
-            .map(|_| QueueLevel { beams: Vec::new(), corners: Vec::new() })
-            .collect();
-        Queue { levels, strongest: 0 }
+        let levels = (0..if sorted { LEVELS } else { 1 }).map(|_| QueueLevel::new()).collect();
+        Queue { levels, strongest: 0, spare: Vec::new() }
     }
 
     /// The level of a power: exponent and first two bits of the mantissa, counted down from 1.
@@ -40,6 +47,11 @@ impl<B> Queue<B> {
     pub fn push(&mut self, beam: B, power: f64, corners: &[DVec2]) {
         let level = self.level(power);
         self.strongest = self.strongest.min(level);
+        if self.levels[level].beams.capacity() == 0
+            && let Some(spare) = self.spare.pop()
+        {
+            self.levels[level] = spare;
+        }
         let QueueLevel { beams, corners: all } = &mut self.levels[level];
         all.extend_from_slice(corners);
         beams.push((beam, corners.len()));
@@ -59,6 +71,9 @@ impl<B> Queue<B> {
             }
             if last {
                 return None;
+            }
+            if level.beams.capacity() > 0 {
+                self.spare.push(std::mem::replace(level, QueueLevel::new()));
             }
             self.strongest += 1;
         }
