@@ -89,6 +89,9 @@ const ROUND: f64 = 1.045;
 /// A side shorter than this part of the perimeter is what the rounding of a file leaves between corners.
 const SHORT: f64 = 1e-3;
 
+/// A corner that turns by less, in degrees, lies on a side: of a facet that reaches the outline between two others.
+const STRAIGHT_DEG: f64 = 0.2;
+
 /// A side is long from this part of the perimeter on: below that of an octagon.
 const LONG: f64 = 0.12;
 
@@ -204,10 +207,12 @@ impl Outline {
     fn new(hull: Vec<DVec2>) -> Outline {
         let centre = centroid(&hull);
         let perimeter: f64 = sides(&hull).map(DVec2::length).sum();
-        let apart =
-            |(corner, side): &(&DVec2, DVec2)| (side.length() >= SHORT * perimeter).then_some(**corner);
-        let corners: Vec<DVec2> =
-            hull.iter().zip(sides(&hull)).filter_map(|c| apart(&c)).map(|corner| corner - centre).collect();
+        let is_side = |(_, side): &(&DVec2, DVec2)| side.length() >= SHORT * perimeter;
+        let apart: Vec<DVec2> =
+            hull.iter().zip(sides(&hull)).filter(is_side).map(|(corner, _)| *corner - centre).collect();
+        let turns = turns_deg(&apart);
+        let corners =
+            apart.iter().zip(turns).filter(|(_, turn)| *turn >= STRAIGHT_DEG).map(|(c, _)| *c).collect();
         let mut outline = Outline { corners, reach: Vec::new(), width: 0.0, length: 0.0 };
         outline.reach = (0..DIRECTIONS).map(|i| outline.reach(TAU * i as f64 / DIRECTIONS as f64)).collect();
         let extent = |angle: f64| outline.reach(angle) + outline.reach(angle + PI);
@@ -274,9 +279,7 @@ impl Outline {
 
     /// How many of its corners are points.
     fn points(&self) -> usize {
-        let sides: Vec<DVec2> = self.sides().collect();
-        let before = |i: usize| sides[(i + sides.len() - 1) % sides.len()];
-        (0..sides.len()).filter(|&i| before(i).angle_to(sides[i]).to_degrees() >= POINT_DEG).count()
+        turns_deg(&self.corners).iter().filter(|turn| **turn >= POINT_DEG).count()
     }
 }
 
@@ -284,4 +287,11 @@ impl Outline {
 fn sides(corners: &[DVec2]) -> impl Iterator<Item = DVec2> + '_ {
     let n = corners.len();
     (0..n).map(move |i| corners[(i + 1) % n] - corners[i])
+}
+
+/// By how much the sides of a polygon turn at each corner, in degrees.
+fn turns_deg(corners: &[DVec2]) -> Vec<f64> {
+    let sides: Vec<DVec2> = sides(corners).collect();
+    let before = |i: usize| sides[(i + sides.len() - 1) % sides.len()];
+    (0..sides.len()).map(|i| before(i).angle_to(sides[i]).to_degrees()).collect()
 }

@@ -36,6 +36,7 @@ fn folder() -> Bench {
     std::fs::create_dir(bench.path("designs")).expect("makes a folder");
     bench.good(&["generate", "classic", "-q", "-o", "my.asc", "-o", "designs/one.asc", "-o", "ring.stl"]);
     bench.good(&["generate", "emerald", "-q", "-o", "designs/two.gem"]);
+    bench.good(&["generate", "oval", "-q", "-o", "designs/three.asc"]);
     let sky =
         image::ImageBuffer::<image::Rgb<f32>, Vec<f32>>::from_fn(8, 4, |x, _| image::Rgb([x as f32; 3]));
     sky.save(bench.path("garden.hdr")).expect("writes a panorama");
