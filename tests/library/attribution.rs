@@ -33,9 +33,12 @@ fn difference(more: Estimate, less: Estimate) -> Estimate {
 fn changes_per_degree_are_what_edits_score() {
     /// Of `iso` by beams both ways: what their ends leave, in points per degree.
     const BY_BEAMS: f64 = 2e-3;
-    for spec in ["classic:ri=1.54", "round-brilliant", "emerald"] {
-        let (found, stone) = (attribution(spec, &["iso", "wlr"], 1 << 15), stone(spec));
-        let (mut compared, mut telling) = (0, 0);
+    let mut told_by_rays = 0;
+    for (spec, metrics) in
+        [("classic:ri=1.54", &["iso", "wlr"][..]), ("round-brilliant", &["iso"]), ("emerald", &["iso"])]
+    {
+        let (found, stone) = (attribution(spec, metrics, 1 << 16), stone(spec));
+        let (mut compared, mut told) = (0, 0);
         for tier in &found.tiers {
             for change in &tier.changes {
                 let keep = tier.keep.expect("was turned");
@@ -50,13 +53,17 @@ fn changes_per_degree_are_what_edits_score() {
                 let off = (change.per_degree.value - slope).abs();
                 let which = format!("{spec} {} {}", tier.place, change.objective);
                 assert!(off <= allowed, "{which}: {:?} {slope} ± {error}", change.per_degree);
-                compared += 1;
-                telling += usize::from(slope.abs() > 2.0 * allowed);
+                // a sign that is turned around would be seen
+                let is_told = 2.0 * slope.abs() > allowed;
+                match &*change.objective {
+                    "iso" => (compared, told) = (compared + 1, told + usize::from(is_told)),
+                    _ => told_by_rays += usize::from(is_told),
+                }
             }
         }
-        // a sign that is turned around is seen in most of them
-        assert!(compared >= 6 && 2 * telling > compared, "{spec}: {telling} of {compared}");
+        assert!(compared >= 5 && 4 * told > 3 * compared, "{spec}: {told} of {compared}");
     }
+    assert!(told_by_rays > 0);
 }
 
 #[test]
@@ -83,8 +90,14 @@ fn lost_light_adds_up_to_the_metric() {
 #[test]
 fn advice_gains_what_it_says() {
     let mut advised = 0;
-    for spec in ["classic:ri=1.54", "classic:ri=1.76", "round-brilliant", "emerald", "pear"] {
-        let (found, stone) = (attribution(spec, &["iso", "windowing"], 1 << 13), stone(spec));
+    for (spec, metrics) in [
+        ("classic:ri=1.54", &["iso", "windowing"][..]),
+        ("classic:ri=1.76", &["iso", "windowing"]),
+        ("round-brilliant", &["iso"]),
+        ("emerald", &["iso"]),
+        ("pear", &["iso"]),
+    ] {
+        let (found, stone) = (attribution(spec, metrics, 1 << 13), stone(spec));
         for (number, objective) in found.objectives.iter().enumerate() {
             let Some(first) = &objective.first else { continue };
             let tier = found.tiers.iter().find(|tier| tier.place == first.place).expect("is a tier");
@@ -121,10 +134,7 @@ fn what_follows_is_said() {
         for (usual, angles) in usual.tiers.iter().zip(&angles.tiers) {
             match usual.keep {
                 Some(Keep::Meets) => {
-                    assert!(
-                        angles.left_out.as_ref().is_some_and(|why| why.contains("meet")),
-                        "{spec} {angles:?}"
-                    );
+                    assert!(angles.left_out.is_some() && angles.changes.is_empty(), "{spec} {angles:?}");
                     following += usize::from(!usual.followed.is_empty());
                 }
                 Some(_) => {
