@@ -205,7 +205,7 @@ fn a_design_is_made_for_another_index() {
 fn the_rules_that_score_best_are_taken() {
     let bench = folder();
     let iso = |stone: &str| {
-        let tilted = ["--tilt", "0:10:10", "--tilt-axis", "0,90", "--exact", "--metrics", "iso", "--json"];
+        let tilted = ["--tilt", "0:10:10", "--tilt-axis", "0,90", "--exact", "--metrics", "iso"];
         let scored = json(&bench, &[&["score", stone, "--ri", "1.76"], &tilted[..]].concat());
         let rows = scored.as_array().expect("rows");
         rows.iter().map(|row| row["iso"].as_f64().expect("a score")).sum::<f64>() / rows.len() as f64

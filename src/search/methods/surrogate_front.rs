@@ -16,11 +16,15 @@ use genoxide::multi::MultiObjectiveAlgorithm;
 /// Points of a batch.
 const BATCH: usize = 12;
 
+/// Points of a batch that are chosen anywhere, whatever the model expects: a score that jumps has peaks of which it knows
+/// nothing. `tools/optimise` measures what that is worth (`fronts`).
+const ANYWHERE: usize = 3;
+
 /// Individuals of the search of the model, of which half are of the front so far.
 const POPULATION: usize = 100;
 
 /// Generations of the search of the model.
-const GENERATIONS: usize = 40;
+const GENERATIONS: usize = 100;
 
 /// No point of a batch is nearer than this to what is known, in shares of the ranges.
 const APART: f64 = 1e-3;
@@ -69,11 +73,12 @@ impl<const M: usize> SurrogateFront<M> {
         // for the model the front matters most, then what was found last
         let others = (0..self.samples.len()).rev().filter(|number| !front.contains(number));
         let order: Vec<usize> = front.iter().copied().chain(others).collect();
-        let mut points = match SurrogateModel::fit(&self.samples, &order) {
+        let mut points = match SurrogateModel::fit(&self.samples, &order, 0.0) {
             Some(model) => self.promising(&model, &front)?,
             None => Vec::new(),
         };
-        // where the model promises too little, points from anywhere
+        points.truncate(BATCH - ANYWHERE);
+        // more of these where the model promises too little
         let first = self.round * BATCH as u64;
         let missing = BATCH - points.len();
         let random = (first..).take(missing).map(|i| random::point(self.first[0].len(), self.seed, i));

@@ -19,10 +19,6 @@ const MOST_SAMPLES: usize = 400;
 /// Samples nearer than this to another of the model are left out: they say nothing more.
 const NEAREST: f64 = 1e-5;
 
-/// The share of an objective's values below which the model takes them all for the same. A cliff in a region
-/// that nobody wants would otherwise make waves in others.
-const LEVELLED: f64 = 0.2;
-
 /// The expected violation that is taken for none, as a share of the largest: a function that is level where
 /// no constraint is broken is never met exactly there.
 const TOLERANCE: f64 = 1e-3;
@@ -38,7 +34,10 @@ impl SurrogateModel {
     /// The model of samples; none, if they do not determine one.
     ///
     /// - `order`: numbers of samples, those that matter most first
-    pub fn fit(samples: &[Sample], order: &[usize]) -> Option<SurrogateModel> {
+    /// - `levelled`: the share of an objective's values below which the model takes them all for the same. Of one
+    ///   objective nobody wants the lowest, and a cliff there would make waves elsewhere; of several the least of one
+    ///   may be the best of another
+    pub fn fit(samples: &[Sample], order: &[usize], levelled: f64) -> Option<SurrogateModel> {
         let mut chosen: Vec<&Sample> = Vec::new();
         for sample in order.iter().filter_map(|&number| samples.get(number)) {
             if chosen.iter().all(|other| distance(&other.point, &sample.point) > NEAREST) {
@@ -51,7 +50,7 @@ impl SurrogateModel {
         let valued = || chosen.iter().map(|sample| &sample.outcome).filter(|o| o.violation.is_finite());
         let objectives = valued().next()?.objectives.len();
         let floors: Vec<f64> =
-            (0..objectives).map(|j| floor(valued().filter_map(|o| o.objectives.get(j).copied()))).collect();
+            (0..objectives).map(|j| floor(valued().filter_map(|o| o.objectives.get(j).copied()), levelled)).collect();
         let largest = valued().map(|outcome| outcome.violation).fold(0.0, f64::max);
         let has_violation = chosen.iter().any(|sample| !sample.outcome.is_feasible());
         let unit = if largest > 0.0 { largest } else { 1.0 };
@@ -74,11 +73,11 @@ impl SurrogateModel {
     }
 }
 
-/// The value below which values are levelled.
-fn floor(values: impl Iterator<Item = f64>) -> f64 {
+/// The value below which a share of the values lies.
+fn floor(values: impl Iterator<Item = f64>, share: f64) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    values.get((values.len() as f64 * LEVELLED) as usize).copied().unwrap_or(0.0)
+    values.get((values.len() as f64 * share) as usize).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]
@@ -100,7 +99,7 @@ mod tests {
     fn a_model_expects_what_constraints_forbid() {
         let samples: Vec<Sample> = (0..80).map(|i| sample(point(2, 3, i))).collect();
         let order: Vec<usize> = (0..samples.len()).collect();
-        let model = SurrogateModel::fit(&samples, &order).expect("80 samples determine one");
+        let model = SurrogateModel::fit(&samples, &order, 0.0).expect("80 samples determine one");
         assert!(model.predict(&[0.1, 0.5]).violation > 0.5);
         assert!(model.predict(&[0.55, 0.5]).violation > 0.2);
         let good = model.predict(&[0.9, 0.6]);
@@ -111,7 +110,7 @@ mod tests {
     fn nothing_anywhere_is_no_model() {
         let nothing = |i| Sample { point: point(2, 3, i), outcome: Outcome::nothing() };
         let samples: Vec<Sample> = (0..20).map(nothing).collect();
-        assert!(SurrogateModel::fit(&samples, &[0, 1, 2, 3, 4, 5]).is_none());
-        assert!(SurrogateModel::fit(&[], &[]).is_none());
+        assert!(SurrogateModel::fit(&samples, &[0, 1, 2, 3, 4, 5], 0.0).is_none());
+        assert!(SurrogateModel::fit(&[], &[], 0.0).is_none());
     }
 }

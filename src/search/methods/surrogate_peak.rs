@@ -43,6 +43,9 @@ const GENERATIONS: usize = 40;
 /// No peak is nearer than this to what is known, in shares of the ranges.
 const APART: f64 = 1e-4;
 
+/// The share of the values below which the model takes them all for the same.
+const LEVELLED: f64 = 0.2;
+
 /// Edges of the first simplexes, in shares of the ranges, and of those that begin when one has converged.
 const EDGES: [f64; 2] = [0.05, 0.15];
 
@@ -103,7 +106,7 @@ impl SurrogatePeak {
     fn by_model(&self) -> Result<Vec<Vec<f64>>, SearchError> {
         let ranked = self.ranked();
         let best = &self.samples[ranked[0]].point;
-        let Some(model) = SurrogateModel::fit(&self.samples, &ranked) else {
+        let Some(model) = SurrogateModel::fit(&self.samples, &ranked, LEVELLED) else {
             let first = self.round * LOOKS.len() as u64;
             return Ok((first..)
                 .take(LOOKS.len())
