@@ -1,11 +1,14 @@
 //! `fronts [SUBJECT…]`: the front of ISO, fire and weight after 800 candidates against the front of 10,000 random
-//! feasible designs of the same box, by hypervolume.
+//! feasible designs of the same box, by hypervolume. The random ones are kept in `target/optimise/`, and taken from
+//! there as long as the first of them still have the outcomes that they had: so a method can be changed and measured
+//! again.
 
-use super::subjects::{SUBJECTS, Subject, ends, objectives, problem};
+use super::subjects::{SUBJECTS, Subject, ends, kept_file, objectives, problem};
 use super::timing;
 use cutlab::advanced::sampling::random::{Purpose, Stream};
 use cutlab::advanced::search::front::{front, hypervolume};
-use cutlab::advanced::search::{Candidate, Evaluate, Outcome, SearchResult, SearchSettings, search};
+use cutlab::advanced::search::{Candidate, Evaluate, Outcome, Problem, SearchResult, SearchSettings, search};
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::time::Instant;
 
@@ -48,24 +51,14 @@ fn measure(subject: &Subject) -> Result<(), Box<dyn Error>> {
     let SearchResult { candidates: found, .. } = search(&problem, &settings, &candidates, &())?;
     eprintln!("{}: searched after {:.0} s", subject.title(), begun.elapsed().as_secs_f64());
 
-    let (mut random, mut tried): (Vec<Candidate>, u64) = (Vec::new(), 0);
-    while random.len() < RANDOM {
-        let point = |number: u64| {
-            let mut stream = Stream::new(1, Purpose::TEST, number);
-            let unit: Vec<f64> = problem.ranges().iter().map(|_| stream.unit64()).collect();
-            problem.from_unit(&unit)
-        };
-        let batch: Vec<Vec<f64>> = (tried..tried + BATCH).map(point).collect();
-        tried += BATCH;
-        let outcomes = candidates.evaluate(&batch);
-        let new = batch.into_iter().zip(outcomes).map(|(values, outcome)| Candidate { values, outcome });
-        random.extend(new.filter(|candidate| candidate.outcome.is_feasible()));
-        if tried % 1000 == 0 {
-            let seconds = begun.elapsed().as_secs_f64();
-            eprintln!("{}: {} feasible of {tried} after {seconds:.0} s", subject.title(), random.len());
-        }
-    }
-    random.truncate(RANDOM);
+    let kept = kept_file(&format!("fronts-{}", subject.stone))?;
+    let random = match std::fs::read_to_string(&kept).ok().and_then(|text| serde_json::from_str(&text).ok()) {
+        Some(random) if is_current(&random, &problem, &candidates) => random,
+        _ => random_designs(subject, &problem, &candidates),
+    };
+    std::fs::write(&kept, serde_json::to_string(&random)?)?;
+    std::fs::write(kept.with_extension("found.json"), serde_json::to_string(&found)?)?;
+    let Random { feasible: random, tried } = random;
     let fronts = [&found, &random].map(|candidates| objectives_of(candidates));
     let volumes = hypervolumes(&fronts);
     let (ours, theirs) = (volumes[0], volumes[1]);
@@ -78,6 +71,50 @@ fn measure(subject: &Subject) -> Result<(), Box<dyn Error>> {
         ours / theirs
     );
     Ok(())
+}
+
+/// Random designs.
+#[derive(Serialize, Deserialize)]
+struct Random {
+    /// Those that are feasible.
+    feasible: Vec<Candidate>,
+    /// Out of so many.
+    tried: u64,
+}
+
+/// The random point of a number.
+fn random_point(problem: &Problem, number: u64) -> Vec<f64> {
+    let mut stream = Stream::new(1, Purpose::TEST, number);
+    let unit: Vec<f64> = problem.ranges().iter().map(|_| stream.unit64()).collect();
+    problem.from_unit(&unit)
+}
+
+fn random_designs(subject: &Subject, problem: &Problem, evaluate: &dyn Evaluate) -> Random {
+    let begun = Instant::now();
+    let (mut feasible, mut tried): (Vec<Candidate>, u64) = (Vec::new(), 0);
+    while feasible.len() < RANDOM {
+        let batch: Vec<Vec<f64>> =
+            (tried..tried + BATCH).map(|number| random_point(problem, number)).collect();
+        tried += BATCH;
+        let outcomes = evaluate.evaluate(&batch);
+        let new = batch.into_iter().zip(outcomes).map(|(values, outcome)| Candidate { values, outcome });
+        feasible.extend(new.filter(|candidate| candidate.outcome.is_feasible()));
+        if tried % 1000 == 0 {
+            let seconds = begun.elapsed().as_secs_f64();
+            eprintln!("{}: {} feasible of {tried} after {seconds:.0} s", subject.title(), feasible.len());
+        }
+    }
+    feasible.truncate(RANDOM);
+    Random { feasible, tried }
+}
+
+/// Whether designs that were kept are random ones of this problem, with the outcomes that they have.
+fn is_current(random: &Random, problem: &Problem, evaluate: &dyn Evaluate) -> bool {
+    let values: Vec<Vec<f64>> = (0..BATCH).map(|number| random_point(problem, number)).collect();
+    let outcomes = evaluate.evaluate(&values);
+    let now = values.into_iter().zip(outcomes).map(|(values, outcome)| Candidate { values, outcome });
+    let now: Vec<Candidate> = now.filter(|candidate| candidate.outcome.is_feasible()).collect();
+    random.feasible.len() == RANDOM && random.feasible.starts_with(&now)
 }
 
 /// The objectives of the feasible candidates that none dominates.

@@ -7,7 +7,7 @@
 //! `methods --only NAME` measures one design and prints nothing.
 
 use super::fronts::{hypervolumes, objectives_of};
-use super::subjects::{SUBJECTS, Subject, ends, median, objectives, problem};
+use super::subjects::{SUBJECTS, Subject, ends, kept_file, median, objectives, problem};
 use super::timing;
 use cutlab::advanced::optimise::Optimisation;
 use cutlab::advanced::scoring::{Effort, Objective};
@@ -15,7 +15,6 @@ use cutlab::advanced::search::front::best_distinct;
 use cutlab::advanced::search::{Candidate, Evaluate, METHODS, Method, Problem, SearchSettings, search};
 use serde::{Deserialize, Serialize};
 use std::error::Error;
-use std::path::Path;
 use std::time::Instant;
 
 /// Candidates of a search.
@@ -78,8 +77,7 @@ pub fn run(arguments: &[String]) -> Result<(), Box<dyn Error>> {
 
 /// What is measured of a design, now or before by the same build.
 fn measured(subject: &Subject) -> Result<Measured, Box<dyn Error>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/optimise");
-    let kept = folder.join(format!("methods-{}-{}.json", subject.stone, env!("CUTLAB_BUILD")));
+    let kept = kept_file(&format!("methods-{}-{}", subject.stone, env!("CUTLAB_BUILD")))?;
     if let Ok(text) = std::fs::read_to_string(&kept) {
         return Ok(serde_json::from_str(&text)?);
     }
@@ -95,7 +93,6 @@ fn measured(subject: &Subject) -> Result<Measured, Box<dyn Error>> {
         told(&names.join(", "));
     }
     measured.seconds = begun.elapsed().as_secs_f64();
-    std::fs::create_dir_all(&folder)?;
     std::fs::write(&kept, serde_json::to_string(&measured)?)?;
     Ok(measured)
 }

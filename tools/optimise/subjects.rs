@@ -6,6 +6,7 @@ use cutlab::advanced::scoring::{Effort, Objective};
 use cutlab::advanced::search::{Problem, ProblemError};
 use cutlab::{Material, OptimiseRequest, Stone, Variable};
 use std::error::Error;
+use std::path::{Path, PathBuf};
 
 /// A design to optimise.
 pub struct Subject {
@@ -92,6 +93,13 @@ pub fn median(values: &[f64]) -> f64 {
 pub fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let wider = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
     values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+}
+
+/// A file for what is measured in pieces.
+pub fn kept_file(name: &str) -> Result<PathBuf, std::io::Error> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/optimise");
+    std::fs::create_dir_all(&folder)?;
+    Ok(folder.join(format!("{name}.json")))
 }
 
 /// The folder of the corpus: the first argument, else that of `CUTLAB_CORPUS`.
