@@ -61,7 +61,7 @@ fn stones_are_chosen_by_their_outline() {
     assert_eq!(stones(&table), ["in/bad.asc", "in/oval.asc", "in/pear.asc"]);
     assert!(said.contains("3 of 7 stones are oval or pear in outline"), "{said}");
     let best = ["Round", "--sort", "spread", "--top", "1", "-q", "-o", "round.csv"];
-    bench.ends(1, &[&ask[..], &best].concat());
+    bench.ends(2, &[&ask[..], &best].concat());
     assert_eq!(stones(&text(&bench.read("round.csv"))).len(), 1);
     assert!(text(&bench.read("round.csv.meta.json")).contains("--outline round"));
     let (_, said) = bench.ends(2, &["score", "tolkowsky", "--metrics", "spread", "--outline", "pear"]);
