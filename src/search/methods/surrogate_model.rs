@@ -49,8 +49,9 @@ impl SurrogateModel {
         }
         let valued = || chosen.iter().map(|sample| &sample.outcome).filter(|o| o.violation.is_finite());
         let objectives = valued().next()?.objectives.len();
-        let floors: Vec<f64> =
-            (0..objectives).map(|j| floor(valued().filter_map(|o| o.objectives.get(j).copied()), levelled)).collect();
+        let floors: Vec<f64> = (0..objectives)
+            .map(|j| floor(valued().filter_map(|o| o.objectives.get(j).copied()), levelled))
+            .collect();
         let largest = valued().map(|outcome| outcome.violation).fold(0.0, f64::max);
         let has_violation = chosen.iter().any(|sample| !sample.outcome.is_feasible());
         let unit = if largest > 0.0 { largest } else { 1.0 };
