@@ -64,7 +64,7 @@ const SAMPLES: &[Sample] = &[
     ("optimise", "stone", &[&["a.asc"], &["round-brilliant"], &["classic"], &["o.stl"]]),
     ("attribute", "stone", &[&["a.asc"], &["classic"], &["o.stl"], &["-"]]),
     // changes
-    ("attribute", "metrics", &[&["spread,weight_ratio"], &["iso,wlr"], &["windowing"]]),
+    ("attribute", "metrics", &[&["spread,weight_ratio"], &["iso"], &["wlr"]]),
     ("attribute", "tilt", &[&["0,10"]]),
     ("attribute", "keep", &[&["meets"], &["angles"], &["depths"]]),
     ("attribute", "output", &[&["x.csv"], &["x.json"], &["-"]]),
