@@ -120,6 +120,7 @@ mod tests {
     /// Each stone is the one that `edit --keep depths` makes of the same errors, wherever the file's origin lies.
     #[test]
     fn a_stone_is_what_editing_at_depths_makes() {
+        let mut compared = 0;
         for (name, raised) in [("tolkowsky", 0.0), ("classic", 0.0), ("classic", 0.3)] {
             let mut design = cut(name);
             design.family = None;
@@ -143,11 +144,14 @@ mod tests {
                     settings.push(format!("{letter}{number}.angle{by}"));
                 }
                 let request = EditRequest::new(&settings).expect("settings").keep(Keep::Depths);
-                let edited = request.run(&design).expect("a stone").solid;
+                // an edit refuses to lose a facet, as of a thin girdle; cutting errors may
+                let Ok(edited) = request.run(&design).map(|edited| edited.solid) else { continue };
+                compared += 1;
                 assert!((stone.volume() / edited.volume() - 1.0).abs() < 1e-9, "{name} {settings:?}");
                 assert!((stone.bounds().0 - edited.bounds().0).length() < 1e-9 * solid.width(), "{name}");
                 assert!((stone.bounds().1 - edited.bounds().1).length() < 1e-9 * solid.width(), "{name}");
             }
         }
+        assert!(compared > 12, "{compared}");
     }
 }
