@@ -26,12 +26,13 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
     let all = expand_stones(&args.stones, limits())?;
     let given = all.len();
     let stones = with_outline(all, &args.scoring.options(), &args.outline);
+    let mut notes = args.scoring.notes(false);
     if !args.outline.is_empty() {
         let named = args.outline.iter().map(|outline| outline.name()).collect::<Vec<_>>().join(" or ");
         if stones.is_empty() {
             return Err(CliError::input(format!("none of {given} stones is {named} in outline")));
         }
-        console.note(&format!("{} of {given} stones are {named} in outline", stones.len()));
+        notes.insert(0, format!("of {given} stones {} are {named} in outline", stones.len()));
     }
     let mut outputs = Outputs::reading_stones(&stones, console);
     let azimuths = match (&args.tilt_axis[..], args.plot.is_empty()) {
@@ -51,8 +52,7 @@ pub fn run(args: &ScoreArgs, console: &Console) -> Result<ExitStatus, CliError> 
     };
     let request = TableRequest::Score(table.clone());
     let rows = ScoreRows::new(&request, &table, &stones, console);
-    let command =
-        TableCommand { request: &request, rows: &rows, notes: args.scoring.notes(false), what: "scoring" };
+    let command = TableCommand { request: &request, rows: &rows, notes, what: "scoring" };
     command.run(&args.table, &plots, &mut outputs, console)
 }
 

@@ -59,7 +59,7 @@ fn stones_are_chosen_by_their_outline() {
     let ask = ["score", "in", "--metrics", "spread", "--outline"];
     let (table, said) = bench.ends(1, &[&ask[..], &["oval,pear"]].concat());
     assert_eq!(stones(&table), ["in/bad.asc", "in/oval.asc", "in/pear.asc"]);
-    assert!(said.contains("3 of 7 stones are oval or pear in outline"), "{said}");
+    assert!(said.contains("of 7 stones 3 are oval or pear in outline"), "{said}");
     let best = ["Round", "--sort", "spread", "--top", "1", "-q", "-o", "round.csv"];
     bench.ends(2, &[&ask[..], &best].concat());
     assert_eq!(stones(&text(&bench.read("round.csv"))).len(), 1);
