@@ -7,6 +7,7 @@ mod beams;
 mod brilliants;
 mod colour;
 mod coverage;
+mod crystal;
 mod cuts;
 mod daylight;
 mod depth_of_field;
