@@ -6,6 +6,7 @@
 
 pub mod beams;
 pub mod crystal;
+mod crystal_lanes;
 mod dispatch;
 mod girdle;
 mod intersect;
@@ -15,7 +16,9 @@ pub mod nonconvex;
 mod packet;
 pub mod reference;
 mod stone;
+mod uniaxial_kernel;
 
+pub use crystal_lanes::{CrystalLanes, LoadedWave};
 pub use dispatch::Isa;
 pub use packet::{FacetHit, Interaction, LANES, Lanes, NO_FACET, NextFacets, Packet, RayExit, Refraction};
 pub use stone::ConvexStone;

@@ -7,8 +7,9 @@
 
 use super::dispatch::Vectorised;
 use super::intersect::{self, mul_add};
-use super::packet::{Interaction, LANES, NextFacets, Packet};
+use super::packet::{Interaction, LANES, Lanes, NextFacets, Packet};
 use super::stone::ConvexStone;
+use super::uniaxial_kernel;
 use crate::optics::snell::Snell;
 
 /// One interaction of a packet, with the stone's instruction set: advances every lane to its next facet,
@@ -29,12 +30,71 @@ impl Vectorised for Interact<'_> {
     #[inline(always)]
     fn run<const FUSED: bool, const W: usize, const B: usize>(self) {
         let Interact { stone, packet, out } = self;
+        if packet.waves.is_some() {
+            return uniaxial_kernel::interact_lanes::<FUSED, W, B>(stone, packet, out);
+        }
         match (packet.polarised, packet.absorbing) {
             (false, false) => interact_lanes::<FUSED, W, B, false, false>(stone, packet, out),
             (false, true) => interact_lanes::<FUSED, W, B, false, true>(stone, packet, out),
             (true, false) => interact_lanes::<FUSED, W, B, true, false>(stone, packet, out),
             (true, true) => interact_lanes::<FUSED, W, B, true, true>(stone, packet, out),
         }
+    }
+}
+
+/// The facets that the lanes of a packet meet next.
+pub(super) struct MetFacets {
+    nx: Lanes,
+    ny: Lanes,
+    nz: Lanes,
+    /// Distances of the planes from the frame's origin.
+    offset: Lanes,
+    /// Distances along the rays.
+    pub(super) distance: Lanes,
+}
+
+impl MetFacets {
+    /// Finds them; lanes that meet none lose their power.
+    #[inline(always)]
+    pub(super) fn of<const FUSED: bool, const W: usize, const B: usize>(
+        stone: &ConvexStone,
+        p: &mut Packet,
+        out: &mut Interaction,
+    ) -> MetFacets {
+        let mut next = NextFacets::default();
+        intersect::next_facets::<FUSED, W, B>(stone, p, &mut next);
+        let zero = [0.0; LANES];
+        let mut met = MetFacets { nx: zero, ny: zero, nz: zero, offset: zero, distance: next.distance };
+        out.lost = 0.0;
+        for l in 0..LANES {
+            if let Some(plane) = stone.plane_coefficients.get(next.facet[l] as usize) {
+                [met.nx[l], met.ny[l], met.nz[l], met.offset[l]] = *plane;
+                out.facet[l] = next.facet[l];
+            } else {
+                out.lost += p.power[l];
+                p.power[l] = 0.0;
+                met.distance[l] = 0.0;
+                out.facet[l] = 0;
+            }
+        }
+        met
+    }
+
+    /// The unit normal of a lane's facet.
+    #[inline(always)]
+    pub(super) fn normal(&self, l: usize) -> [f32; 3] {
+        [self.nx[l], self.ny[l], self.nz[l]]
+    }
+
+    /// Where a lane's ray meets it.
+    #[inline(always)]
+    pub(super) fn point(&self, p: &Packet, l: usize) -> [f32; 3] {
+        let ([nx, ny, nz], distance) = (self.normal(l), self.distance[l]);
+        let (x, y, z) =
+            (p.x[l] + distance * p.dx[l], p.y[l] + distance * p.dy[l], p.z[l] + distance * p.dz[l]);
+        // back onto the facet plane, so that rounding does not add up over fifty bounces
+        let off = self.offset[l] - (nx * x + ny * y + nz * z);
+        [x + off * nx, y + off * ny, z + off * nz]
     }
 }
 
@@ -54,25 +114,10 @@ fn interact_lanes<
     p: &mut Packet,
     out: &mut Interaction,
 ) {
-    let mut next = NextFacets::default();
-    intersect::next_facets::<FUSED, W, B>(stone, p, &mut next);
-    // planes of the lanes
-    let (mut fx, mut fy, mut fz, mut fd) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    out.lost = 0.0;
+    let met = MetFacets::of::<FUSED, W, B>(stone, p, out);
     for l in 0..LANES {
-        if let Some(plane) = stone.plane_coefficients.get(next.facet[l] as usize) {
-            [fx[l], fy[l], fz[l], fd[l]] = *plane;
-            out.facet[l] = next.facet[l];
-        } else {
-            out.lost += p.power[l];
-            p.power[l] = 0.0;
-            next.distance[l] = 0.0;
-            out.facet[l] = 0;
-        }
-    }
-    for l in 0..LANES {
-        let (nx, ny, nz) = (fx[l], fy[l], fz[l]);
-        let distance = next.distance[l];
+        let [nx, ny, nz] = met.normal(l);
+        let distance = met.distance[l];
         if ABSORBING {
             let left = exp_minus::<FUSED>(p.absorption[l] * distance);
             out.absorbed[l] = p.power[l] - left * p.power[l];
@@ -82,12 +127,7 @@ fn interact_lanes<
             }
         }
         let (dx, dy, dz) = (p.dx[l], p.dy[l], p.dz[l]);
-        let (mut x, mut y, mut z) = (p.x[l] + distance * dx, p.y[l] + distance * dy, p.z[l] + distance * dz);
-        // back onto the facet plane, so that rounding does not add up over fifty bounces
-        let off = fd[l] - (nx * x + ny * y + nz * z);
-        x += off * nx;
-        y += off * ny;
-        z += off * nz;
+        let [x, y, z] = met.point(p, l);
         let cos_i = (nx * dx + ny * dy + nz * dz).clamp(0.0, 1.0);
         let law = Snell::new(cos_i, p.index[l]);
         let passes = law.passes();
@@ -126,7 +166,7 @@ fn interact_lanes<
 /// Cody–Waite: x = −k ln 2 − r with |r| ≤ ½ ln 2, a polynomial for exp(r), k into the exponent. No
 /// branch and no table, so that it vectorises. Checked in this file's tests.
 #[inline(always)]
-fn exp_minus<const FUSED: bool>(x: f32) -> f32 {
+pub(super) fn exp_minus<const FUSED: bool>(x: f32) -> f32 {
     /// 1.5 × 2²³: adding it rounds to a whole number, which its last bits hold.
     const ROUND: f32 = 12_582_912.0;
     /// ln 2 in two parts, the first of few digits: its multiples are exact.

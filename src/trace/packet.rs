@@ -1,5 +1,6 @@
 //! A packet: sixteen rays traced together, and what they leave at an interaction with a facet.
 
+use super::crystal_lanes::{CrystalLanes, LoadedWave};
 use glam::Vec3;
 
 /// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
@@ -49,6 +50,8 @@ pub struct Packet {
     pub ay: Lanes,
     /// Axis of the Stokes vector.
     pub az: Lanes,
+    /// The waves of a stone that refracts doubly; none in one that does not. Its rays follow no Stokes vector.
+    pub waves: Option<Box<CrystalLanes>>,
 }
 
 /// Refraction of a ray into the stone.
@@ -90,6 +93,7 @@ impl Default for Packet {
             ax: [1.0; LANES],
             ay: zero,
             az: zero,
+            waves: None,
         }
     }
 }
@@ -123,6 +127,21 @@ impl Packet {
         self.path[lane] = 0.0;
         (self.q[lane], self.u[lane], self.v[lane]) = (0.0, 0.0, 0.0);
         (self.ax[lane], self.ay[lane], self.az[lane]) = direction.any_orthonormal_vector().into();
+    }
+
+    /// Loads a lane of a uniaxial stone with a wave, without absorption: set that of both modes, and of the lane's wave, afterwards.
+    ///
+    /// - `point`: in the stone's frame, just inside; `ray`: unit, where the wave's energy goes; `power`: any unit
+    ///
+    /// Does nothing to a packet without [`Packet::waves`].
+    pub fn load_wave(&mut self, lane: usize, point: Vec3, ray: Vec3, power: f32, wave: &LoadedWave) {
+        self.load(lane, point, ray, power, wave.indices[0]);
+        let Some(waves) = &mut self.waves else { return };
+        (waves.kx[lane], waves.ky[lane], waves.kz[lane]) = wave.wave_vector.into();
+        waves.extraordinary[lane] = wave.indices[1];
+        waves.mode[lane] = if wave.is_extraordinary { 1.0 } else { 0.0 };
+        waves.choice[lane] = wave.choice;
+        (waves.absorption[0][lane], waves.absorption[1][lane]) = (0.0, 0.0);
     }
 
     /// Position of a lane: the point of its last interaction.

@@ -34,6 +34,13 @@ impl Uniaxial {
         ]
     }
 
+    /// A wave that travels, by its wave vector and mode, 0 ordinary and 1 extraordinary; of any size.
+    pub fn wave_along(&self, k: DVec3, mode: usize) -> Wave {
+        let field =
+            if mode == 0 { self.ordinary_field(k.into()) } else { self.extraordinary_field(k.into()) };
+        Wave::new(k.into(), field, k.normalize())
+    }
+
     /// The waves of one direction: of wave vectors along a unit vector, the ordinary and the extraordinary one, their fields of
     /// any size.
     pub fn index_along(&self, direction: DVec3) -> [f64; 2] {
