@@ -58,6 +58,19 @@ pub enum OpticSign {
     Negative,
 }
 
+impl Birefringence {
+    /// Takes away what the axes absorb by themselves.
+    pub fn forget_absorption(&mut self) {
+        match self {
+            Birefringence::Uniaxial { extraordinary } => extraordinary.absorption = None,
+            Birefringence::Biaxial { alpha, gamma } => {
+                alpha.absorption = None;
+                gamma.absorption = None;
+            }
+        }
+    }
+}
+
 impl OpticSign {
     /// Positive or negative.
     pub fn new(is_positive: bool) -> OpticSign {

@@ -159,7 +159,13 @@ impl OrientationEntry {
                     "three angles",
                 ));
             }
-            _ => return Err(ValueProblem::new(KEY, WORDS, format!("{} angles", angles.len()))),
+            _ => {
+                return Err(ValueProblem::new(
+                    KEY,
+                    WORDS,
+                    format!("{} angle{}", angles.len(), if angles.len() == 1 { "" } else { "s" }),
+                ));
+            }
         };
         Orientation::from_degrees(theta, phi, psi).map_err(|error| {
             let expected = format!("{} from {} to {} degrees", error.angle, error.least, error.most);

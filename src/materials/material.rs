@@ -66,15 +66,17 @@ impl Material {
         self
     }
 
-    /// The same material, of another law of dispersion.
+    /// The same material, isotropic, of this law of dispersion.
     pub fn with_dispersion(mut self, dispersion: Dispersion) -> Material {
         self.dispersion = dispersion;
+        self.crystal = None;
         self
     }
 
-    /// The same material, which absorbs so.
+    /// The same material, which absorbs so along every axis.
     pub fn with_absorption(mut self, absorption: Absorption) -> Material {
         self.absorption = Some(absorption);
+        self.crystal.iter_mut().for_each(Birefringence::forget_absorption);
         self
     }
 
