@@ -93,7 +93,6 @@ fn every_crystal_is_one_at_every_wavelength() {
             let [alpha, beta, gamma] = m.principal_indices(nm);
             assert!(alpha > 1.0 && beta > 1.0 && gamma > 1.0, "{} {nm}", m.name);
             if matches!(m.crystal, Some(Birefringence::Biaxial { .. })) {
-                // of topaz by hand and chrysoberyl by a law the middle one has another shape than the others
                 assert!(alpha <= beta && beta <= gamma, "{} {nm}: {alpha} {beta} {gamma}", m.name);
             }
             for (_, absorption) in m.principal_axes() {
@@ -167,6 +166,9 @@ fn pleochroic_gems_show_the_named_colours() {
         );
         assert!(lab.chroma() > 8.0, "{name} {axis}: {lab:?}");
     }
+    // bluish green along c, beside the yellower green across it
+    let [across, along] = colours("emerald", &day)[..] else { panic!("two axes") };
+    assert!(along.lab.hue_deg() > across.lab.hue_deg() + 3.0, "{across:?} {along:?}");
     // dark and pale, by the tables
     for (name, dark, pale) in [
         ("green-tourmaline", 0, 1),
