@@ -6,12 +6,12 @@ mod birefringence;
 mod catalogue;
 mod crystal_entry;
 mod crystal_figures;
+mod crystal_orientation;
 mod index_entry;
 mod material;
 pub mod material_file;
 #[cfg(feature = "files")]
 mod open;
-mod orientation;
 pub mod weight;
 
 use crate::limits::Limits;
@@ -20,8 +20,8 @@ use crate::parse;
 pub use axis_colours::AxisColour;
 pub use birefringence::{Birefringence, CrystalAxis, OpticSign, OpticalClass};
 pub use catalogue::{MATERIAL_FILES, MATERIALS};
+pub use crystal_orientation::{CrystalOrientation, CrystalOrientationError};
 pub use material::Material;
-pub use orientation::{Orientation, OrientationError};
 #[cfg(feature = "files")]
 use std::path::Path;
 

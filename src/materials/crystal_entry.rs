@@ -2,8 +2,8 @@
 
 use super::absorption_entry::AbsorptionEntry;
 use super::birefringence::{Birefringence, CrystalAxis};
+use super::crystal_orientation::CrystalOrientation;
 use super::index_entry::IndexEntry;
-use super::orientation::Orientation;
 use crate::optics::dispersion::{Dispersion, lines};
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
 use serde::Deserialize;
@@ -134,7 +134,7 @@ fn check_overlap(key: &'static str, own: (f64, f64), other: (f64, f64)) -> Resul
 
 impl OrientationEntry {
     /// How the axes of `crystal` lie.
-    pub fn orientation(&self, crystal: Option<&Birefringence>) -> Result<Orientation, ValueProblem> {
+    pub fn orientation(&self, crystal: Option<&Birefringence>) -> Result<CrystalOrientation, ValueProblem> {
         const KEY: &str = "c-axis";
         const WORDS: &str = "\"up\", \"across\" or [theta, phi] in degrees";
         let angles = match (crystal, self) {
@@ -143,7 +143,7 @@ impl OrientationEntry {
                 return Err(ValueProblem::new(KEY, expected, "none"));
             }
             (_, OrientationEntry::Word(word)) => {
-                return Orientation::by_name(word)
+                return CrystalOrientation::by_name(word)
                     .ok_or_else(|| ValueProblem::new(KEY, WORDS, format!("{word:?}")));
             }
             (_, OrientationEntry::Angles(angles)) => angles,
@@ -167,7 +167,7 @@ impl OrientationEntry {
                 ));
             }
         };
-        Orientation::from_degrees(theta, phi, psi).map_err(|error| {
+        CrystalOrientation::from_degrees(theta, phi, psi).map_err(|error| {
             let expected = format!("{} from {} to {} degrees", error.angle, error.least, error.most);
             ValueProblem::new(KEY, expected, error.found.to_string())
         })

@@ -88,7 +88,7 @@ fn half_angle_about_gamma_deg(alpha: f64, beta: f64, gamma: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::materials::birefringence::CrystalAxis;
-    use crate::materials::orientation::Orientation;
+    use crate::materials::crystal_orientation::CrystalOrientation;
     use crate::optics::absorption::Absorption;
     use crate::optics::dispersion::Dispersion;
 
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn the_tensor_of_absorption_turns_with_the_axes() {
         let stone =
-            Material::named("iolite").expect("in the catalogue").with_orientation(Orientation::ACROSS);
+            Material::named("iolite").expect("in the catalogue").with_orientation(CrystalOrientation::ACROSS);
         let [alpha, beta, gamma] = stone.principal_axes();
         let value = |(law, absorption): (&Dispersion, Option<&Absorption>)| {
             law.index(560.0) * absorption.expect("coloured").per_mm(560.0)

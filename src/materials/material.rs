@@ -1,7 +1,7 @@
 //! A material: dispersion, absorption, density, and where the figures are from.
 
 use super::birefringence::{Birefringence, CrystalAxis};
-use super::orientation::Orientation;
+use super::crystal_orientation::CrystalOrientation;
 use crate::optics::absorption::Absorption;
 use crate::optics::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
@@ -31,7 +31,7 @@ pub struct Material {
     /// material. Light is not traced with them yet.
     pub crystal: Option<Birefringence>,
     /// How the axes of the crystal lie in the stone.
-    pub orientation: Orientation,
+    pub orientation: CrystalOrientation,
     /// Wavelengths for which the law was measured, nm.
     pub valid_nm: (f64, f64),
     /// Mass per volume, g/cm³; none for a bare index.
@@ -52,7 +52,7 @@ impl Material {
             source: "given".into(),
             dispersion: Dispersion::Constant(n),
             crystal: None,
-            orientation: Orientation::default(),
+            orientation: CrystalOrientation::default(),
             valid_nm: (0.0, f64::INFINITY),
             specific_gravity: None,
             absorption: None,
@@ -87,7 +87,7 @@ impl Material {
     }
 
     /// The same material, with the axes of its crystal turned so.
-    pub fn with_orientation(mut self, orientation: Orientation) -> Material {
+    pub fn with_orientation(mut self, orientation: CrystalOrientation) -> Material {
         self.orientation = orientation;
         self
     }
@@ -123,7 +123,7 @@ impl Material {
     }
 
     /// The dispersion and the absorption of light whose field lies along each principal axis, in the order of
-    /// [`Orientation`]: α, β, γ; of a uniaxial crystal twice the ordinary one and the extraordinary one; thrice the
+    /// [`CrystalOrientation`]: α, β, γ; of a uniaxial crystal twice the ordinary one and the extraordinary one; thrice the
     /// same of an isotropic material.
     pub fn principal_axes(&self) -> [(&Dispersion, Option<&Absorption>); 3] {
         let own = (&self.dispersion, self.absorption.as_ref());

@@ -7,8 +7,8 @@ use super::Material;
 use super::absorption_entry::AbsorptionEntry;
 use super::birefringence::CrystalAxis;
 use super::crystal_entry::{AxisEntry, CrystalEntry, OrientationEntry};
+use super::crystal_orientation::CrystalOrientation;
 use super::index_entry::IndexEntry;
-use super::orientation::Orientation;
 use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
 use crate::parse::table_entry::TableReader;
@@ -81,7 +81,7 @@ impl Material {
         let crystal = crystal.crystal((&dispersion, range_nm), &file, &axis)?;
         let orientation = match c_axis {
             Some(entry) => entry.orientation(crystal.as_ref()).map_err(|problem| file.error(0, problem))?,
-            None => Orientation::default(),
+            None => CrystalOrientation::default(),
         };
         Ok(Material {
             about: about.unwrap_or_else(|| name.clone()).into(),

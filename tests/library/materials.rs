@@ -2,7 +2,7 @@
 
 use cutlab::advanced::limits::Limits;
 use cutlab::advanced::materials::{
-    AxisColour, Birefringence, MATERIALS, Material, OpticSign, OpticalClass, Orientation,
+    AxisColour, Birefringence, CrystalOrientation, MATERIALS, Material, OpticSign, OpticalClass,
 };
 use cutlab::advanced::optics::crystal::facet::Crystal;
 use cutlab::advanced::optics::dispersion::{Dispersion, lines};
@@ -206,11 +206,11 @@ fn alexandrite_changes_from_green_to_red() {
 #[test]
 fn crystals_are_given_in_the_frame_of_the_stone() {
     let tourmaline = named("green-tourmaline");
-    assert_eq!(tourmaline.orientation, Orientation::ACROSS);
+    assert_eq!(tourmaline.orientation, CrystalOrientation::ACROSS);
     let Some(Crystal::Uniaxial(crystal)) = tourmaline.crystal_at(lines::D) else { panic!("uniaxial") };
     assert!((crystal.axis - DVec3::X).length() < 1e-15);
     assert!((crystal.ordinary - 1.644).abs() < 1e-9 && (crystal.extraordinary - 1.624).abs() < 1e-9);
-    let up = tourmaline.with_orientation(Orientation::UP);
+    let up = tourmaline.with_orientation(CrystalOrientation::UP);
     let Some(Crystal::Uniaxial(crystal)) = up.crystal_at(lines::D) else { panic!("uniaxial") };
     assert_eq!(crystal.axis, DVec3::Z);
     // c up: across the table's normal the ordinary absorption, along it the extraordinary one
@@ -254,14 +254,14 @@ fn crystals_that_cannot_be_are_refused_with_their_field() {
     let said = [
         (
             "alpha-above-beta.toml",
-            "line 7: alpha-index: expected an index at the D line no more than that of [index], 1.6500, found 1.6600",
+            "line 6: alpha-index: expected an index at the D line no more than that of [index], 1.6500, found 1.6600",
         ),
         (
             "gamma-below-beta.toml",
             "line 9: gamma-index: expected an index at the D line no less than that of [index], 1.6500, found 1.6450",
         ),
-        ("alpha-alone.toml", "line 7: alpha-index: expected [gamma-index] beside it, found none"),
-        ("gamma-alone.toml", "line 7: gamma-index: expected [alpha-index] beside it, found none"),
+        ("alpha-alone.toml", "line 6: alpha-index: expected [gamma-index] beside it, found none"),
+        ("gamma-alone.toml", "line 6: gamma-index: expected [alpha-index] beside it, found none"),
         ("one-and-two-axes.toml", "line 6: extraordinary-index: expected [index] alone, or [alpha-index]"),
         (
             "tables-apart.toml",

@@ -10,15 +10,15 @@ use std::fmt;
 /// The axes are the columns of R_z(φ) R_y(θ) R_z(ψ).
 ///
 /// ```
-/// use cutlab::advanced::materials::Orientation;
+/// use cutlab::advanced::materials::CrystalOrientation;
 ///
-/// let across = Orientation::from_degrees(90.0, 0.0, 0.0)?;
-/// assert_eq!(across, Orientation::ACROSS);
+/// let across = CrystalOrientation::from_degrees(90.0, 0.0, 0.0)?;
+/// assert_eq!(across, CrystalOrientation::ACROSS);
 /// assert!((across.axes().z_axis.x - 1.0).abs() < 1e-15);
-/// # Ok::<(), cutlab::advanced::materials::OrientationError>(())
+/// # Ok::<(), cutlab::advanced::materials::CrystalOrientationError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Orientation {
+pub struct CrystalOrientation {
     theta_deg: f64,
     phi_deg: f64,
     psi_deg: f64,
@@ -27,7 +27,7 @@ pub struct Orientation {
 /// An angle that no orientation has.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("{angle} of the c-axis from {least} to {most} degrees is needed, found {found}")]
-pub struct OrientationError {
+pub struct CrystalOrientationError {
     /// The angle's name.
     pub angle: &'static str,
     /// The least that it can be, degrees.
@@ -38,15 +38,15 @@ pub struct OrientationError {
     pub found: f64,
 }
 
-impl Orientation {
+impl CrystalOrientation {
     /// γ, or the optic axis, through the table; α along +x.
-    pub const UP: Orientation = Orientation { theta_deg: 0.0, phi_deg: 0.0, psi_deg: 0.0 };
+    pub const UP: CrystalOrientation = CrystalOrientation { theta_deg: 0.0, phi_deg: 0.0, psi_deg: 0.0 };
 
     /// γ, or the optic axis, along +x in the plane of the girdle; α through the table.
-    pub const ACROSS: Orientation = Orientation { theta_deg: 90.0, phi_deg: 0.0, psi_deg: 0.0 };
+    pub const ACROSS: CrystalOrientation = CrystalOrientation { theta_deg: 90.0, phi_deg: 0.0, psi_deg: 0.0 };
 
     /// The orientation called `up` or `across`.
-    pub fn by_name(name: &str) -> Option<Orientation> {
+    pub fn by_name(name: &str) -> Option<CrystalOrientation> {
         match name {
             "up" => Some(Self::UP),
             "across" => Some(Self::ACROSS),
@@ -58,15 +58,19 @@ impl Orientation {
     ///
     /// - `theta`: of γ or the optic axis from the normal of the table, 0 to 180; `phi`: its azimuth from +x, −360 to 360
     /// - `psi`: the turn of α about γ, −360 to 360; of no effect in a uniaxial crystal
-    pub fn from_degrees(theta: f64, phi: f64, psi: f64) -> Result<Orientation, OrientationError> {
+    pub fn from_degrees(
+        theta: f64,
+        phi: f64,
+        psi: f64,
+    ) -> Result<CrystalOrientation, CrystalOrientationError> {
         for (angle, found, least, most) in
             [("theta", theta, 0.0, 180.0), ("phi", phi, -360.0, 360.0), ("psi", psi, -360.0, 360.0)]
         {
             if !(least..=most).contains(&found) {
-                return Err(OrientationError { angle, least, most, found });
+                return Err(CrystalOrientationError { angle, least, most, found });
             }
         }
-        Ok(Orientation { theta_deg: theta, phi_deg: phi, psi_deg: psi })
+        Ok(CrystalOrientation { theta_deg: theta, phi_deg: phi, psi_deg: psi })
     }
 
     /// θ, φ and ψ, degrees.
@@ -85,21 +89,23 @@ impl Orientation {
     }
 }
 
-impl Default for Orientation {
-    /// [`Orientation::UP`].
-    fn default() -> Orientation {
+impl Default for CrystalOrientation {
+    /// [`CrystalOrientation::UP`].
+    fn default() -> CrystalOrientation {
         Self::UP
     }
 }
 
 /// As material files have it: `up`, `across`, `[theta, phi]` or `[theta, phi, psi]`.
-impl fmt::Display for Orientation {
+impl fmt::Display for CrystalOrientation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match *self {
             Self::UP => f.write_str("up"),
             Self::ACROSS => f.write_str("across"),
-            Orientation { theta_deg, phi_deg, psi_deg: 0.0 } => write!(f, "[{theta_deg}, {phi_deg}]"),
-            Orientation { theta_deg, phi_deg, psi_deg } => write!(f, "[{theta_deg}, {phi_deg}, {psi_deg}]"),
+            CrystalOrientation { theta_deg, phi_deg, psi_deg: 0.0 } => write!(f, "[{theta_deg}, {phi_deg}]"),
+            CrystalOrientation { theta_deg, phi_deg, psi_deg } => {
+                write!(f, "[{theta_deg}, {phi_deg}, {psi_deg}]")
+            }
         }
     }
 }
@@ -112,14 +118,14 @@ mod tests {
     #[test]
     fn names_and_angles_turn_the_axes_where_they_say() {
         let near = |a: DVec3, b: DVec3| (a - b).length() < 1e-15;
-        assert_eq!(Orientation::UP.axes(), DMat3::IDENTITY);
-        let across = Orientation::ACROSS.axes();
+        assert_eq!(CrystalOrientation::UP.axes(), DMat3::IDENTITY);
+        let across = CrystalOrientation::ACROSS.axes();
         assert!(near(across.z_axis, DVec3::X) && near(across.x_axis, DVec3::NEG_Z), "{across}");
-        let turned = Orientation::from_degrees(90.0, 90.0, 90.0).expect("angles").axes();
+        let turned = CrystalOrientation::from_degrees(90.0, 90.0, 90.0).expect("angles").axes();
         // γ along +y; α, turned by a right angle about it, in the girdle; β through the table
         assert!(near(turned.z_axis, DVec3::Y) && turned.x_axis.z.abs() < 1e-15, "{turned}");
         assert!((turned.y_axis.z.abs() - 1.0).abs() < 1e-15);
-        let odd = Orientation::from_degrees(30.0, 40.0, 50.0).expect("angles");
+        let odd = CrystalOrientation::from_degrees(30.0, 40.0, 50.0).expect("angles");
         let axes = odd.axes();
         assert!((axes.transpose() * axes - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-15));
         assert!((axes.z_axis.z - 30f64.to_radians().cos()).abs() < 1e-15);
@@ -134,13 +140,13 @@ mod tests {
             (0.0, 400.0, 0.0, "phi"),
             (0.0, 0.0, f64::INFINITY, "psi"),
         ] {
-            assert_eq!(Orientation::from_degrees(theta, phi, psi).map_err(|e| e.angle), Err(angle));
+            assert_eq!(CrystalOrientation::from_degrees(theta, phi, psi).map_err(|e| e.angle), Err(angle));
         }
-        let said = |theta, phi, psi| Orientation::from_degrees(theta, phi, psi).map(|o| o.to_string());
+        let said = |theta, phi, psi| CrystalOrientation::from_degrees(theta, phi, psi).map(|o| o.to_string());
         assert_eq!(said(0.0, 0.0, 0.0).as_deref(), Ok("up"));
         assert_eq!(said(90.0, 0.0, 90.0).as_deref(), Ok("[90, 0, 90]"));
         assert_eq!(said(45.0, 10.5, 0.0).as_deref(), Ok("[45, 10.5]"));
-        assert_eq!(Orientation::by_name("across"), Some(Orientation::ACROSS));
-        assert_eq!(Orientation::by_name("along"), None);
+        assert_eq!(CrystalOrientation::by_name("across"), Some(CrystalOrientation::ACROSS));
+        assert_eq!(CrystalOrientation::by_name("along"), None);
     }
 }
