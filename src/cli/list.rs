@@ -2,6 +2,7 @@
 
 mod catalogue_entry;
 mod entries;
+mod material_entry;
 
 use super::console::Console;
 use super::error::CliError;
@@ -62,7 +63,7 @@ pub fn run(args: &ListArgs, console: &Console) -> Result<ExitStatus, CliError> {
             .map(|()| ExitStatus::Done);
         }
         Catalogue::Cuts => entries::cuts(),
-        Catalogue::Materials => entries::materials(),
+        Catalogue::Materials => material_entry::materials(),
         Catalogue::Illuminants => entries::illuminants(),
         Catalogue::Metrics => entries::metrics(),
         Catalogue::Formats => entries::formats(),

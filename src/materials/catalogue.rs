@@ -69,6 +69,113 @@ pub static MATERIAL_FILES: &[(&str, &str)] = files![
     "ggg"
     "lithium-niobate"
     "paste"
+    "padparadscha"
+    "pink-sapphire"
+    "yellow-sapphire"
+    "goshenite"
+    "red-beryl"
+    "smoky-quartz"
+    "rose-quartz"
+    "prasiolite"
+    "blue-topaz"
+    "green-tourmaline"
+    "dravite"
+    "chrome-tourmaline"
+    "blue-zircon"
+    "low-zircon"
+    "zoisite"
+    "spodumene"
+    "kyanite"
+    "sillimanite"
+    "forsterite"
+    "diopside"
+    "enstatite"
+    "sinhalite"
+    "kornerupine"
+    "axinite"
+    "epidote"
+    "euclase"
+    "orthoclase"
+    "moonstone"
+    "labradorite"
+    "sunstone"
+    "amblygonite"
+    "brazilianite"
+    "beryllonite"
+    "hambergite"
+    "cerussite"
+    "anglesite"
+    "barite"
+    "diaspore"
+    "grandidierite"
+    "scapolite"
+    "dioptase"
+    "taaffeite"
+    "vesuvianite"
+    "rhodochrosite"
+    "painite"
+    "jeremejevite"
+    "cassiterite"
+    "scheelite"
+    "zincite"
+    "hessonite"
+    "tsavorite"
+    "malaia"
+    "colour-change-garnet"
+    "uvarovite"
+    "red-spinel"
+    "blue-spinel"
+    "periclase"
+    "rhodizite"
+    "pollucite"
+    "moldavite"
+];
+
+/// Materials that a design of a bare index is hardly meant for: seldom cut, or drawn for by name.
+pub const RARE: &[&str] = &[
+    "red-beryl",
+    "low-zircon",
+    "zoisite",
+    "kyanite",
+    "sillimanite",
+    "forsterite",
+    "diopside",
+    "enstatite",
+    "sinhalite",
+    "kornerupine",
+    "axinite",
+    "epidote",
+    "euclase",
+    "orthoclase",
+    "moonstone",
+    "labradorite",
+    "sunstone",
+    "amblygonite",
+    "brazilianite",
+    "beryllonite",
+    "hambergite",
+    "cerussite",
+    "anglesite",
+    "barite",
+    "diaspore",
+    "grandidierite",
+    "scapolite",
+    "dioptase",
+    "taaffeite",
+    "vesuvianite",
+    "rhodochrosite",
+    "painite",
+    "jeremejevite",
+    "cassiterite",
+    "scheelite",
+    "zincite",
+    "malaia",
+    "colour-change-garnet",
+    "uvarovite",
+    "periclase",
+    "rhodizite",
+    "pollucite",
+    "moldavite",
 ];
 
 /// Every material. A file that cannot be read has none; a test keeps that from happening.

@@ -1,5 +1,7 @@
 //! A material: dispersion, absorption, density, and where the figures are from.
 
+use super::birefringence::{Birefringence, CrystalAxis};
+use super::crystal_orientation::CrystalOrientation;
 use crate::optics::absorption::Absorption;
 use crate::optics::dispersion::{Dispersion, lines};
 use std::borrow::Cow;
@@ -23,17 +25,19 @@ pub struct Material {
     pub about: Cow<'static, str>,
     /// Where the figures are from.
     pub source: Cow<'static, str>,
-    /// Index against wavelength; for a uniaxial crystal the ordinary ray, with which light is
-    /// traced.
+    /// Index against wavelength: the ordinary ray's of a uniaxial crystal, n_β of a biaxial one. Light is traced with it.
     pub dispersion: Dispersion,
-    /// Index of the extraordinary ray across the axis of a uniaxial crystal, if it is known. Light
-    /// is not traced with it yet.
-    pub extraordinary: Option<Dispersion>,
+    /// The other indices of a crystal that refracts doubly, and what it absorbs along their axes; none for an isotropic
+    /// material. Light is not traced with them yet.
+    pub crystal: Option<Birefringence>,
+    /// How the axes of the crystal lie in the stone.
+    pub orientation: CrystalOrientation,
     /// Wavelengths for which the law was measured, nm.
     pub valid_nm: (f64, f64),
     /// Mass per volume, g/cm³; none for a bare index.
     pub specific_gravity: Option<f64>,
-    /// What it absorbs; none if it is clear.
+    /// What it absorbs; none if it is clear. Of a uniaxial crystal that of light whose field lies across the axis, of a
+    /// biaxial one along β; of all light where [`Material::crystal`] has no other.
     pub absorption: Option<Absorption>,
     /// The file that it was read from, as it was named; none for the catalogue's.
     pub file: Option<String>,
@@ -47,7 +51,8 @@ impl Material {
             about: "one refractive index, no dispersion".into(),
             source: "given".into(),
             dispersion: Dispersion::Constant(n),
-            extraordinary: None,
+            crystal: None,
+            orientation: CrystalOrientation::default(),
             valid_nm: (0.0, f64::INFINITY),
             specific_gravity: None,
             absorption: None,
@@ -61,15 +66,29 @@ impl Material {
         self
     }
 
-    /// The same material, of another law of dispersion.
+    /// The same material, isotropic, of this law of dispersion.
     pub fn with_dispersion(mut self, dispersion: Dispersion) -> Material {
         self.dispersion = dispersion;
+        self.crystal = None;
         self
     }
 
-    /// The same material, which absorbs so.
+    /// The same material, which absorbs so along every axis.
     pub fn with_absorption(mut self, absorption: Absorption) -> Material {
         self.absorption = Some(absorption);
+        self.crystal.iter_mut().for_each(Birefringence::forget_absorption);
+        self
+    }
+
+    /// The same material, as a crystal that refracts doubly.
+    pub fn with_crystal(mut self, crystal: Birefringence) -> Material {
+        self.crystal = Some(crystal);
+        self
+    }
+
+    /// The same material, with the axes of its crystal turned so.
+    pub fn with_orientation(mut self, orientation: CrystalOrientation) -> Material {
+        self.orientation = orientation;
         self
     }
 
@@ -103,12 +122,28 @@ impl Material {
         (!places.is_empty()).then(|| format!("index of {} extrapolated {}", self.name, places.join(" and ")))
     }
 
-    /// Whether it absorbs nothing.
-    pub fn is_clear(&self) -> bool {
-        self.absorption.is_none()
+    /// The dispersion and the absorption of light whose field lies along each principal axis, in the order of
+    /// [`CrystalOrientation`]: α, β, γ; of a uniaxial crystal twice the ordinary one and the extraordinary one; thrice the
+    /// same of an isotropic material.
+    pub fn principal_axes(&self) -> [(&Dispersion, Option<&Absorption>); 3] {
+        let own = (&self.dispersion, self.absorption.as_ref());
+        match &self.crystal {
+            None => [own; 3],
+            Some(Birefringence::Uniaxial { extraordinary }) => [own, own, self.along(extraordinary)],
+            Some(Birefringence::Biaxial { alpha, gamma }) => [self.along(alpha), own, self.along(gamma)],
+        }
     }
 
-    /// Absorption coefficient at `nm`, natural logarithm, 1/mm.
+    fn along<'a>(&'a self, axis: &'a CrystalAxis) -> (&'a Dispersion, Option<&'a Absorption>) {
+        (&axis.dispersion, axis.absorption.as_ref().or(self.absorption.as_ref()))
+    }
+
+    /// Whether it absorbs nothing, along any axis.
+    pub fn is_clear(&self) -> bool {
+        self.principal_axes().iter().all(|(_, absorption)| absorption.is_none())
+    }
+
+    /// Absorption coefficient at `nm`, natural logarithm, 1/mm: that of [`Material::absorption`].
     pub fn absorption_per_mm(&self, nm: f64) -> f64 {
         self.absorption.as_ref().map_or(0.0, |a| a.per_mm(nm))
     }

@@ -5,6 +5,9 @@
 
 use super::Material;
 use super::absorption_entry::AbsorptionEntry;
+use super::birefringence::CrystalAxis;
+use super::crystal_entry::{AxisEntry, CrystalEntry, OrientationEntry};
+use super::crystal_orientation::CrystalOrientation;
 use super::index_entry::IndexEntry;
 use crate::optics::dispersion::{Dispersion, VISIBLE_NM};
 use crate::parse::data_file::{DataFile, DataFileError, ValueProblem};
@@ -30,9 +33,15 @@ struct MaterialFile {
     source: Option<String>,
     specific_gravity: Option<f64>,
     valid_nm: Option<[f64; 2]>,
+    c_axis: Option<OrientationEntry>,
     index: Spanned<IndexEntry>,
     extraordinary_index: Option<Spanned<IndexEntry>>,
+    alpha_index: Option<Spanned<IndexEntry>>,
+    gamma_index: Option<Spanned<IndexEntry>>,
     absorption: Option<Spanned<AbsorptionEntry>>,
+    extraordinary_absorption: Option<Spanned<AbsorptionEntry>>,
+    alpha_absorption: Option<Spanned<AbsorptionEntry>>,
+    gamma_absorption: Option<Spanned<AbsorptionEntry>>,
 }
 
 impl Material {
@@ -47,24 +56,43 @@ impl Material {
             let law = entry.get_ref().dispersion(tables).and_then(|(law, key)| checked(law, key));
             law.map_err(|problem| file.error(entry.span().start, problem))
         };
-        let dispersion = index(&document.index)?;
-        let extraordinary = document.extraordinary_index.as_ref().map(index).transpose()?;
-        let absorption = document.absorption.as_ref().map(|entry| {
-            let absorption = entry.get_ref().absorption(&dispersion, tables);
+        let absorption = |entry: &Spanned<AbsorptionEntry>, law: &Dispersion| {
+            let absorption = entry.get_ref().absorption(law, tables);
             absorption.map_err(|problem| file.error(entry.span().start, problem))
-        });
-        let MaterialFile { name, about, source, specific_gravity, .. } = document;
+        };
+        let dispersion = index(&document.index)?;
+        let own_absorption =
+            document.absorption.as_ref().map(|entry| absorption(entry, &dispersion)).transpose()?;
+        let range_nm = document.index.get_ref().range_nm(&dispersion);
+        let axis = |entry: &Spanned<IndexEntry>, absorbs: Option<&Spanned<AbsorptionEntry>>| {
+            let law = index(entry)?;
+            let absorption = absorbs.map(|entry| absorption(entry, &law)).transpose()?;
+            Ok(CrystalAxis { dispersion: law, absorption })
+        };
+        let MaterialFile { name, about, source, specific_gravity, valid_nm, c_axis, .. } = document;
+        let crystal = CrystalEntry {
+            extraordinary: AxisEntry {
+                index: document.extraordinary_index,
+                absorption: document.extraordinary_absorption,
+            },
+            alpha: AxisEntry { index: document.alpha_index, absorption: document.alpha_absorption },
+            gamma: AxisEntry { index: document.gamma_index, absorption: document.gamma_absorption },
+        };
+        let crystal = crystal.crystal((&dispersion, range_nm), &file, &axis)?;
+        let orientation = match c_axis {
+            Some(entry) => entry.orientation(crystal.as_ref()).map_err(|problem| file.error(0, problem))?,
+            None => CrystalOrientation::default(),
+        };
         Ok(Material {
             about: about.unwrap_or_else(|| name.clone()).into(),
             source: source.unwrap_or_else(|| "not stated".into()).into(),
             name: name.into(),
-            valid_nm: document
-                .valid_nm
-                .map_or_else(|| document.index.get_ref().range_nm(&dispersion), Into::into),
+            valid_nm: valid_nm.map_or(range_nm, Into::into),
             dispersion,
-            extraordinary,
+            crystal,
+            orientation,
             specific_gravity,
-            absorption: absorption.transpose()?,
+            absorption: own_absorption,
             file: None,
         })
     }

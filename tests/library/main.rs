@@ -26,6 +26,7 @@ mod furnace;
 mod geometry;
 mod horizon;
 mod instruction_sets;
+mod materials;
 mod meet;
 mod objective;
 mod optics;

@@ -3,6 +3,7 @@
 use super::context::material;
 use super::figures::{self, ReferenceFigure};
 use super::{Check, CheckError, Measured};
+use crate::materials::{Birefringence, Material};
 use crate::optics::dispersion::{Dispersion, lines};
 
 const SUBJECT: &str = "indices";
@@ -40,6 +41,14 @@ pub fn checks() -> Vec<Check> {
 /// How quantities of the extraordinary ray begin.
 const EXTRAORDINARY: &str = "extraordinary";
 
+/// The dispersion of the extraordinary ray of a uniaxial material.
+fn extraordinary(material: &Material) -> Option<&Dispersion> {
+    match material.crystal.as_ref()? {
+        Birefringence::Uniaxial { extraordinary } => Some(&extraordinary.dispersion),
+        Birefringence::Biaxial { .. } => None,
+    }
+}
+
 /// The wavelength of a Fraunhofer line, in nanometres.
 fn line_nm(name: &str) -> Option<f64> {
     let all = [
@@ -68,7 +77,7 @@ fn index_check(rows: &[&'static ReferenceFigure]) -> Check {
         let material = material(&first.of)?;
         let none = || CheckError::Unknown(format!("extraordinary ray of {}", first.of));
         let law: &Dispersion = if first.quantity.starts_with(EXTRAORDINARY) {
-            material.extraordinary.as_ref().ok_or_else(none)?
+            extraordinary(material).ok_or_else(none)?
         } else {
             &material.dispersion
         };

@@ -2,16 +2,13 @@
 
 use super::CatalogueEntry;
 use crate::cli::{terminal_table, wrap};
+use crate::color::Illuminant;
 use crate::color::illuminants::ILLUMINANTS;
-use crate::color::{Illuminant, cie};
 use crate::design::design_file::DesignFile;
 use crate::design::{families, library};
 use crate::formats::{FORMATS, Format};
 use crate::limits::{self as limit, Limit};
-use crate::materials::MATERIALS;
-use crate::materials::Material;
 use crate::metrics::{METRICS, Metric, MetricSource, Statistic};
-use crate::optics::dispersion::lines;
 use crate::scene::lights::{LIGHTS, LightType as LightKind};
 use crate::scene::{SCENES, preset};
 use serde_json::{Value, json};
@@ -21,7 +18,7 @@ use std::sync::Arc;
 const WIDTH: usize = 84;
 
 /// A name and lines with labels.
-fn block(head: &str, lines: &[(&str, String)]) -> String {
+pub(super) fn block(head: &str, lines: &[(&str, String)]) -> String {
     let rows = lines.iter().filter(|(_, text)| !text.is_empty());
     let rows = rows.map(|(label, text)| (*label, wrap::lines(text, WIDTH).join("\n")));
     let least = lines.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
@@ -81,73 +78,6 @@ fn metric(m: &Metric) -> CatalogueEntry {
         "source": m.source,
     });
     CatalogueEntry { name: m.name.into(), about: m.about_and_better(), text, facts }
-}
-
-/// Materials.
-pub fn materials() -> Vec<CatalogueEntry> {
-    MATERIALS.iter().map(material).collect()
-}
-
-fn material(m: &Material) -> CatalogueEntry {
-    let n_e = m.extraordinary.as_ref().map(|law| law.index(lines::D));
-    let b_g = m.index(lines::G) - m.index(lines::B);
-    let valid = <[f64; 2]>::from(m.valid_nm);
-    let density = m.specific_gravity.map_or_else(|| "unknown".into(), |sg| format!("{sg} g/cm³"));
-    let colour = through(m);
-    let absorption = m.absorption.as_ref().map_or_else(String::new, |a| format!("{}; {}", a.about, a.source));
-    let text = block(
-        &format!("{}: {}", m.name, m.about),
-        &[
-            (
-                "index",
-                format!(
-                    "n_D {:.4}{}",
-                    m.index_d(),
-                    n_e.map_or_else(String::new, |n| format!(", n_e {n:.4}"))
-                ),
-            ),
-            ("dispersion", format!("n_G − n_B {b_g:.4}")),
-            ("valid", format!("{:.0} to {:.0} nm", valid[0], valid[1])),
-            ("density", density.clone()),
-            (
-                "colour",
-                colour
-                    .as_ref()
-                    .map_or_else(|| "none".into(), |c| format!("{c} through {DEPTH_MM} mm by daylight")),
-            ),
-            ("absorption", absorption),
-            ("source", m.source.to_string()),
-        ],
-    );
-    let facts = json!({
-        "n_d": round(m.index_d()),
-        "n_e": n_e.map(round),
-        "dispersion_b_g": round(b_g),
-        "valid_nm": valid.map(f64::round),
-        "density_g_cm3": m.specific_gravity,
-        "colour_10_mm": colour,
-        "absorption": m.absorption.as_ref().map(|a| json!({ "about": a.about, "source": a.source })),
-        "source": m.source,
-    });
-    let about = format!("n {:.4}, B–G {b_g:.4}, {density}: {}", m.index_d(), m.about);
-    CatalogueEntry { name: m.name.to_string(), about, text, facts }
-}
-
-/// To six decimals, beyond which no index is known.
-fn round(x: f64) -> f64 {
-    (x * 1e6).round() / 1e6
-}
-
-/// Depth at which a material shows its colour, mm: what light goes through in a small stone.
-const DEPTH_MM: f64 = 10.0;
-
-/// The colour of daylight through [`DEPTH_MM`] of a material that absorbs, as `#rrggbb`.
-fn through(m: &Material) -> Option<String> {
-    let absorption = m.absorption.as_ref()?;
-    let left = |nm: f32| (-DEPTH_MM * absorption.per_mm(f64::from(nm))).exp() as f32;
-    let byte = |x| (255.0 * cie::srgb_encode(x)).round() as u8;
-    let [r, g, b] = Illuminant::daylight().linear_srgb(left).to_array().map(byte);
-    Some(format!("#{r:02x}{g:02x}{b:02x}"))
 }
 
 /// Cuts of the library.
