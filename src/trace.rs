@@ -8,10 +8,13 @@ pub mod beams;
 pub mod crystal;
 mod crystal_lanes;
 mod dispatch;
+mod exponential;
 mod girdle;
 mod intersect;
 mod kernel;
 pub mod lane_scheduler;
+mod lanes;
+mod met_facets;
 pub mod nonconvex;
 mod packet;
 pub mod reference;
@@ -20,7 +23,8 @@ mod uniaxial_kernel;
 
 pub use crystal_lanes::{CrystalLanes, LoadedWave};
 pub use dispatch::Isa;
-pub use packet::{FacetHit, Interaction, LANES, Lanes, NO_FACET, NextFacets, Packet, RayExit, Refraction};
+pub use lanes::{LANES, Lanes};
+pub use packet::{FacetHit, Interaction, NO_FACET, NextFacets, Packet, RayExit, Refraction};
 pub use stone::ConvexStone;
 
 /// Most bounces of a trace; power that a lane still holds then is lost. A guard against rays that total

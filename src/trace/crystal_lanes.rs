@@ -1,6 +1,6 @@
 //! Lanes of waves in a uniaxial stone.
 
-use super::packet::{LANES, Lanes};
+use super::lanes::{LANES, Lanes};
 use glam::{DVec3, Vec3};
 
 /// What a packet holds besides its rays in a uniaxial stone: for each lane a wave of one mode. The packet's directions are

@@ -1,7 +1,8 @@
 //! Girdle facets, kept out of the packet loop: few rays need them (one in forty in a round brilliant), and
 //! they are vertical, so that the z test is skipped.
 
-use super::packet::{LANES, Lanes, NO_FACET};
+use super::lanes::{LANES, Lanes};
+use super::packet::NO_FACET;
 use crate::geometry::Plane;
 use glam::{DVec2, Vec3};
 

@@ -10,7 +10,8 @@
 
 use super::dispatch::Vectorised;
 use super::girdle::{GirdleFacets, PlaneBlock16};
-use super::packet::{FacetHit, LANES, Lanes, NO_FACET, NextFacets, Packet};
+use super::lanes::{LANES, Lanes};
+use super::packet::{FacetHit, NO_FACET, NextFacets, Packet};
 use super::stone::{ConvexStone, InclinedFacet};
 use glam::Vec3;
 

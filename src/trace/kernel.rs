@@ -6,8 +6,10 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::dispatch::Vectorised;
-use super::intersect::{self, mul_add};
-use super::packet::{Interaction, LANES, Lanes, NextFacets, Packet};
+use super::exponential::exp_minus;
+use super::lanes::LANES;
+use super::met_facets::MetFacets;
+use super::packet::{Interaction, Packet};
 use super::stone::ConvexStone;
 use super::uniaxial_kernel;
 use crate::optics::snell::Snell;
@@ -39,62 +41,6 @@ impl Vectorised for Interact<'_> {
             (true, false) => interact_lanes::<FUSED, W, B, true, false>(stone, packet, out),
             (true, true) => interact_lanes::<FUSED, W, B, true, true>(stone, packet, out),
         }
-    }
-}
-
-/// The facets that the lanes of a packet meet next.
-pub(super) struct MetFacets {
-    nx: Lanes,
-    ny: Lanes,
-    nz: Lanes,
-    /// Distances of the planes from the frame's origin.
-    offset: Lanes,
-    /// Distances along the rays.
-    pub(super) distance: Lanes,
-}
-
-impl MetFacets {
-    /// Finds them; lanes that meet none lose their power.
-    #[inline(always)]
-    pub(super) fn of<const FUSED: bool, const W: usize, const B: usize>(
-        stone: &ConvexStone,
-        p: &mut Packet,
-        out: &mut Interaction,
-    ) -> MetFacets {
-        let mut next = NextFacets::default();
-        intersect::next_facets::<FUSED, W, B>(stone, p, &mut next);
-        let zero = [0.0; LANES];
-        let mut met = MetFacets { nx: zero, ny: zero, nz: zero, offset: zero, distance: next.distance };
-        out.lost = 0.0;
-        for l in 0..LANES {
-            if let Some(plane) = stone.plane_coefficients.get(next.facet[l] as usize) {
-                [met.nx[l], met.ny[l], met.nz[l], met.offset[l]] = *plane;
-                out.facet[l] = next.facet[l];
-            } else {
-                out.lost += p.power[l];
-                p.power[l] = 0.0;
-                met.distance[l] = 0.0;
-                out.facet[l] = 0;
-            }
-        }
-        met
-    }
-
-    /// The unit normal of a lane's facet.
-    #[inline(always)]
-    pub(super) fn normal(&self, l: usize) -> [f32; 3] {
-        [self.nx[l], self.ny[l], self.nz[l]]
-    }
-
-    /// Where a lane's ray meets it.
-    #[inline(always)]
-    pub(super) fn point(&self, p: &Packet, l: usize) -> [f32; 3] {
-        let ([nx, ny, nz], distance) = (self.normal(l), self.distance[l]);
-        let (x, y, z) =
-            (p.x[l] + distance * p.dx[l], p.y[l] + distance * p.dy[l], p.z[l] + distance * p.dz[l]);
-        // back onto the facet plane, so that rounding does not add up over fifty bounces
-        let off = self.offset[l] - (nx * x + ny * y + nz * z);
-        [x + off * nx, y + off * ny, z + off * nz]
     }
 }
 
@@ -161,28 +107,6 @@ fn interact_lanes<
     }
 }
 
-/// exp(−x) for x ≥ 0, to 2e-7 of its value; 1e-38 from 87 on.
-///
-/// Cody–Waite: x = −k ln 2 − r with |r| ≤ ½ ln 2, a polynomial for exp(r), k into the exponent. No
-/// branch and no table, so that it vectorises. Checked in this file's tests.
-#[inline(always)]
-pub(super) fn exp_minus<const FUSED: bool>(x: f32) -> f32 {
-    /// 1.5 × 2²³: adding it rounds to a whole number, which its last bits hold.
-    const ROUND: f32 = 12_582_912.0;
-    /// ln 2 in two parts, the first of few digits: its multiples are exact.
-    const LN_2: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];
-    const EXPONENT: u32 = 23;
-    let y = -x.min(87.0);
-    let shifted = mul_add::<FUSED>(y, std::f32::consts::LOG2_E, ROUND);
-    let k = shifted - ROUND;
-    let r = mul_add::<FUSED>(k, -LN_2[1], mul_add::<FUSED>(k, -LN_2[0], y));
-    let mut sum = 1.0 / 720.0;
-    for coefficient in [1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-        sum = mul_add::<FUSED>(sum, r, coefficient);
-    }
-    sum * f32::from_bits((shifted.to_bits() << EXPONENT).wrapping_add(1f32.to_bits()))
-}
-
 /// Linear polarisation about the plane of incidence.
 struct RotatedStokes {
     q: f32,
@@ -205,24 +129,4 @@ fn about_incidence(p: &Packet, l: usize, [nx, ny, nz]: [f32; 3]) -> RotatedStoke
     let sin = px * sx + py * sy + pz * sz;
     let (cos2, sin2) = (cos * cos - sin * sin, 2.0 * cos * sin);
     RotatedStokes { q: cos2 * p.q[l] + sin2 * p.u[l], u: cos2 * p.u[l] - sin2 * p.q[l], axis: [sx, sy, sz] }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_kernels_exponential_is_the_exponential() {
-        assert_eq!((exp_minus::<false>(0.0), exp_minus::<true>(0.0)), (1.0, 1.0));
-        for i in 0..=870_000 {
-            let x = i as f32 * 1e-4;
-            let exact = (-f64::from(x)).exp();
-            for found in [exp_minus::<false>(x), exp_minus::<true>(x)] {
-                assert!((f64::from(found) / exact - 1.0).abs() < 3e-7, "{x}: {found} for {exact}");
-            }
-        }
-        for x in [88.0, 1e4, f32::MAX, f32::INFINITY] {
-            assert!((0.0..2e-38).contains(&exp_minus::<true>(x)));
-        }
-    }
 }

@@ -1,13 +1,8 @@
 //! A packet: sixteen rays traced together, and what they leave at an interaction with a facet.
 
 use super::crystal_lanes::{CrystalLanes, LoadedWave};
+use super::lanes::{LANES, Lanes};
 use glam::Vec3;
-
-/// Lanes of a packet: one AVX-512 register of `f32`, two of AVX2.
-pub const LANES: usize = 16;
-
-/// One number per lane.
-pub type Lanes = [f32; LANES];
 
 /// Rays inside a stone, one a lane, in the stone's frame (see [`super::ConvexStone`]).
 #[derive(Debug, Clone)]

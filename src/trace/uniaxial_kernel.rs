@@ -8,8 +8,10 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::crystal_lanes::CrystalLanes;
-use super::kernel::{MetFacets, exp_minus};
-use super::packet::{Interaction, LANES, Packet};
+use super::exponential::exp_minus;
+use super::lanes::LANES;
+use super::met_facets::MetFacets;
+use super::packet::{Interaction, Packet};
 use super::stone::ConvexStone;
 
 /// Squared tangent of the angle between wave vector and axis below which the fields across the axis are any.
