@@ -5,6 +5,7 @@
 //! a score and camera rays that look into the stone are all consumers of [`ConvexStone::trace`].
 
 pub mod beams;
+mod branches;
 pub mod crystal;
 mod crystal_lanes;
 mod dispatch;

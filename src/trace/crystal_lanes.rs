@@ -23,6 +23,14 @@ pub struct CrystalLanes {
     /// Absorption coefficients of ordinary waves and of extraordinary waves across the axis, natural logarithm, per unit of the
     /// stone's frame. [`super::Packet::absorption`] is that of the lane's wave along its ray.
     pub absorption: [Lanes; 2],
+    /// Power of the wave of each lane's last facet that was not chosen. It is part of the packet's power.
+    pub other: Lanes,
+    /// Wave vectors of these waves.
+    pub other_kx: Lanes,
+    /// Wave vectors of these waves.
+    pub other_ky: Lanes,
+    /// Wave vectors of these waves.
+    pub other_kz: Lanes,
     /// The optic axis, unit, in the stone's frame.
     pub axis: Vec3,
     /// Any unit vector across it.
@@ -55,9 +63,29 @@ impl CrystalLanes {
             mode: zero,
             choice: [0.5; LANES],
             absorption: [zero; 2],
+            other: zero,
+            other_kx: zero,
+            other_ky: zero,
+            other_kz: zero,
             axis,
             across: axis.any_orthonormal_vector(),
         }
+    }
+
+    /// The ray and the absorption coefficient along it of an ordinary or an extraordinary wave of a lane.
+    ///
+    /// - `index`: of ordinary waves at the lane's wavelength
+    pub fn ray_of(&self, lane: usize, index: f32, wave_vector: Vec3, is_extraordinary: bool) -> (Vec3, f32) {
+        let [of_o, of_e] = [self.absorption[0][lane], self.absorption[1][lane]];
+        if !is_extraordinary {
+            return (wave_vector.normalize(), of_o);
+        }
+        let (o2, e2) = (index * index, self.extraordinary[lane] * self.extraordinary[lane]);
+        let along = wave_vector.dot(self.axis);
+        let ray = (wave_vector + self.axis * ((e2 - o2) * along / o2)).normalize();
+        let cos2 = along * along / wave_vector.length_squared();
+        let weights = of_o * cos2 / (o2 * index) + of_e * (1.0 - cos2) / (e2 * self.extraordinary[lane]);
+        (ray, wave_vector.length_squared() * weights * wave_vector.dot(ray))
     }
 
     /// The wave vector of a lane.

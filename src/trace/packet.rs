@@ -137,6 +137,18 @@ impl Packet {
         waves.mode[lane] = if wave.is_extraordinary { 1.0 } else { 0.0 };
         waves.choice[lane] = wave.choice;
         (waves.absorption[0][lane], waves.absorption[1][lane]) = (0.0, 0.0);
+        waves.other[lane] = 0.0;
+    }
+
+    /// Puts another wave of the same light into a lane; its power and path are to be set.
+    pub(super) fn resume(&mut self, lane: usize, point: Vec3, wave_vector: Vec3, is_extraordinary: bool) {
+        let Some(waves) = &mut self.waves else { return };
+        (waves.kx[lane], waves.ky[lane], waves.kz[lane]) = wave_vector.into();
+        waves.mode[lane] = if is_extraordinary { 1.0 } else { 0.0 };
+        let (ray, absorption) = waves.ray_of(lane, self.index[lane], wave_vector, is_extraordinary);
+        (self.x[lane], self.y[lane], self.z[lane]) = point.into();
+        (self.dx[lane], self.dy[lane], self.dz[lane]) = ray.into();
+        self.absorption[lane] = absorption;
     }
 
     /// Position of a lane: the point of its last interaction.

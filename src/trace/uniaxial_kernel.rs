@@ -124,6 +124,9 @@ fn meet(
     p.power[l] *= kept;
     [out.dx[l], out.dy[l], out.dz[l]] = plus(q, w, n);
     out.cos_outside[l] = w;
+    let other = select(goes_o, k_e, k_o);
+    [waves.other_kx[l], waves.other_ky[l], waves.other_kz[l]] = other;
+    waves.other[l] = p.power[l] * if goes_o { 1.0 - share_o } else { share_o };
     let k = select(goes_o, k_o, k_e);
     [waves.kx[l], waves.ky[l], waves.kz[l]] = k;
     waves.mode[l] = if goes_o { 0.0 } else { 1.0 };
