@@ -7,6 +7,7 @@
 pub mod beams;
 mod branches;
 pub mod crystal;
+mod crystal_entry;
 mod crystal_lanes;
 mod dispatch;
 mod exponential;

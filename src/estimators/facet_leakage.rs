@@ -3,13 +3,14 @@
 use super::entry_sampling::Silhouette;
 use super::horizon::is_up;
 use super::view::STREAM;
-use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
+use super::wavelengths::{LINES_PER_RAY, LightPoints, Wavelengths};
 use super::{BATCHES, EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::parallel;
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::stats::{self, Estimate};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Packet};
+use glam::DVec3;
 
 /// Leakage of a view, facet by facet.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +74,7 @@ impl LeakingView<'_> {
         let mut client = LeakageClient::<K> {
             view: self,
             places: KroneckerPoints::new(seed, STREAM, batch, 0..points),
-            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, 0..points),
+            lights: LightPoints::new(seed, batch, 0..points),
             powers: vec![0.0; self.stone.facet_count()],
         };
         lane_scheduler::trace_all(self.stone, STOP_POWER, &mut client);
@@ -85,7 +86,7 @@ impl LeakingView<'_> {
 struct LeakageClient<'a, const K: usize> {
     view: &'a LeakingView<'a>,
     places: KroneckerPoints<2>,
-    hues: KroneckerPoints<1>,
+    lights: LightPoints,
     powers: Vec<f64>,
 }
 
@@ -94,6 +95,10 @@ impl<const K: usize> RayClient for LeakageClient<'_, K> {
 
     fn polarised(&self) -> bool {
         self.view.polarised
+    }
+
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.view.light.optic_axis()
     }
 
     fn absorbing(&self) -> bool {
@@ -105,12 +110,14 @@ impl<const K: usize> RayClient for LeakageClient<'_, K> {
     }
 
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let (Some(place), Some([hue])) = (self.places.next(), self.hues.next()) else { return false };
+        let (Some(place), Some([hue, choice])) = (self.places.next(), self.lights.next()) else {
+            return false;
+        };
         let LeakingView { stone, light, outline, view_frame, .. } = self.view;
         let (facet, point) = outline.sample(place);
         let toward = -view_frame.axis.as_vec3();
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
-            optics.enter(packet, lane, stone, facet, point, toward);
+            optics.enter(packet, lane, stone, (facet, point), toward, choice);
         }
         true
     }

@@ -4,7 +4,7 @@ use super::batches::Estimator;
 use super::entry_sampling::{self, Silhouette};
 use super::kind::{Better, EstimatorKind, Method, Metric, MetricSource, NOTHING_SEEN, Setup};
 use super::viewer_lighting::ObserverDome;
-use super::wavelengths::{HUE_STREAM, Wavelengths};
+use super::wavelengths::{LightPoints, Wavelengths};
 use super::{EstimatorError, TraceOptics, ViewFrame};
 use crate::design::Zone;
 use crate::sampling::kronecker::KroneckerPoints;
@@ -13,6 +13,7 @@ use crate::sampling::statistic::Statistic;
 use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
+use glam::DVec3;
 use std::ops::Range;
 
 /// Points of the outline, one stream a batch.
@@ -128,7 +129,7 @@ impl<'a> FaceterView<'a> {
 struct FaceterClient<'a> {
     estimator: &'a FaceterView<'a>,
     points: KroneckerPoints<2>,
-    hues: KroneckerPoints<1>,
+    lights: LightPoints,
     tally: &'a mut Tally,
     power: [Lanes; 3],
     table: Lanes,
@@ -137,6 +138,10 @@ struct FaceterClient<'a> {
 
 impl RayClient for FaceterClient<'_> {
     const WIDTH: usize = 1;
+
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.estimator.light.optic_axis()
+    }
 
     fn absorbing(&self) -> bool {
         self.estimator.light.absorb()
@@ -147,11 +152,11 @@ impl RayClient for FaceterClient<'_> {
     }
 
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let (Some(u), Some([hue])) = (self.points.next(), self.hues.next()) else { return false };
+        let (Some(u), Some([hue, choice])) = (self.points.next(), self.lights.next()) else { return false };
         let FaceterView { stone, light, sky, view_frame, outline, facing, table } = self.estimator;
         let (facet, point) = outline.sample(u);
         let toward = -view_frame.axis.as_vec3();
-        let entry = light.line(hue).enter(packet, lane, stone, facet, point, toward);
+        let entry = light.line(hue).enter(packet, lane, stone, (facet, point), toward, choice);
         let mirrored = sky.mirrored(&entry) * facing[facet];
         let height = ObserverDome::mirror_height(&entry);
         for (power, weight) in self.power.iter_mut().zip(weights(height)) {
@@ -196,7 +201,7 @@ impl Estimator for FaceterView<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
         let mut client = FaceterClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            lights: LightPoints::new(seed, batch, points.clone()),
             points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             power: [[0.0; LANES]; 3],

@@ -4,7 +4,7 @@ use super::batches::Estimator;
 use super::entry_sampling::{self, Crown, Silhouette};
 use super::horizon::is_up;
 use super::kind::{Better, EstimatorKind, LIGHT, Method, Metric, MetricSource, Setup};
-use super::wavelengths::{HUE_STREAM, Wavelengths};
+use super::wavelengths::{LightPoints, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
@@ -13,6 +13,7 @@ use crate::sampling::tally::{Column, Tally, columns};
 use crate::sampling::warps;
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
+use glam::DVec3;
 use std::ops::Range;
 
 /// Points of the dome, one stream a batch.
@@ -102,7 +103,7 @@ impl<'a> Hemisphere<'a> {
 struct HemisphereClient<'a> {
     estimator: &'a Hemisphere<'a>,
     points: KroneckerPoints<4>,
-    hues: KroneckerPoints<1>,
+    lights: LightPoints,
     tally: &'a mut Tally,
     returned: Lanes,
     returned_cos2: Lanes,
@@ -117,6 +118,10 @@ impl RayClient for HemisphereClient<'_> {
         self.estimator.polarised
     }
 
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.estimator.light.optic_axis()
+    }
+
     fn absorbing(&self) -> bool {
         self.estimator.light.absorb()
     }
@@ -127,12 +132,13 @@ impl RayClient for HemisphereClient<'_> {
 
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
         let Hemisphere { stone, view_frame, light, entrance, .. } = self.estimator;
-        for ([a, b, c, d], [hue]) in self.points.by_ref().zip(&mut self.hues) {
+        for ([a, b, c, d], [hue, choice]) in self.points.by_ref().zip(&mut self.lights) {
             self.tally[DRAWN] += 1.0;
             let (facet, point) = entrance.sample([a, b]);
             let sky = warps::to_world(stone.normals[facet], warps::cosine_hemisphere([c as f32, d as f32]));
             if is_up(view_frame.sin_elevation(sky)) {
-                let entry = light.line(hue).enter(packet, lane, stone, facet, point.as_vec3(), -sky);
+                let entry =
+                    light.line(hue).enter(packet, lane, stone, (facet, point.as_vec3()), -sky, choice);
                 self.tally[ARRIVED] += 1.0;
                 self.tally[GLARE] += f64::from(entry.reflectance);
                 return true;
@@ -168,7 +174,7 @@ impl Estimator for Hemisphere<'_> {
         let zero = [0.0; LANES];
         let mut dome = HemisphereClient {
             estimator: self,
-            hues: KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone()),
+            lights: LightPoints::new(seed, batch, points.clone()),
             points: KroneckerPoints::new(seed, STREAM, batch, points),
             tally,
             returned: zero,

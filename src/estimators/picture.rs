@@ -3,12 +3,13 @@
 //! A pixel is the same sums of the same estimator as the score, so that the mean over the pixels is the score.
 
 use super::nonconvex::{self, NonconvexView};
-use super::view::{LUMINANCE, RAYS, View};
-use super::wavelengths::Wavelengths;
+use super::view::{LUMINANCE, RAYS, SightLine, View};
+use super::wavelengths::{MODE_STREAM, Wavelengths};
 use super::{BATCHES, EstimatorError, TraceOptics};
 use crate::color::cie;
 use crate::color::illuminants::Illuminant;
 use crate::color::luminance::Tristimulus;
+use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::tally::Tally;
 use glam::{DVec2, DVec3, Mat3, Vec3};
 
@@ -37,10 +38,16 @@ impl PictureView for View<'_> {
         bounds(corners.map(|corner| self.view_frame.project(corner)))
     }
 
-    fn tally(&self, _: u64, sights: &[PictureSight]) -> Tally {
+    fn tally(&self, pixel: u64, sights: &[PictureSight]) -> Tally {
         let mut tally = Tally::default();
-        let met = sights.iter().filter(|(place, _)| self.outline.contains(*place));
-        self.trace_sights(met.map(|(place, hue)| (self.outline.facet_above(*place), *hue)), &mut tally);
+        let choices = KroneckerPoints::<1>::new(0, MODE_STREAM, pixel, 0..sights.len() as u64);
+        let met = sights.iter().zip(choices).filter(|((place, _), _)| self.outline.contains(*place));
+        let sight = |((place, hue), [choice]): (&PictureSight, [f64; 1])| SightLine {
+            place: self.outline.facet_above(*place),
+            hue: *hue,
+            choice,
+        };
+        self.trace_sights(met.map(sight), &mut tally);
         tally
     }
 

@@ -8,12 +8,12 @@ use super::batches::Estimator;
 use super::entry_sampling::Silhouette;
 use super::kind::{Method, Setup};
 use super::viewer_lighting::ObserverDome;
-use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
+use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, MODE_STREAM, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::random::{Purpose, Stream};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// Side of a cell as a share of the girdle's width: virtual facets smaller than that are not told
 /// apart by eye (J. Sasián et al., *Optical Engineering* 46 (2007) 093604).
@@ -142,11 +142,11 @@ impl<'a> CellTracer<'a> {
     /// - `seed`, `batch`, `start` (the run's first point): what the wavelengths of a stone that absorbs are
     ///   drawn by
     pub(super) fn trace(&self, groups: &mut impl SampleGroups, seed: u64, batch: u64, start: u64) {
-        let hues = stream(seed, HUE_STREAM, batch, start);
+        let streams = [HUE_STREAM, MODE_STREAM].map(|purpose| stream(seed, purpose, batch, start));
         if self.light.absorb() {
-            CellClient::<_, LINES_PER_RAY>::new(self, groups, hues).trace();
+            CellClient::<_, LINES_PER_RAY>::new(self, groups, streams).trace();
         } else {
-            CellClient::<_, 1>::new(self, groups, hues).trace();
+            CellClient::<_, 1>::new(self, groups, streams).trace();
         }
     }
 }
@@ -155,6 +155,8 @@ impl<'a> CellTracer<'a> {
 struct CellClient<'a, G, const K: usize> {
     seen: &'a CellTracer<'a>,
     hues: Stream,
+    /// Chooses the modes of a doubly refracting stone.
+    modes: Stream,
     /// Place of the present point's wavelengths in their strata, 0..1.
     hue: f64,
     groups: &'a mut G,
@@ -170,11 +172,12 @@ struct CellClient<'a, G, const K: usize> {
 }
 
 impl<'a, G: SampleGroups, const K: usize> CellClient<'a, G, K> {
-    fn new(seen: &'a CellTracer<'a>, groups: &'a mut G, hues: Stream) -> Self {
+    fn new(seen: &'a CellTracer<'a>, groups: &'a mut G, [hues, modes]: [Stream; 2]) -> Self {
         let zero = [0.0; LANES];
         CellClient {
             seen,
             hues,
+            modes,
             hue: 0.0,
             groups,
             sights: Vec::new(),
@@ -218,6 +221,10 @@ impl<G: SampleGroups, const K: usize> RayClient for CellClient<'_, G, K> {
         self.seen.polarised
     }
 
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.seen.light.optic_axis()
+    }
+
     fn absorbing(&self) -> bool {
         self.seen.light.absorb()
     }
@@ -235,8 +242,9 @@ impl<G: SampleGroups, const K: usize> RayClient for CellClient<'_, G, K> {
         if light.absorb() && self.begun.is_multiple_of(G::POINT_GROUPS) {
             self.hue = self.hues.unit64();
         }
+        let choice = if light.optic_axis().is_some() { self.modes.unit64() } else { 0.0 };
         for (lane, optics) in (lane..).zip(light.spread::<K>(self.hue)) {
-            let entry = optics.enter(packet, lane, stone, sight.facet, sight.point, -sight.axis);
+            let entry = optics.enter(packet, lane, stone, (sight.facet, sight.point), -sight.axis, choice);
             self.luminance[lane] = sky.mirrored(&entry);
             for (axis, value) in self.axis.iter_mut().zip(sight.axis.to_array()) {
                 axis[lane] = value;

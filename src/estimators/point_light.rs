@@ -5,6 +5,7 @@ use super::entry_sampling::{self, Silhouette};
 use super::horizon::is_up;
 use super::kind::{Better, EstimatorKind, Method, Metric, MetricSource, Setup};
 use super::same_path::SamePath;
+use super::wavelengths::MODE_STREAM;
 use super::{EstimatorError, LineOptics, TraceOptics, ViewFrame};
 use crate::optics::dispersion::lines;
 use crate::sampling::kronecker::KroneckerPoints;
@@ -151,6 +152,7 @@ pub(super) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
 struct PointLightClient<'a> {
     estimator: &'a PointLight<'a>,
     points: KroneckerPoints<2>,
+    modes: KroneckerPoints<1>,
     tally: &'a mut Tally,
     optics: [LineOptics; LINES],
     /// Whether the lines are those that are compared.
@@ -167,6 +169,10 @@ impl RayClient for PointLightClient<'_> {
         self.estimator.polarised
     }
 
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.optics[0].optic_axis()
+    }
+
     fn absorbing(&self) -> bool {
         self.optics.iter().any(LineOptics::absorbs)
     }
@@ -176,12 +182,12 @@ impl RayClient for PointLightClient<'_> {
     }
 
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(u) = self.points.next() else { return false };
+        let (Some(u), Some([choice])) = (self.points.next(), self.modes.next()) else { return false };
         let PointLight { stone, outline, view_frame, .. } = self.estimator;
         let (facet, point) = outline.sample(u);
         let toward = -view_frame.axis.as_vec3();
         for (lane, optics) in (lane..).zip(self.optics) {
-            let entry = optics.enter(packet, lane, stone, facet, point, toward);
+            let entry = optics.enter(packet, lane, stone, (facet, point), toward, choice);
             self.widening[lane] = entry.cos_inside / entry.cos_outside;
         }
         if self.paired {
@@ -230,6 +236,7 @@ impl Estimator for PointLight<'_> {
             let mut shine = PointLightClient {
                 estimator: self,
                 points: KroneckerPoints::new(seed, STREAM, batch, points.clone()),
+                modes: KroneckerPoints::new(seed, MODE_STREAM, batch, points.clone()),
                 tally: &mut *tally,
                 optics,
                 paired,

@@ -58,6 +58,16 @@ impl<const K: usize> StrongestPaths<K> {
         self.been_below[lane..lane + K].fill(0.0);
     }
 
+    /// What is known of the path in a lane so far: whether it has met the pavilion.
+    pub(super) fn state(&self, lane: usize) -> f32 {
+        self.been_below[lane]
+    }
+
+    /// Another branch of the ray goes on in a lane.
+    pub(super) fn resume(&mut self, lane: usize, state: f32) {
+        self.been_below[lane] = state;
+    }
+
     /// Every ray meets a facet.
     ///
     /// - `up`: for each lane, sine of the elevation at which its light leaves; `pavilion`: 1 if its facet

@@ -1,8 +1,10 @@
 //! Optics of a stone as estimators trace it; errors of stones that cannot be lit.
 
 use crate::materials::Material;
+use crate::optics::crystal::facet::Crystal;
+use crate::trace::crystal::CrystalOptics;
 use crate::trace::{ConvexStone, Packet, Refraction};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Wavelengths that go together through one point of a stone that absorbs, where the brightness of
 /// the point counts: as many as a picture's.
@@ -31,25 +33,39 @@ pub(super) struct LineOptics {
     pub(super) index: f32,
     /// Absorption coefficient per trace unit.
     pub(super) absorption: f32,
+    /// The same of a doubly refracting stone, mode by mode; none of another.
+    pub(super) crystal: Option<CrystalOptics>,
 }
 
 impl LineOptics {
     pub(super) fn absorbs(&self) -> bool {
-        self.absorption > 0.0
+        self.absorption > 0.0 || self.crystal.is_some_and(|crystal| crystal.absorption != glam::DMat3::ZERO)
+    }
+
+    /// The optic axis of a uniaxial stone.
+    pub(super) fn optic_axis(&self) -> Option<DVec3> {
+        match self.crystal?.crystal {
+            Crystal::Uniaxial(crystal) => Some(crystal.axis),
+            Crystal::Biaxial(_) => None,
+        }
     }
 
     /// Loads a lane with what enters of unpolarised light of power 1; returns its refraction.
     ///
     /// - `facet`, `point` on it, `direction` (unit, from outside): trace frame
+    /// - `choice`: uniform in 0..1, for the modes of a stone that refracts doubly
     pub(super) fn enter(
         self,
         packet: &mut Packet,
         lane: usize,
         stone: &ConvexStone,
-        facet: usize,
-        point: Vec3,
+        (facet, point): (usize, Vec3),
         direction: Vec3,
+        choice: f64,
     ) -> Refraction {
+        if let Some(crystal) = &self.crystal {
+            return stone.enter_crystal(packet, lane, (facet, point), direction, crystal, choice);
+        }
         let entry = stone.refract_into(facet, direction, self.index);
         packet.load_refracted(lane, point, &entry, self.index);
         packet.absorption[lane] = self.absorption;
@@ -66,7 +82,12 @@ impl TraceOptics<'_> {
     /// Optics of a stone with a trace unit of `unit` at `nm`; refuses indices outside 1..=10.
     pub(super) fn optics(&self, unit: f64, nm: f64) -> Result<LineOptics, EstimatorError> {
         let index = check_index(self.material.index(nm))?;
-        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32 })
+        let uniaxial = self.material.crystal_at(nm).filter(|crystal| matches!(crystal, Crystal::Uniaxial(_)));
+        let crystal = uniaxial.map(|crystal| CrystalOptics {
+            crystal,
+            absorption: self.material.absorption_tensor_at(nm) * unit,
+        });
+        Ok(LineOptics { index, absorption: (self.material.absorption_per_mm(nm) * unit) as f32, crystal })
     }
 }
 

@@ -6,18 +6,21 @@ use super::horizon::{is_above, is_up};
 use super::strongest_path::StrongestPaths;
 use super::viewer_lighting::BAND_LIMITS;
 pub use super::viewer_lighting::{AsetBand, GIA_OBSERVER_DEG, ObserverDome, SCOPE_DEG, ViewerLighting, band};
-use super::wavelengths::{HUE_STREAM, LINES_PER_RAY, Wavelengths};
+use super::wavelengths::{LINES_PER_RAY, LightPoints, Wavelengths};
 use super::{EstimatorError, STOP_POWER, TraceOptics, ViewFrame};
 use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
 use crate::sampling::tally::{Column, Tally, columns};
 use crate::trace::lane_scheduler::{self, RayClient};
 use crate::trace::{ConvexStone, Interaction, LANES, Lanes, Packet};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::ops::Range;
 
 /// Points of the outline, one stream a batch.
 pub(super) const STREAM: Purpose = Purpose::named("view");
+
+/// Both waves of a facet are followed where each holds more than this share of the light of a ray.
+const FOLLOWED: f32 = 1e-3;
 
 /// Share of the dome's luminance below which a point counts as dark.
 pub const DARK: f32 = 0.1;
@@ -127,8 +130,16 @@ impl<'a> View<'a> {
     }
 }
 
-/// A line of sight: facet and point that it meets, and the place of its wavelengths in their strata, 0..1.
-pub(super) type SightLine = ((usize, Vec3), f64);
+/// A line of sight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SightLine {
+    /// Facet and point that it meets.
+    pub(super) place: (usize, Vec3),
+    /// The place of its wavelengths in their strata, 0..1.
+    pub(super) hue: f64,
+    /// Uniform in 0..1: chooses between the modes of a stone that refracts doubly.
+    pub(super) choice: f64,
+}
 
 /// The rays of lines of sight, `K` wavelengths each; sums of a ray are kept in its first lane.
 struct ViewClient<'a, S, const K: usize> {
@@ -151,6 +162,10 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
         self.estimator.polarised
     }
 
+    fn optic_axis(&self) -> Option<DVec3> {
+        self.estimator.light.optic_axis()
+    }
+
     fn absorbing(&self) -> bool {
         self.estimator.light.absorb()
     }
@@ -159,14 +174,27 @@ impl<S: Iterator<Item = SightLine>, const K: usize> RayClient for ViewClient<'_,
         self.absorbing()
     }
 
+    /// The strongest path is no sum of power.
+    fn branches_above(&self) -> Option<f32> {
+        Some(FOLLOWED)
+    }
+
+    fn path_state(&self, lane: usize) -> f32 {
+        self.strongest.state(lane)
+    }
+
+    fn resume(&mut self, lane: usize, state: f32) {
+        self.strongest.resume(lane, state);
+    }
+
     fn load(&mut self, packet: &mut Packet, lane: usize) -> bool {
-        let Some(((facet, point), hue)) = self.sights.next() else { return false };
+        let Some(SightLine { place: (facet, point), hue, choice }) = self.sights.next() else { return false };
         let View { stone, light, view_frame, lighting: surroundings, .. } = self.estimator;
         let toward = -view_frame.axis.as_vec3();
         self.tally[RAYS] += 1.0;
         self.strongest.begin(lane);
         for (lane, optics) in (lane..).zip(light.spread::<K>(hue)) {
-            let entry = optics.enter(packet, lane, stone, facet, point, toward);
+            let entry = optics.enter(packet, lane, stone, (facet, point), toward, choice);
             self.luminance[lane] = surroundings.dome.mirrored(&entry);
             self.tally[REFLECTED] += f64::from(entry.reflectance) / K as f64;
         }
@@ -253,9 +281,10 @@ impl View<'_> {
 
 impl Estimator for View<'_> {
     fn trace(&self, seed: u64, batch: u64, points: Range<u64>, tally: &mut Tally) {
-        let hues = KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone());
+        let lights = LightPoints::new(seed, batch, points.clone());
         let places = KroneckerPoints::new(seed, STREAM, batch, points);
-        self.trace_sights(places.zip(hues).map(|(u, [hue])| (self.outline.sample(u), hue)), tally);
+        let sight = |(u, [hue, choice])| SightLine { place: self.outline.sample(u), hue, choice };
+        self.trace_sights(places.zip(lights).map(sight), tally);
     }
 
     fn bounds_of_untraced(&self, sums: &Tally) -> Vec<Tally> {

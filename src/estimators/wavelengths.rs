@@ -4,10 +4,40 @@ pub(super) use super::trace_optics::LINES_PER_RAY;
 use super::{EstimatorError, LineOptics, TraceOptics};
 use crate::color::luminance::{self, Tristimulus};
 use crate::optics::dispersion::lines;
+use crate::sampling::kronecker::KroneckerPoints;
 use crate::sampling::random::Purpose;
+use glam::DVec3;
+use std::ops::Range;
 
 /// Wavelengths of the scores of stones that absorb, one stream a batch.
 pub(super) const HUE_STREAM: Purpose = Purpose::named("score hue");
+
+/// Modes of the light of scores in doubly refracting stones, one stream a batch.
+pub(super) const MODE_STREAM: Purpose = Purpose::named("score mode");
+
+/// For each ray of a batch two numbers, uniform in 0..1: the place of its wavelengths, and what chooses its modes.
+#[derive(Debug, Clone)]
+pub(super) struct LightPoints {
+    hues: KroneckerPoints<1>,
+    modes: KroneckerPoints<1>,
+}
+
+impl LightPoints {
+    /// Of some points of a batch.
+    pub(super) fn new(seed: u64, batch: u64, points: Range<u64>) -> LightPoints {
+        let hues = KroneckerPoints::new(seed, HUE_STREAM, batch, points.clone());
+        LightPoints { hues, modes: KroneckerPoints::new(seed, MODE_STREAM, batch, points) }
+    }
+}
+
+impl Iterator for LightPoints {
+    type Item = [f64; 2];
+
+    fn next(&mut self) -> Option<[f64; 2]> {
+        let ([hue], [mode]) = (self.hues.next()?, self.modes.next()?);
+        Some([hue, mode])
+    }
+}
 
 /// Classes of wavelengths, alike in luminance: a tenth of a nanometre wide in the green.
 const CLASSES: usize = 2048;
@@ -50,6 +80,11 @@ impl Wavelengths {
     /// Whether the stone absorbs.
     pub(super) fn absorb(&self) -> bool {
         self.optics.len() > 1
+    }
+
+    /// The optic axis of a uniaxial stone.
+    pub(super) fn optic_axis(&self) -> Option<DVec3> {
+        self.optics.first().and_then(LineOptics::optic_axis)
     }
 
     /// The optics at one of them.
