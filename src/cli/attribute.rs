@@ -31,7 +31,7 @@ struct WithFile<'a> {
 pub fn run(args: &AttributeArgs, console: &Console) -> Result<ExitStatus, CliError> {
     let mut outputs = Outputs::reading_stones([&args.stone], console);
     let format = args.output.as_deref().map(|path| place(path, &outputs, console)).transpose()?;
-    let stone = args.stone_args.open(&args.stone)?;
+    let stone = args.how.stone_args.open(&args.stone)?;
     stone.convex_design().map_err(|error| CliError::needs_convex("an attribution", error))?;
     let request = args.request(&stone);
     args.notes(&stone).iter().for_each(|note| console.note(note));

@@ -16,7 +16,7 @@ use text::OptimisedText;
 
 /// Optimises the stone, prints what was found and writes it.
 pub fn run(args: &OptimiseArgs, console: &Console) -> Result<ExitStatus, CliError> {
-    let stone = args.stone_args.open_convex(&args.stone)?;
+    let stone = args.how.stone_args.open_convex(&args.stone)?;
     let request = args.request(&stone);
     let optimisation = request.prepared(&stone)?;
     let files = OptimisedFiles::new(args, &request, &stone, console)?;

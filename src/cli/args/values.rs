@@ -27,6 +27,11 @@ pub fn number(unit: NumberUnit) -> impl Fn(&str) -> Result<f64, String> + Clone 
     move |text| parse::parse_number(text, unit).map_err(|e| e.to_string())
 }
 
+/// Value parser of `--tilt`, of commands that score at single tilts.
+pub fn tilt(text: &str) -> Result<f64, String> {
+    parse::parse_number_within(text, NumberUnit::Degrees, -89.0..=89.0, "a tilt is a number of degrees")
+}
+
 /// Value parser of `--observer`.
 pub fn half_angle(text: &str) -> Result<f64, String> {
     parse::parse_number_within(text, NumberUnit::Degrees, 0.0..=90.0, "a half-angle is a number of degrees")

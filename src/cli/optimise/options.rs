@@ -1,15 +1,13 @@
 //! Options of `cutlab optimise`.
 
-use crate::cli::args::stone::{self, StoneArgs};
+use crate::cli::args::objectives::ObjectiveArgs;
 use crate::cli::args::values;
-use crate::design::LengthUnit;
 use crate::design::edit::Keep;
 use crate::optimise::{Guards, MOST_TOLERANCE_DEG, OptimiseRequest, Variable};
 use crate::parse::{self, NumberUnit};
 use crate::report::LEAST_WIDTH;
 use crate::scene::scene_file::MOST_PIXELS;
 use crate::scoring::constraint::Constraint;
-use crate::scoring::effort::Effort;
 use crate::scoring::objective::{Objective, TiltedMetric};
 use crate::search::{METHODS, Method};
 use crate::stone::Stone;
@@ -45,7 +43,7 @@ pub struct OptimiseArgs {
     #[arg(long, value_name = "NAME", value_parser = tilted)]
     minimise: Vec<TiltedMetric>,
     /// Tilts in degrees about the x axis at which scores are taken [0]
-    #[arg(long, value_name = "DEGREES,…", value_delimiter = ',', value_parser = tilt)]
+    #[arg(long, value_name = "DEGREES,…", value_delimiter = ',', value_parser = values::tilt)]
     tilt: Vec<f64>,
     /// Of several tilts, and of the stones within --tolerance, the worst counts, not the mean
     #[arg(long)]
@@ -82,20 +80,8 @@ pub struct OptimiseArgs {
     /// How candidates are chosen: random, nelder-mead, cma-es, nsga-ii, sms-emoa, surrogate
     #[arg(long, value_name = "NAME", value_parser = method)]
     method: Option<Method>,
-    /// Half-angle in degrees of the observer's dark cone, for the metrics that have an observer [each its own]
-    #[arg(long, value_name = "HALF-ANGLE", value_parser = values::half_angle)]
-    observer: Option<f64>,
-    /// Whether light keeps its polarisation from facet to facet
-    #[arg(long, value_name = "on|off", default_value = "on", value_parser = stone::on_off, action = clap::ArgAction::Set)]
-    polarisation: bool,
-    /// Seed of the search and of the scores
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::seed)]
-    seed: u64,
     #[command(flatten)]
-    pub stone_args: StoneArgs,
-    /// Girdle width in millimetres; the scores depend on it if the material absorbs
-    #[arg(long, value_name = "MM", value_parser = stone::millimetres)]
-    pub size: Option<f64>,
+    pub how: ObjectiveArgs,
     /// Where to write: a design file, whose extension chooses the format (best.asc; further designs are
     /// best-2.asc, best-3.asc …); or a folder, for these, the table of the front, and a page (index.html)
     #[arg(long, short, value_name = "FILE|DIR")]
@@ -116,25 +102,22 @@ impl OptimiseArgs {
             if of.is_face_up() && !self.tilt.is_empty() {
                 of.tilts.degrees.clone_from(&self.tilt);
             }
-            of.observer = of.observer.or(self.observer);
+            of.observer = of.observer.or(self.how.observer);
             of
         };
         let objective = |objective: Objective| if self.worst { objective.worst() } else { objective };
         let more = self.maximise.iter().map(|of| objective(Objective::maximise(tilted(of))));
         let less = self.minimise.iter().map(|of| objective(Objective::minimise(tilted(of))));
-        let mut effort = Effort::default().seed(self.seed).polarised(self.polarisation);
-        let own = (stone.unit() == LengthUnit::Millimetre).then(|| stone.width());
-        effort.size_mm = self.size.or(own).unwrap_or(effort.size_mm);
         let mut request = OptimiseRequest::new(more.chain(less)).vary(self.vary.iter().cloned());
         request.constraints = self.at_least.iter().chain(&self.at_most).cloned().collect();
         request.guards = Guards::new(self.least_facet, self.least_girdle);
         request.keep = self.keep;
-        request.effort = effort;
+        request.effort = self.how.effort(stone);
         request.tolerance_deg = self.tolerance;
         request.method = self.method;
         request.evaluations = self.evaluations as usize;
         request.starts = self.starts as usize;
-        request.seed = self.seed;
+        request.seed = self.how.seed;
         request.keep_best = self.keep_best.map(|n| n as usize);
         request
     }
@@ -154,10 +137,6 @@ fn at_least(text: &str) -> Result<Constraint, String> {
 
 fn at_most(text: &str) -> Result<Constraint, String> {
     Constraint::at_most(text).map_err(|error| error.to_string())
-}
-
-fn tilt(text: &str) -> Result<f64, String> {
-    parse::parse_number_within(text, NumberUnit::Degrees, -89.0..=89.0, "a tilt is a number of degrees")
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
